@@ -1,0 +1,107 @@
+# Language level, warnings, libraries and the two functions every folder uses.
+# One INTERFACE target carries what all code shares; one precompiled header serves core, one the Qt side.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+option(BUILD_TESTING "Build the tests" ON)
+set(ZERODRIFT_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
+
+# A cache makes branch changes and clean builds cheap; precompiled headers need these sloppiness flags with it.
+find_program(ZERODRIFT_CCACHE ccache)
+if(ZERODRIFT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      ${ZERODRIFT_CCACHE})
+endif()
+
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(ZLIB REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs videoio calib3d video)
+pkg_check_modules(MODBUS REQUIRED IMPORTED_TARGET libmodbus)
+find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets PrintSupport Svg SvgWidgets LinguistTools Test)
+find_package(QCustomPlotQt6 REQUIRED) # its config needs Qt6::PrintSupport to exist already
+
+add_library(zerodrift_options INTERFACE)
+target_include_directories(zerodrift_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(zerodrift_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -Werror)
+target_compile_definitions(zerodrift_options INTERFACE ZERODRIFT_VERSION="${PROJECT_VERSION}")
+target_link_libraries(zerodrift_options INTERFACE
+  Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog tl::expected Threads::Threads)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 reports these falsely inside its own string and vector headers (GCC bug 105651 and its kin).
+  target_compile_options(zerodrift_options INTERFACE -fpch-preprocess -Wno-restrict -Wno-stringop-overflow
+    -Wno-stringop-overread -Wno-array-bounds)
+endif()
+if(ZERODRIFT_SANITIZE)
+  target_compile_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE})
+endif()
+
+# zerodrift_core_library(name SOURCES a.cpp b.h ... DEPENDS target ... PRIVATE_DEPENDS target ...)
+# A folder of core: no Qt, the shared core precompiled header.
+function(zerodrift_core_library name)
+  cmake_parse_arguments(A "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(${name} STATIC ${A_SOURCES})
+  target_link_libraries(${name} PUBLIC zerodrift_options ${A_DEPENDS} PRIVATE ${A_PRIVATE_DEPENDS})
+  target_precompile_headers(${name} PRIVATE
+    <algorithm> <array> <chrono> <cmath> <cstdint> <functional> <map> <memory> <optional> <span> <string>
+    <string_view> <utility> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp> <tl/expected.hpp>)
+endfunction()
+
+# zerodrift_qt_library(name SOURCES ... DEPENDS ...): a folder of ui or app, with moc and the Qt precompiled header.
+function(zerodrift_qt_library name)
+  cmake_parse_arguments(A "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(${name} STATIC ${A_SOURCES})
+  set_target_properties(${name} PROPERTIES AUTOMOC ON)
+  target_link_libraries(${name} PUBLIC zerodrift_options Qt6::Widgets ${A_DEPENDS} PRIVATE ${A_PRIVATE_DEPENDS})
+  target_compile_definitions(${name} PRIVATE QT_NO_KEYWORDS QT_NO_CAST_TO_ASCII)
+  target_precompile_headers(${name} PRIVATE <QtCore> <QtGui> <QtWidgets>)
+endfunction()
+
+# zerodrift_test(room SOURCES a_test.cpp ... DEPENDS ...): GoogleTest; ctest names are room/Suite.Test.
+function(zerodrift_test room)
+  cmake_parse_arguments(A "" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  string(REPLACE "/" "_" name ${room})
+  add_executable(${name}_tests ${A_SOURCES})
+  target_link_libraries(${name}_tests PRIVATE zerodrift_options ${A_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_precompile_headers(${name}_tests PRIVATE <gtest/gtest.h> <gmock/gmock.h> <string> <vector> <Eigen/Dense> <nlohmann/json.hpp>
+    <fmt/format.h> <tl/expected.hpp>)
+  target_compile_definitions(${name}_tests PRIVATE ZERODRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    ZERODRIFT_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  if(NOT A_TIMEOUT)
+    set(A_TIMEOUT 120)
+  endif()
+  gtest_discover_tests(${name}_tests TEST_PREFIX ${room}/ DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${A_TIMEOUT})
+endfunction()
+
+# zerodrift_qt_test(room/name SOURCES one_test.cpp DEPENDS ...): Qt Test on the offscreen platform.
+function(zerodrift_qt_test room)
+  cmake_parse_arguments(A "" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  string(REPLACE "/" "_" name ${room})
+  add_executable(${name}_test ${A_SOURCES})
+  set_target_properties(${name}_test PROPERTIES AUTOMOC ON)
+  target_link_libraries(${name}_test PRIVATE zerodrift_options Qt6::Test Qt6::Widgets ${A_DEPENDS})
+  target_compile_definitions(${name}_test PRIVATE ZERODRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    ZERODRIFT_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  if(NOT A_TIMEOUT)
+    set(A_TIMEOUT 60)
+  endif()
+  add_test(NAME ${room} COMMAND ${name}_test)
+  set_tests_properties(${room} PROPERTIES TIMEOUT ${A_TIMEOUT} ENVIRONMENT "QT_QPA_PLATFORM=offscreen")
+endfunction()

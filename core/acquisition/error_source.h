@@ -1,0 +1,32 @@
+#pragma once
+// Where the errors of a run come from: camera and target (V1 to V4), displacement probes (V5).
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/task_context.h"
+
+namespace zerodrift::acquisition {
+
+/// Errors at the measuring position: error = actual - commanded, relative to the start of the run.
+/// NaN in a direction that this source does not see or that was refused.
+struct ErrorSample {
+  std::array<double, 3> error_um;       // X Y Z
+  std::array<double, 3> sigma_um;       // standard uncertainty of each
+  std::vector<std::string> problems;    // why a direction is missing, one short reason each
+};
+
+class ErrorSource {
+ public:
+  virtual ~ErrorSource() = default;
+  /// Takes the zero: what is measured from now on is relative to this moment.
+  virtual Status take_zero(const TaskContext& context) = 0;
+  /// One measurement with the machine standing at the measuring position. A refused frame is not a failure:
+  /// its directions are NaN and problems says why. A failure is a dead source.
+  virtual Result<ErrorSample> measure(const TaskContext& context) = 0;
+  virtual std::string name() const = 0;
+};
+
+}  // namespace zerodrift::acquisition

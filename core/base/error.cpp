@@ -1,0 +1,50 @@
+#include "core/base/error.h"
+
+#include <array>
+#include <utility>
+
+namespace zerodrift {
+namespace {
+
+struct Row {
+  std::string_view name;
+  std::string_view keys;
+};
+
+constexpr std::array rows = {
+#define ZERODRIFT_ERROR(code, keys) Row{#code, keys},
+#include "core/base/error_codes.inc"
+#undef ZERODRIFT_ERROR
+};
+
+}  // namespace
+
+Error Error::with(std::string key, std::string value) && {
+  context.try_emplace(std::move(key), std::move(value));
+  return std::move(*this);
+}
+
+std::string_view name_of(ErrorCode code) {
+  return rows.at(static_cast<std::size_t>(code)).name;
+}
+
+std::string_view context_keys_of(ErrorCode code) {
+  return rows.at(static_cast<std::size_t>(code)).keys;
+}
+
+int error_code_count() {
+  return static_cast<int>(rows.size());
+}
+
+std::string describe(const Error& error) {
+  std::string text(name_of(error.code));
+  for (const auto& [key, value] : error.context) {
+    text += ' ';
+    text += key;
+    text += '=';
+    text += value;
+  }
+  return text;
+}
+
+}  // namespace zerodrift

@@ -1,0 +1,19 @@
+#pragma once
+// Whole files in and out. Reading has a size limit; writing is atomic: a temporary file beside the target, flushed to
+// the disk, then renamed, so that a reader sees the old file or the new one and nothing in between.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace zerodrift {
+
+inline constexpr std::size_t default_file_limit_bytes = std::size_t{2} << 30;
+
+Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit_bytes = default_file_limit_bytes);
+Status write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace zerodrift

@@ -1,0 +1,206 @@
+#include "core/recording/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/base/file.h"
+
+namespace zerodrift::recording {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \r\v\f";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The separator is the one that the header holds most of, outside quotes.
+char separator_of(std::string_view header) {
+  char best = ',';
+  std::ptrdiff_t most = 0;
+  for (const char candidate : {',', ';', '\t'}) {
+    const auto count = std::count(header.begin(), header.end(), candidate);
+    if (count > most) {
+      most = count;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// Cells of one line; quotes as in RFC 4180, but a quoted cell may not span lines (no recording needs it).
+std::vector<std::string> cells_of(std::string_view line, char separator) {
+  std::vector<std::string> cells;
+  std::string cell;
+  bool quoted = false;
+  bool was_quoted = false;
+  const auto push = [&] {
+    cells.emplace_back(was_quoted ? cell : std::string(trimmed(cell)));
+    cell.clear();
+    was_quoted = false;
+  };
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      cell += '"';
+      ++i;
+    } else if (c == '"' && (quoted || trimmed(cell).empty())) {
+      quoted = !quoted;
+      was_quoted = true;
+      if (quoted) cell.clear();
+    } else if (c == separator && !quoted) {
+      push();
+    } else if (!(was_quoted && !quoted && (c == '\r' || c == ' '))) {
+      cell += c;
+    }
+  }
+  push();
+  return cells;
+}
+
+bool parse_number(std::string_view text, double& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+bool means_missing(std::string_view cell) {
+  return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN";
+}
+
+}  // namespace
+
+int TextTable::column(std::string_view name) const {
+  const auto at = std::find(header.begin(), header.end(), name);
+  return at == header.end() ? -1 : static_cast<int>(at - header.begin());
+}
+
+Result<TextTable> parse_table(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.find('\0') != std::string_view::npos) {
+    return fail(ErrorCode::wrong_format, {{"file", file}, {"found", "binary data"}, {"expected", "a CSV text table"}});
+  }
+  TextTable table;
+  table.file = file;
+  char separator = ',';
+  int line_number = 0;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++line_number;
+    if (trimmed(line).empty()) continue;
+    if (table.header.empty()) {
+      separator = separator_of(line);
+      table.header = cells_of(line, separator);
+      continue;
+    }
+    auto cells = cells_of(line, separator);
+    if (cells.size() != table.header.size()) {
+      return fail(ErrorCode::csv_cell_count, {{"file", file},
+                                              {"line", std::to_string(line_number)},
+                                              {"found", std::to_string(cells.size())},
+                                              {"expected", std::to_string(table.header.size())}});
+    }
+    table.rows.push_back(std::move(cells));
+    table.lines.push_back(line_number);
+  }
+  if (table.header.empty() || table.rows.empty()) return fail(ErrorCode::csv_empty, {{"file", file}});
+  return table;
+}
+
+Result<TextTable> read_table(const std::filesystem::path& path) {
+  ZD_TRY(const std::string text, read_file(path));
+  return parse_table(text, path.string());
+}
+
+Result<double> number_in(const TextTable& table, std::size_t row, int column) {
+  const std::string& cell = table.rows[row][static_cast<std::size_t>(column)];
+  if (means_missing(cell)) return std::numeric_limits<double>::quiet_NaN();
+  double value = 0.0;
+  if (parse_number(cell, value)) return value;
+  return fail(ErrorCode::csv_bad_number, {{"file", table.file},
+                                          {"line", std::to_string(table.lines[row])},
+                                          {"column", table.header[static_cast<std::size_t>(column)]},
+                                          {"found", cell}});
+}
+
+Result<Recording> parse_recording(std::string_view text, const std::string& file, const CsvOptions& options) {
+  ZD_TRY(TextTable table, parse_table(text, file));
+  for (auto& name : table.header) {
+    if (const auto at = options.header_map.find(name); at != options.header_map.end()) name = at->second;
+  }
+  if (table.header.front() != "time_s") {
+    return fail(ErrorCode::csv_bad_header,
+                {{"file", file}, {"column", "1"}, {"found", table.header.front()}, {"expected", "time_s"}});
+  }
+  std::set<std::string> seen;
+  for (std::size_t c = 0; c < table.header.size(); ++c) {
+    const auto& name = table.header[c];
+    if (name.empty() || !seen.insert(name).second) {
+      return fail(ErrorCode::csv_bad_header, {{"file", file},
+                                              {"column", std::to_string(c + 1)},
+                                              {"found", name.empty() ? "(no name)" : name + " (a second time)"},
+                                              {"expected", "a name of its own for each column"}});
+    }
+  }
+  Recording out;
+  out.name = file;
+  for (std::size_t c = 1; c < table.header.size(); ++c) out.channels.push_back({table.header[c], {}});
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    ZD_TRY(const double time_s, number_in(table, r, 0));
+    if (std::isnan(time_s) || (!out.time_s.empty() && time_s <= out.time_s.back())) {
+      return fail(ErrorCode::csv_time_order,
+                  {{"file", file}, {"line", std::to_string(table.lines[r])}, {"found", table.rows[r][0]}});
+    }
+    out.time_s.push_back(time_s);
+    for (std::size_t c = 1; c < table.header.size(); ++c) {
+      ZD_TRY(const double value, number_in(table, r, static_cast<int>(c)));
+      out.channels[c - 1].values.push_back(value);
+    }
+  }
+  return out;
+}
+
+Result<Recording> read_recording(const std::filesystem::path& path, const CsvOptions& options) {
+  ZD_TRY(const std::string text, read_file(path));
+  return parse_recording(text, path.string(), options);
+}
+
+std::string number_text(double value) {
+  return std::isnan(value) ? std::string() : fmt::format("{}", value);
+}
+
+std::string cell_text(std::string_view text) {
+  if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string to_csv(const Recording& recording) {
+  std::string out = "time_s";
+  for (const auto& c : recording.channels) out += "," + cell_text(c.name);
+  out += '\n';
+  for (std::size_t r = 0; r < recording.rows(); ++r) {
+    out += number_text(recording.time_s[r]);
+    for (const auto& c : recording.channels) out += "," + number_text(c.values[r]);
+    out += '\n';
+  }
+  return out;
+}
+
+Status write_recording(const std::filesystem::path& path, const Recording& recording) {
+  return write_file(path, to_csv(recording));
+}
+
+}  // namespace zerodrift::recording

@@ -1,0 +1,45 @@
+#pragma once
+// Recordings and plain tables as CSV by the contract: UTF-8 (BOM accepted), decimal point, comma, semicolon or tab found
+// from the header, empty cell = missing. Numbers are written with the fewest digits that read back the same.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/recording/recording.h"
+
+namespace zerodrift::recording {
+
+/// A table of text cells with its header; rows have as many cells as the header.
+struct TextTable {
+  std::string file;                            // for messages
+  std::vector<std::string> header;             // trimmed
+  std::vector<std::vector<std::string>> rows;  // trimmed
+  std::vector<int> lines;                      // line number of each row in the file (1-based)
+
+  int column(std::string_view name) const;  // -1 if absent
+};
+
+struct CsvOptions {
+  std::map<std::string, std::string> header_map;  // column in the file -> channel name
+};
+
+Result<TextTable> parse_table(std::string_view text, const std::string& file);
+Result<TextTable> read_table(const std::filesystem::path& path);
+/// The number in a cell of a parsed table; an empty cell is NaN; anything else csv_bad_number.
+Result<double> number_in(const TextTable& table, std::size_t row, int column);
+
+Result<Recording> parse_recording(std::string_view text, const std::string& file, const CsvOptions& options = {});
+Result<Recording> read_recording(const std::filesystem::path& path, const CsvOptions& options = {});
+std::string to_csv(const Recording& recording);
+Status write_recording(const std::filesystem::path& path, const Recording& recording);
+
+/// The shortest text that reads back as the same double; "" for NaN.
+std::string number_text(double value);
+/// A cell for CSV: quoted when it holds a separator, quote or newline.
+std::string cell_text(std::string_view text);
+
+}  // namespace zerodrift::recording

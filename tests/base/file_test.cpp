@@ -1,0 +1,36 @@
+#include "core/base/file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/base/clock.h"
+
+namespace zerodrift {
+
+TEST(File, WritesWholeAndReadsBack) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "zd_file_test";
+  std::filesystem::create_directories(folder);
+  ASSERT_TRUE(write_file(folder / "a.txt", "hello").has_value());
+  EXPECT_EQ(read_file(folder / "a.txt").value(), "hello");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);  // no temporary left
+  std::filesystem::remove_all(folder);
+}
+
+TEST(File, FailuresAreNamed) {
+  EXPECT_EQ(read_file("/nonexistent/a").error().code, ErrorCode::file_not_found);
+  EXPECT_EQ(read_file("/").error().code, ErrorCode::file_unreadable);
+  EXPECT_EQ(write_file("/nonexistent/a", "x").error().code, ErrorCode::file_not_writable);
+  if (std::filesystem::exists("/dev/full")) EXPECT_EQ(write_file("/dev/full", "x").error().code, ErrorCode::disk_full);
+}
+
+TEST(Clock, ManualClockNeverSleeps) {
+  ManualClock clock;
+  std::stop_source stop;
+  EXPECT_TRUE(clock.wait_for(Seconds(3600), stop.get_token()));
+  EXPECT_EQ(clock.steady().count(), 3600.0);
+  stop.request_stop();
+  EXPECT_FALSE(clock.wait_for(Seconds(1), stop.get_token()));
+}
+
+}  // namespace zerodrift

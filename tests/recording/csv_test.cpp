@@ -1,0 +1,51 @@
+#include "core/recording/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace zerodrift::recording {
+
+TEST(Csv, ReadsGapsBomAndSeparators) {
+  for (const char* text : {"\xEF\xBB\xBFtime_s,T1_C,dZ_um\n0,20.5,\n10,,1.5\n", "time_s;T1_C;dZ_um\r\n0;20.5;\r\n10;;1.5\r\n",
+                           "time_s\tT1_C\tdZ_um\n0\t20.5\t\n10\t\t1.5"}) {
+    const auto recording = parse_recording(text, "a.csv");
+    ASSERT_TRUE(recording.has_value()) << describe(recording.error());
+    ASSERT_EQ(recording->rows(), 2U);
+    EXPECT_EQ(recording->find("T1_C")->values[0], 20.5);
+    EXPECT_TRUE(std::isnan(recording->find("T1_C")->values[1]));
+    EXPECT_EQ(recording->find("dZ_um")->kind(), ChannelKind::error);
+  }
+}
+
+TEST(Csv, HeaderMapRenames) {
+  CsvOptions options;
+  options.header_map = {{"Time", "time_s"}, {"Temp 1", "T1_C"}};
+  const auto recording = parse_recording("Time,Temp 1\n0,20\n", "a.csv", options);
+  ASSERT_TRUE(recording.has_value());
+  EXPECT_NE(recording->find("T1_C"), nullptr);
+}
+
+TEST(Csv, FaultsNameLineAndColumn) {
+  const auto number = parse_recording("time_s,T1_C\n0,20\n10,abc\n", "a.csv");
+  ASSERT_FALSE(number.has_value());
+  EXPECT_EQ(number.error().code, ErrorCode::csv_bad_number);
+  EXPECT_EQ(number.error().context.at("line"), "3");
+  EXPECT_EQ(number.error().context.at("column"), "T1_C");
+  EXPECT_EQ(parse_recording("time_s,T1_C\n0,20\n0,21\n", "a").error().code, ErrorCode::csv_time_order);
+  EXPECT_EQ(parse_recording("time_s,T1_C\n0,20,3\n", "a").error().code, ErrorCode::csv_cell_count);
+  EXPECT_EQ(parse_recording("t,T1_C\n0,20\n", "a").error().code, ErrorCode::csv_bad_header);
+  EXPECT_EQ(parse_recording("time_s,T1_C,T1_C\n0,20,1\n", "a").error().code, ErrorCode::csv_bad_header);
+  EXPECT_EQ(parse_recording("", "a").error().code, ErrorCode::csv_empty);
+  EXPECT_EQ(parse_recording("time_s,T1_C\n0,1e999\n", "a").error().code, ErrorCode::csv_bad_number);
+  EXPECT_EQ(parse_recording("time_s,T1_C\n0,20,5\n", "a").error().code, ErrorCode::csv_cell_count);
+}
+
+TEST(Csv, WritesWhatItReads) {
+  const std::string text = "time_s,spindle_rpm,T1_C\n0,3000,20.0625\n0.1,,0.1\n";
+  const auto recording = parse_recording(text, "a.csv");
+  ASSERT_TRUE(recording.has_value());
+  EXPECT_EQ(to_csv(*recording), text);
+}
+
+}  // namespace zerodrift::recording
