@@ -21,7 +21,7 @@ TEST(File, FailuresAreNamed) {
   EXPECT_EQ(read_file("/nonexistent/a").error().code, ErrorCode::file_not_found);
   EXPECT_EQ(read_file("/").error().code, ErrorCode::file_unreadable);
   EXPECT_EQ(write_file("/nonexistent/a", "x").error().code, ErrorCode::file_not_writable);
-  if (std::filesystem::exists("/dev/full")) EXPECT_EQ(write_file("/dev/full", "x").error().code, ErrorCode::disk_full);
+  EXPECT_EQ(write_file("/dev/full", "x").error().code, ErrorCode::disk_full);
 }
 
 TEST(Clock, ManualClockNeverSleeps) {

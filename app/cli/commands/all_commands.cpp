@@ -1,0 +1,10 @@
+#include "app/cli/command.h"
+
+namespace zerodrift::cli {
+
+// void add_<command>(Cli& cli);
+
+void add_all_commands(Cli&) {
+}
+
+}  // namespace zerodrift::cli

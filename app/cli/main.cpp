@@ -1,0 +1,90 @@
+// zerodrift-cli: every step of the job without a display.
+// Exit 0 done, 1 refused or failed on the data (one sentence on stderr), 2 wrong usage.
+
+#include <unistd.h>
+
+#include <QCoreApplication>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <stop_token>
+#include <thread>
+
+#include "app/cli/command.h"
+#include "app/text/error_text.h"
+
+namespace {
+
+using zerodrift::Error;
+using zerodrift::ErrorCode;
+
+std::atomic<bool> interrupted{false};
+
+void on_signal(int) {
+  interrupted = true;
+}
+
+/// Turns Ctrl+C into a stop request, so that a write to a machine is finished or restored and files are whole.
+std::jthread watch_signals(std::stop_source& stop) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGPIPE, SIG_IGN);
+  return std::jthread([&stop](const std::stop_token& done) {
+    while (!done.stop_requested()) {
+      if (interrupted) stop.request_stop();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+}
+
+void show_progress(const zerodrift::Progress& progress) {
+  std::string line = fmt::format("\r{:3.0f} % {}", 100.0 * progress.fraction, progress.phase);
+  if (progress.seconds_left) line += fmt::format(", {:.0f} s left", *progress.seconds_left);
+  std::fprintf(stderr, "%-70s", line.c_str());
+  std::fflush(stderr);
+}
+
+int print_error(const Error& error) {
+  std::fprintf(stderr, "zerodrift-cli: %s\n", zerodrift::lineOf(error).toUtf8().constData());
+  return 1;
+}
+
+int run_command(zerodrift::cli::Cli& cli) {
+  std::stop_source stop;
+  const auto watcher = watch_signals(stop);
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  zerodrift::TaskContext context;
+  context.stop = stop.get_token();
+  if (terminal) context.report = show_progress;
+  const auto output = cli.chosen(context);
+  if (terminal) std::fprintf(stderr, "\r%70s\r", "");
+  if (!output) return print_error(output.error());
+  for (const auto& warning : output->warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  const std::string text =
+      cli.json_output ? output->json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) : output->text;
+  if (!text.empty()) std::printf("%s\n", text.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QCoreApplication application(argc, argv);
+  CLI::App app("Zerodrift takes the thermal drift out of a CNC machine", "zerodrift-cli");
+  app.set_version_flag("--version", ZERODRIFT_VERSION);
+  app.require_subcommand(1);
+  zerodrift::cli::Cli cli(app);
+  zerodrift::cli::add_all_commands(cli);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return run_command(cli);
+  } catch (const std::exception& error) {
+    return print_error(Error{ErrorCode::internal, {{"detail", error.what()}}});
+  }
+}
