@@ -1,6 +1,7 @@
 // zerodrift-cli: every step of the job without a display.
 // Exit 0 done, 1 refused or failed on the data (one sentence on stderr), 2 wrong usage.
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <QCoreApplication>

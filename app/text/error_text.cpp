@@ -12,8 +12,10 @@ struct Row {
   const char* remedy;
 };
 
-#define SAY(code, sentence, remedy) \
-  Row { ErrorCode::code, QT_TRANSLATE_NOOP("errors", sentence), QT_TRANSLATE_NOOP("errors", remedy) }
+#define SAY(code, sentence, remedy)                                                             \
+  Row {                                                                                         \
+    ErrorCode::code, QT_TRANSLATE_NOOP("errors", sentence), QT_TRANSLATE_NOOP("errors", remedy) \
+  }
 
 constexpr std::array rows = {
     SAY(cancelled, "The work was cancelled.", "Nothing was changed; start it again when you are ready."),
@@ -76,7 +78,8 @@ constexpr std::array rows = {
         "Check the connection and the unit number; the link is opened anew by itself."),
     SAY(machine_link_lost, "The connection to the controller was lost ({what}, {detail}).",
         "Check the cable; the link is opened anew by itself."),
-    SAY(machine_bad_reply, "The controller's answer does not belong to the question ({what}: {detail}); it was not used.",
+    SAY(machine_bad_reply,
+        "The controller's answer does not belong to the question ({what}: {detail}); it was not used.",
         "Check for a second master or a faulty gateway."),
     SAY(machine_busy, "The controller is busy ({what}).", "Wait a little and try again."),
     SAY(machine_exception, "The controller refused {what} (Modbus exception {exception}).",
@@ -99,11 +102,13 @@ constexpr std::array rows = {
     SAY(not_confirmed, "{operation} was not confirmed; nothing was written.", "Confirm it, or use --yes."),
     SAY(upload_read_back, "Register {register} reads back {read} instead of {written}.",
         "Nothing was activated; check the link and the register map."),
-    SAY(upload_rejected, "The controller rejected the table: {reason}.", "Nothing was activated; the old table is active."),
+    SAY(upload_rejected, "The controller rejected the table: {reason}.",
+        "Nothing was activated; the old table is active."),
     SAY(upload_restored, "The upload failed ({reason}); the old table was restored and read back.",
         "Find the cause, then upload again."),
     SAY(upload_restore_failed,
-        "The upload failed ({reason}) AND the old table could not be restored ({detail}). The machine's table is not known.",
+        "The upload failed ({reason}) AND the old table could not be restored ({detail}). The machine's table is not "
+        "known.",
         "Do not machine parts. Switch the compensation off at the controller, then use rollback."),
     SAY(sign_check_failed, "The sign check failed on axis {axis}: commanded {commanded_um} um, seen {seen_um} um.",
         "Nothing was written; check the axis direction and the calibration."),

@@ -13,9 +13,9 @@ namespace zerodrift::acquisition {
 /// Errors at the measuring position: error = actual - commanded, relative to the start of the run.
 /// NaN in a direction that this source does not see or that was refused.
 struct ErrorSample {
-  std::array<double, 3> error_um;       // X Y Z
-  std::array<double, 3> sigma_um;       // standard uncertainty of each
-  std::vector<std::string> problems;    // why a direction is missing, one short reason each
+  std::array<double, 3> error_um;     // X Y Z
+  std::array<double, 3> sigma_um;     // standard uncertainty of each
+  std::vector<std::string> problems;  // why a direction is missing, one short reason each
 };
 
 class ErrorSource {

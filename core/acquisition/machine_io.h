@@ -14,9 +14,9 @@
 namespace zerodrift::acquisition {
 
 struct SensorInfo {
-  std::string channel;   // "T1_C"
-  std::string label;     // "Spindle front bearing"
-  std::string place;     // component id, for the drawing
+  std::string channel;  // "T1_C"
+  std::string label;    // "Spindle front bearing"
+  std::string place;    // component id, for the drawing
   double accuracy_C = 0.1;
 };
 
@@ -34,7 +34,7 @@ struct MachineIdentity {
 
 /// One coherent reading. NaN where a value is missing or its sensor is dead.
 struct MachineSample {
-  double machine_time_s = 0.0;  // the controller's own clock
+  double machine_time_s = 0.0;         // the controller's own clock
   std::map<std::string, double> axes;  // "X" -> mm, "A" -> degrees
   double spindle_rpm = 0.0;
   double spindle_load_W = 0.0;
@@ -45,8 +45,8 @@ struct MachineSample {
   bool referenced = true;
   bool alarm = false;
   double ambient_C = 0.0;
-  std::vector<double> temperature_C;  // in the order of MachineIdentity::sensors
-  std::array<double, 3> applied_um{};  // compensation the controller applies now, X Y Z
+  std::vector<double> temperature_C;               // in the order of MachineIdentity::sensors
+  std::array<double, 3> applied_um{};              // compensation the controller applies now, X Y Z
   std::optional<std::array<double, 5>> probes_um;  // displacement probes X1 X2 Y1 Y2 Z, if there are any
 };
 

@@ -61,7 +61,8 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t lim
                                               {"limit", std::to_string(limit_bytes)}});
     }
   }
-  if (stream.bad()) return fail(ErrorCode::file_unreadable, {{"file", path.string()}, {"detail", std::strerror(errno)}});
+  if (stream.bad())
+    return fail(ErrorCode::file_unreadable, {{"file", path.string()}, {"detail", std::strerror(errno)}});
   return bytes;
 }
 

@@ -47,8 +47,9 @@ bool JsonObject::has(std::string_view key) const {
 }
 
 void JsonObject::reject(std::string_view key, std::string found, std::string expected) const {
-  throw JsonFault{{ErrorCode::json_bad_value,
-                   {{"file", m_file}, {"key", full(key)}, {"found", std::move(found)}, {"expected", std::move(expected)}}}};
+  throw JsonFault{
+      {ErrorCode::json_bad_value,
+       {{"file", m_file}, {"key", full(key)}, {"found", std::move(found)}, {"expected", std::move(expected)}}}};
 }
 
 void JsonObject::missing(std::string_view key, std::string expected) const {
@@ -204,10 +205,9 @@ Result<json> parse_json(std::string_view text, const std::string& file) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t newline = before.rfind('\n');
     const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-    return fail(ErrorCode::json_syntax, {{"file", file},
-                                         {"line", std::to_string(line)},
-                                         {"column", std::to_string(column)},
-                                         {"detail", error.what()}});
+    return fail(
+        ErrorCode::json_syntax,
+        {{"file", file}, {"line", std::to_string(line)}, {"column", std::to_string(column)}, {"detail", error.what()}});
   } catch (const json::exception& error) {  // numbers out of range
     return fail(ErrorCode::json_syntax, {{"file", file}, {"line", "1"}, {"column", "1"}, {"detail", error.what()}});
   }

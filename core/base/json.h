@@ -33,7 +33,7 @@ struct JsonFault {
 struct NumberRange {
   double low;
   double high;
-  bool low_open = false;  // low itself is not allowed
+  bool low_open = false;   // low itself is not allowed
   std::string_view words;  // for the message, for example "a number above 0"
 };
 inline constexpr NumberRange any_number{-1e300, 1e300, false, "a number"};

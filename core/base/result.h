@@ -1,6 +1,7 @@
 #pragma once
 // Result<T>: a value or an Error. Status: done, or an Error.
-// ZD_TRY(name, expression) takes the value out or returns the error to the caller; ZD_CHECK(expression) does so for a Status.
+// ZD_TRY(name, expression) takes the value out or returns the error to the caller; ZD_CHECK(expression) does so for a
+// Status.
 
 #include <map>
 #include <string>
@@ -28,11 +29,11 @@ inline tl::unexpected<Error> fail(Error error) {
 #define ZD_CONCAT_INNER(a, b) a##b
 #define ZD_CONCAT(a, b) ZD_CONCAT_INNER(a, b)
 #define ZD_TRY(declaration, expression) ZD_TRY_INNER(ZD_CONCAT(zd_try_, __LINE__), declaration, expression)
-#define ZD_TRY_INNER(temporary, declaration, expression)                \
-  auto temporary = (expression);                                        \
+#define ZD_TRY_INNER(temporary, declaration, expression)                  \
+  auto temporary = (expression);                                          \
   if (!temporary) return ::zerodrift::fail(std::move(temporary).error()); \
   declaration = std::move(*temporary)
-#define ZD_CHECK(expression)                                                                  \
-  do {                                                                                        \
+#define ZD_CHECK(expression)                                                                               \
+  do {                                                                                                     \
     if (auto zd_status = (expression); !zd_status) return ::zerodrift::fail(std::move(zd_status).error()); \
   } while (false)

@@ -12,8 +12,8 @@
 namespace zerodrift {
 
 struct Progress {
-  double fraction = 0.0;              // 0 .. 1
-  std::string phase;                  // a short identifier, for example "clustering"; app/text makes words of it
+  double fraction = 0.0;               // 0 .. 1
+  std::string phase;                   // a short identifier, for example "clustering"; app/text makes words of it
   std::optional<double> seconds_left;  // when it can be told
 };
 

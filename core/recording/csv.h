@@ -1,6 +1,6 @@
 #pragma once
-// Recordings and plain tables as CSV by the contract: UTF-8 (BOM accepted), decimal point, comma, semicolon or tab found
-// from the header, empty cell = missing. Numbers are written with the fewest digits that read back the same.
+// Recordings and plain tables as CSV by the contract: UTF-8 (BOM accepted), decimal point, comma, semicolon or tab
+// found from the header, empty cell = missing. Numbers are written with the fewest digits that read back the same.
 
 #include <filesystem>
 #include <map>

@@ -27,14 +27,21 @@ ChannelKind kind_of(std::string_view name) {
 std::string_view unit_of(ChannelKind kind) {
   switch (kind) {
     case ChannelKind::temperature:
-    case ChannelKind::ambient: return "C";
-    case ChannelKind::error: return "um";
-    case ChannelKind::tilt: return "urad";
-    case ChannelKind::speed: return "rpm";
-    case ChannelKind::feed: return "mm/min";
-    case ChannelKind::load: return "W";
+    case ChannelKind::ambient:
+      return "C";
+    case ChannelKind::error:
+      return "um";
+    case ChannelKind::tilt:
+      return "urad";
+    case ChannelKind::speed:
+      return "rpm";
+    case ChannelKind::feed:
+      return "mm/min";
+    case ChannelKind::load:
+      return "W";
     case ChannelKind::coolant:
-    case ChannelKind::input: return "";
+    case ChannelKind::input:
+      return "";
   }
   return "";
 }

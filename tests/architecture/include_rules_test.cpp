@@ -38,22 +38,23 @@ TEST_P(PlantedViolation, IsFoundWithFileAndLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Rules, PlantedViolation,
-    testing::Values(Planted{"core/base/x.h", "QString", "core includes Qt"},
-                    Planted{"core/flow/x.cpp", "QtCore/qstring.h", "core includes Qt"},
-                    Planted{"core/report/x.cpp", "ui/shell/main_window.h", "core includes ui"},
-                    Planted{"core/base/x.cpp", "app/text/error_text.h", "core includes app"},
-                    Planted{"core/vision/x.cpp", "core/analysis/clustering.h", "a core folder includes one that stands after it"},
-                    Planted{"core/commissioning/x.cpp", "core/flow/flow.h", "a core folder includes one that stands after it"},
-                    Planted{"ui/pages/x.cpp", "core/base/error.h", "ui includes core"},
-                    Planted{"ui/pages/x.cpp", "app/text/error_text.h", "ui includes app"},
-                    Planted{"app/cli/x.cpp", "modbus.h", "modbus.h outside core/controller"},
-                    Planted{"app/machine/x.cpp", "modbus/modbus.h", "modbus.h outside core/controller"},
-                    Planted{"core/flow/x.cpp", "sqlite3.h", "sqlite3.h outside core/commissioning"},
-                    Planted{"app/machine/x.cpp", "opencv2/core.hpp", "OpenCV outside core/vision"},
-                    Planted{"ui/pages/x.cpp", "qcustomplot.h", "qcustomplot.h outside ui/plots"},
-                    Planted{"app/machine/x.cpp", "core/physics/simulate.h",
-                            "the virtual machine includes the physics it is used to prove"},
-                    Planted{"app/machine/x.cpp", "core/diagnosis/diagnose.h",
-                            "the virtual machine includes the physics it is used to prove"}));
+    testing::Values(
+        Planted{"core/base/x.h", "QString", "core includes Qt"},
+        Planted{"core/flow/x.cpp", "QtCore/qstring.h", "core includes Qt"},
+        Planted{"core/report/x.cpp", "ui/shell/main_window.h", "core includes ui"},
+        Planted{"core/base/x.cpp", "app/text/error_text.h", "core includes app"},
+        Planted{"core/vision/x.cpp", "core/analysis/clustering.h", "a core folder includes one that stands after it"},
+        Planted{"core/commissioning/x.cpp", "core/flow/flow.h", "a core folder includes one that stands after it"},
+        Planted{"ui/pages/x.cpp", "core/base/error.h", "ui includes core"},
+        Planted{"ui/pages/x.cpp", "app/text/error_text.h", "ui includes app"},
+        Planted{"app/cli/x.cpp", "modbus.h", "modbus.h outside core/controller"},
+        Planted{"app/machine/x.cpp", "modbus/modbus.h", "modbus.h outside core/controller"},
+        Planted{"core/flow/x.cpp", "sqlite3.h", "sqlite3.h outside core/commissioning"},
+        Planted{"app/machine/x.cpp", "opencv2/core.hpp", "OpenCV outside core/vision"},
+        Planted{"ui/pages/x.cpp", "qcustomplot.h", "qcustomplot.h outside ui/plots"},
+        Planted{"app/machine/x.cpp", "core/physics/simulate.h",
+                "the virtual machine includes the physics it is used to prove"},
+        Planted{"app/machine/x.cpp", "core/diagnosis/diagnose.h",
+                "the virtual machine includes the physics it is used to prove"}));
 
 }  // namespace zerodrift::architecture

@@ -4,7 +4,6 @@ namespace zerodrift::cli {
 
 // void add_<command>(Cli& cli);
 
-void add_all_commands(Cli&) {
-}
+void add_all_commands(Cli&) {}
 
 }  // namespace zerodrift::cli
