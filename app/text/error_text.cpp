@@ -72,6 +72,8 @@ constexpr std::array rows = {
         "Open the latest backup; what can be read was left as it is."),
     SAY(job_busy, "The job {file} is open in another program.", "Close it there first."),
     SAY(step_blocked, "The step {step} cannot run yet: it needs {needs}.", "Do that step first."),
+    SAY(port_unavailable, "Port {port} at {host} cannot be served ({detail}).",
+        "Choose another port, or 0 for any free one."),
     SAY(machine_unreachable, "No connection to the controller at {host}, port {port} ({detail}).",
         "Check cable, address and port, and that the controller's Modbus server is on."),
     SAY(machine_silent, "The controller did not answer within {timeout_ms} ms ({what}).",
