@@ -1,0 +1,176 @@
+#include "app/machine/camera/camera_server.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "core/vision/image_codec.h"
+
+namespace zerodrift::machine {
+namespace {
+
+constexpr std::string_view boundary = "zerodrift-frame";
+constexpr std::size_t most_connections = 24;  // a stream holds its thread; waiting threads cost nothing
+constexpr int send_buffer_bytes = 96 * 1024;  // less than a frame: what a slow client has not taken is not yet rendered
+
+void set_socket_options(socket_t socket) {
+  // Not SO_REUSEPORT, the library's default: a second server on the port must be told that it is taken.
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &send_buffer_bytes, sizeof(send_buffer_bytes));
+}
+
+std::string part_header(const EncodedFrame& frame) {
+  return fmt::format("--{}\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\nX-Machine-Time: {:.3f}\r\n\r\n",
+                     boundary, frame.bytes.size(), frame.machine_time_s);
+}
+
+bool send(httplib::DataSink& sink, const EncodedFrame& frame) {
+  const std::string header = part_header(frame);
+  return sink.write(header.data(), header.size()) &&
+         sink.write(reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size()) && sink.write("\r\n", 2);
+}
+
+}  // namespace
+
+struct CameraServer::Service {
+  Service(CameraOptions camera_options, const SceneSource& scene)
+      : options(std::move(camera_options)),
+        front(View::front, options.views[0], scene),
+        side(View::side, options.views[1], scene),
+        period(1.0 / std::clamp(options.frames_per_s, 0.1, 100.0)) {}
+
+  FrameSource& source(View view) { return view == View::front ? front : side; }
+  bool wait_for_tick(std::int64_t& tick);
+  void serve_stream(View view, httplib::Response& response);
+  void serve_png(View view, httplib::Response& response);
+  void add_routes();
+
+  CameraOptions options;
+  FrameSource front;
+  FrameSource side;
+  std::chrono::duration<double> period;
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  std::mutex mutex;
+  std::condition_variable stopping_changed;
+  bool stopping = false;
+  std::unique_ptr<httplib::Server> server;
+  std::thread listener;
+};
+
+/// Sleeps to the next tick after `tick` and says which it is; false when the server stops.
+bool CameraServer::Service::wait_for_tick(std::int64_t& tick) {
+  const auto tick_now = [&] {
+    return static_cast<std::int64_t>(std::floor((std::chrono::steady_clock::now() - begin) / period));
+  };
+  const std::int64_t next = tick < 0 ? tick_now() : std::max(tick_now(), tick) + 1;
+  const auto due = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(period * next);
+  std::unique_lock lock(mutex);
+  if (stopping_changed.wait_until(lock, due, [&] { return stopping; })) return false;
+  tick = next;
+  return true;
+}
+
+void CameraServer::Service::serve_stream(View view, httplib::Response& response) {
+  response.set_header("Cache-Control", "no-store");
+  response.set_content_provider(fmt::format("multipart/x-mixed-replace; boundary={}", boundary),
+                                [this, view, tick = std::int64_t{-1}](std::size_t, httplib::DataSink& sink) mutable {
+                                  if (!wait_for_tick(tick)) return false;
+                                  const auto frame = source(view).jpeg(tick, options.jpeg_quality);
+                                  return frame && send(sink, **frame);
+                                });
+}
+
+void CameraServer::Service::serve_png(View view, httplib::Response& response) {
+  const Frame frame = source(view).now();
+  const auto bytes = vision::encode_png(frame.image);
+  if (!bytes) {
+    response.status = 500;
+    response.set_content(describe(bytes.error()), "text/plain");
+    return;
+  }
+  response.set_header("Cache-Control", "no-store");
+  response.set_header("X-Machine-Time", fmt::format("{:.3f}", frame.machine_time_s));
+  response.set_content(reinterpret_cast<const char*>(bytes->data()), bytes->size(), "image/png");
+}
+
+void CameraServer::Service::add_routes() {
+  for (const View view : {View::front, View::side}) {
+    server->Get(fmt::format("/{}\\.mjpg", name_of(view)),
+                [this, view](const httplib::Request&, httplib::Response& r) { serve_stream(view, r); });
+    server->Get(fmt::format("/{}\\.png", name_of(view)),
+                [this, view](const httplib::Request&, httplib::Response& r) { serve_png(view, r); });
+  }
+}
+
+CameraOptions camera_options(std::uint64_t seed) {
+  CameraOptions options;
+  options.views = {view_options(View::front, seed), view_options(View::side, seed)};
+  return options;
+}
+
+CameraServer::CameraServer(CameraOptions options, SceneSource scene)
+    : m_service(std::make_unique<Service>(std::move(options), scene)) {}
+
+CameraServer::~CameraServer() {
+  stop();
+}
+
+Result<int> CameraServer::start(int port) {
+  stop();
+  Service& service = *m_service;
+  service.stopping = false;
+  service.server = std::make_unique<httplib::Server>();
+  service.server->set_socket_options(set_socket_options);
+  service.server->set_tcp_nodelay(true);
+  service.server->set_write_timeout(2);
+  service.server->set_keep_alive_timeout(2);
+  service.server->new_task_queue = [] { return new httplib::ThreadPool(most_connections); };
+  service.add_routes();
+  const std::string host = "127.0.0.1";
+  const int bound = port == 0                                  ? service.server->bind_to_any_port(host)
+                    : service.server->bind_to_port(host, port) ? port
+                                                               : -1;
+  if (bound <= 0) {
+    service.server.reset();
+    return fail(ErrorCode::port_unavailable,
+                {{"host", host}, {"port", std::to_string(port)}, {"detail", std::strerror(errno)}});
+  }
+  service.listener = std::thread([&service] { service.server->listen_after_bind(); });
+  while (!service.server->is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return bound;
+}
+
+void CameraServer::stop() {
+  Service& service = *m_service;
+  if (!service.server) return;
+  {
+    const std::lock_guard lock(service.mutex);
+    service.stopping = true;
+  }
+  service.stopping_changed.notify_all();
+  service.server->stop();
+  service.listener.join();
+  service.server.reset();
+}
+
+void CameraServer::set_fault(CameraFault fault) {
+  for (const View view : {View::front, View::side}) set_fault(view, fault);
+}
+
+void CameraServer::set_fault(View view, CameraFault fault) {
+  m_service->source(view).set_fault(fault);
+}
+
+}  // namespace zerodrift::machine
