@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view boundary = "zerodrift-frame";
 constexpr std::size_t most_connections = 24;  // a stream holds its thread; waiting threads cost nothing
-constexpr int send_buffer_bytes = 96 * 1024;  // less than a frame: what a slow client has not taken is not yet rendered
+constexpr int send_buffer_bytes = 32 * 1024;  // less than a frame: what a slow client has not taken is not yet rendered
 
 void set_socket_options(socket_t socket) {
   // Not SO_REUSEPORT, the library's default: a second server on the port must be told that it is taken.

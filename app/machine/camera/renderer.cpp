@@ -85,10 +85,11 @@ void over_pixels(const ViewOptions& view, const Placement& place, At&& at) {
   const int y1 = clamp_to(middle.y_px + reach_px + 1.0, view.height_px);
   const double c = std::cos(place.roll_rad);
   const double s = std::sin(place.roll_rad);
+  const ObjectFromPixel seen_by(view);
   const double limit_um = place.half_um + 6.0 * place.sigma_um;
   for (int row = y0; row < y1; ++row) {
     for (int column = x0; column < x1; ++column) {
-      const ObjectPosition seen = object_from_pixel(view, {static_cast<double>(column), static_cast<double>(row)});
+      const ObjectPosition seen = seen_by(column, row);
       const double right = seen.right_um - place.centre.right_um;
       const double up = seen.up_um - place.centre.up_um;
       const double x = c * right + s * up;

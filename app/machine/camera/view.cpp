@@ -24,15 +24,15 @@ ViewOptions view_options(View view, std::uint64_t seed) {
   return options;
 }
 
+ObjectFromPixel::ObjectFromPixel(const ViewOptions& view)
+    : m_middle_x((view.width_px - 1) / 2.0),
+      m_middle_y((view.height_px - 1) / 2.0),
+      m_distortion_per_px2(view.distortion_per_px2),
+      m_cos_um(std::cos(view.rotation_rad) * view.um_per_px),
+      m_sin_um(std::sin(view.rotation_rad) * view.um_per_px) {}
+
 ObjectPosition object_from_pixel(const ViewOptions& view, PixelPosition pixel) {
-  const double x = pixel.x_px - (view.width_px - 1) / 2.0;
-  const double y = pixel.y_px - (view.height_px - 1) / 2.0;
-  // The lens is defined from the picture to the object, so that a pixel's place in the object is exact without
-  // iteration.
-  const double scale_um = view.um_per_px * (1.0 + view.distortion_per_px2 * (x * x + y * y));
-  const double c = std::cos(view.rotation_rad) * scale_um;
-  const double s = std::sin(view.rotation_rad) * scale_um;
-  return {c * x - s * y, -s * x - c * y};
+  return ObjectFromPixel(view)(pixel.x_px, pixel.y_px);
 }
 
 PixelPosition pixel_from_object(const ViewOptions& view, ObjectPosition position) {

@@ -46,6 +46,25 @@ struct ViewOptions {
 /// The two cameras of the machine: a few degrees of rotation, scales that differ, 0.1 % distortion at 400 px.
 ViewOptions view_options(View view, std::uint64_t seed);
 
+/// From the picture to the plane of the targets; the lens is defined in this direction, so it is exact for a pixel.
+class ObjectFromPixel {
+ public:
+  explicit ObjectFromPixel(const ViewOptions& view);
+  ObjectPosition operator()(double x_px, double y_px) const {
+    const double x = x_px - m_middle_x;
+    const double y = y_px - m_middle_y;
+    const double stretch = 1.0 + m_distortion_per_px2 * (x * x + y * y);
+    return {(m_cos_um * x - m_sin_um * y) * stretch, -(m_sin_um * x + m_cos_um * y) * stretch};
+  }
+
+ private:
+  double m_middle_x;
+  double m_middle_y;
+  double m_distortion_per_px2;
+  double m_cos_um;
+  double m_sin_um;
+};
+
 ObjectPosition object_from_pixel(const ViewOptions& view, PixelPosition pixel);
 PixelPosition pixel_from_object(const ViewOptions& view, ObjectPosition position);
 
