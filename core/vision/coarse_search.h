@@ -1,0 +1,30 @@
+#pragma once
+// Where the template may be in a frame, to the whole pixel: normalized cross-correlation down a pyramid.
+// Checkers, grids and rings resemble themselves one period further, so the best few candidates are handed on.
+
+#include <vector>
+
+#include "core/vision/image.h"
+
+namespace zerodrift::vision {
+
+struct Candidate {
+  int dx_px = 0;  // displacement of the template's region
+  int dy_px = 0;
+  double correlation = 0.0;  // zero-mean normalized, -1 .. 1
+};
+
+class CoarseSearch {
+ public:
+  CoarseSearch(const GrayImage& image, const Region& region);
+  /// The best places in the whole frame, best first, at most `count`; part of the region may lie outside the frame.
+  std::vector<Candidate> find(const GrayImage& frame, int count) const;
+
+ private:
+  std::vector<Candidate> find_from(const std::vector<GrayImage>& frames, int top_level, int count) const;
+
+  Region m_region;
+  std::vector<GrayImage> m_templates;  // level k is smaller by 2^k
+};
+
+}  // namespace zerodrift::vision

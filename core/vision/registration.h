@@ -1,0 +1,44 @@
+#pragma once
+// Fine registration of a template in a frame: inverse-compositional Gauss-Newton (Baker and Matthews, IJCV 56 (2004)
+// 221) with an affine motion under a weak prior, and in the same solve what happens to the light: gain plane, offset,
+// blur along any direction. Weights are 1 / noise variance times Tukey's biweight; saturated pixels are out.
+
+#include <Eigen/Core>
+
+#include "core/vision/image.h"
+#include "core/vision/template_model.h"
+
+namespace zerodrift::vision {
+
+struct Registration {
+  bool converged = false;
+  Eigen::Vector2d displacement_px = Eigen::Vector2d::Zero();  // of the named point, right and down
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();       // affine part
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
+  double correlation = 0.0;     // weighted, of frame and model
+  double inlier_share = 0.0;    // of the pixels, by weight over a quarter
+  double informed_share = 0.0;  // of the gradient energy
+  double seen_share = 0.0;      // of the pixels that lie in the frame
+  double saturated_share = 0.0;
+  double contrast = 0.0;  // gain of the frame over the template
+  double blur_px2 = 0.0;  // largest change of the blur's variance since the template, px^2
+  double residual = 0.0;  // robust scale of the weighted residual, in standard deviations of shot noise
+  int iterations = 0;
+};
+
+class Registrar {
+ public:
+  explicit Registrar(TemplateSource source);
+
+  /// Starts with the region displaced by whole pixels; the point may end up to 8 px from there.
+  Registration run(const GrayImage& frame, int dx_px, int dy_px) const;
+
+  const TemplateModel& model() const { return m_model; }
+  const TemplateSource& source() const { return m_source; }
+
+ private:
+  TemplateSource m_source;
+  TemplateModel m_model;  // with the smallest blur
+};
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,174 @@
+#include "core/vision/spline_image.h"
+
+#include <Eigen/Eigenvalues>
+#include <opencv2/imgproc.hpp>
+
+namespace zerodrift::vision {
+namespace {
+
+// Poles of the quintic B-spline's inverse filter.
+constexpr double poles[] = {-0.43057534709997430, -0.043096288203264443};
+
+// In-place inverse filter down the columns with mirrored ends; the inner loop runs along a row.
+void prefilter_columns(FloatImage& image) {
+  const int n = image.height;
+  const int width = image.width;
+  for (const double pole : poles) {
+    const float z = static_cast<float>(pole);
+    const float gain = static_cast<float>((1.0 - pole) * (1.0 - 1.0 / pole));
+    for (float& value : image.values) value *= gain;
+    const int reach = std::min(n, 24);  // pole^24 is below the precision of a float
+    std::vector<float> start(image.row(0), image.row(0) + width);
+    float power = z;
+    for (int y = 1; y < reach; ++y, power *= z) {
+      for (int x = 0; x < width; ++x) start[x] += power * image.row(y)[x];
+    }
+    std::copy(start.begin(), start.end(), image.row(0));
+    for (int y = 1; y < n; ++y) {
+      float* now = image.row(y);
+      const float* before = image.row(y - 1);
+      for (int x = 0; x < width; ++x) now[x] += z * before[x];
+    }
+    const float end_gain = static_cast<float>(pole / (pole * pole - 1.0));
+    float* last = image.row(n - 1);
+    const float* beside = image.row(n - 2);
+    for (int x = 0; x < width; ++x) last[x] = end_gain * (last[x] + z * beside[x]);
+    for (int y = n - 2; y >= 0; --y) {
+      float* now = image.row(y);
+      const float* after = image.row(y + 1);
+      for (int x = 0; x < width; ++x) now[x] = z * (after[x] - now[x]);
+    }
+  }
+}
+
+FloatImage transposed(const FloatImage& image) {
+  FloatImage out(image.height, image.width);
+  constexpr int block = 16;
+  for (int y0 = 0; y0 < image.height; y0 += block) {
+    for (int x0 = 0; x0 < image.width; x0 += block) {
+      for (int y = y0; y < std::min(y0 + block, image.height); ++y) {
+        for (int x = x0; x < std::min(x0 + block, image.width); ++x) out.row(x)[y] = image.row(y)[x];
+      }
+    }
+  }
+  return out;
+}
+
+// b5(x - k) at k = -2 .. 3 for x in [0, 1); two zeros pad it to eight for the vector unit.
+inline void quintic_weights(float t, float* w) {
+  const float s = 1.0f - t;
+  const auto inner = [](float x) {
+    const float x2 = x * x;
+    return 0.55f + x2 * (-0.5f + x2 * (0.25f - x * (1.0f / 12.0f)));
+  };
+  const auto middle = [](float x) {
+    return 0.425f + x * (0.625f + x * (-1.75f + x * (1.25f + x * (-0.375f + x * (1.0f / 24.0f)))));
+  };
+  const float t2 = t * t;
+  const float s2 = s * s;
+  w[0] = s2 * s2 * s * (1.0f / 120.0f);
+  w[1] = middle(1.0f + t);
+  w[2] = inner(t);
+  w[3] = inner(s);
+  w[4] = middle(1.0f + s);
+  w[5] = t2 * t2 * t * (1.0f / 120.0f);
+}
+
+// b5 and its first two derivatives at the integers -2 .. 2; correlation with them gives the derivative at the pixels.
+constexpr double kernels[3][5] = {{1.0 / 120, 26.0 / 120, 66.0 / 120, 26.0 / 120, 1.0 / 120},
+                                  {-1.0 / 24, -10.0 / 24, 0.0, 10.0 / 24, 1.0 / 24},
+                                  {1.0 / 6, 1.0 / 3, -1.0, 1.0 / 3, 1.0 / 6}};
+
+cv::Mat view(const FloatImage& image) {
+  return cv::Mat(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
+}
+
+cv::Mat gaussian_1d(double variance_px2) {
+  const int reach = static_cast<int>(std::ceil(4.0 * std::sqrt(variance_px2))) + 1;
+  cv::Mat kernel(1, 2 * reach + 1, CV_32F);
+  double sum = 0.0;
+  for (int k = -reach; k <= reach; ++k) sum += std::exp(-0.5 * k * k / variance_px2);
+  for (int k = -reach; k <= reach; ++k) {
+    kernel.at<float>(k + reach) = static_cast<float>(std::exp(-0.5 * k * k / variance_px2) / sum);
+  }
+  return kernel;
+}
+
+bool along_the_axes(const Eigen::Matrix2d& covariance) {
+  return std::abs(covariance(0, 1)) < 1e-6 * (covariance(0, 0) + covariance(1, 1));
+}
+
+}  // namespace
+
+FloatImage crop(const GrayImage& image, const Region& region) {
+  FloatImage out(region.width, region.height);
+  for (int y = 0; y < region.height; ++y) {
+    const int from_y = std::clamp(region.y + y, 0, image.height - 1);
+    float* row = out.row(y);
+    for (int x = 0; x < region.width; ++x) row[x] = image.at(std::clamp(region.x + x, 0, image.width - 1), from_y);
+  }
+  return out;
+}
+
+FloatImage blur_kernel(const Eigen::Matrix2d& covariance_px2) {
+  const Eigen::Matrix2d precision = covariance_px2.inverse();
+  const double widest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance_px2).eigenvalues()(1);
+  const int reach = static_cast<int>(std::ceil(4.0 * std::sqrt(widest))) + 1;
+  FloatImage kernel(2 * reach + 1, 2 * reach + 1);
+  double sum = 0.0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const Eigen::Vector2d at(x, y);
+      const double value = std::exp(-0.5 * at.dot(precision * at));
+      kernel.row(y + reach)[x + reach] = static_cast<float>(value);
+      sum += value;
+    }
+  }
+  for (float& value : kernel.values) value = static_cast<float>(value / sum);
+  return kernel;
+}
+
+FloatImage blurred(const FloatImage& image, const Eigen::Matrix2d& covariance_px2) {
+  FloatImage out(image.width, image.height);
+  cv::Mat target = view(out);
+  if (along_the_axes(covariance_px2)) {
+    cv::sepFilter2D(view(image), target, CV_32F, gaussian_1d(covariance_px2(0, 0)), gaussian_1d(covariance_px2(1, 1)),
+                    {-1, -1}, 0.0, cv::BORDER_REPLICATE);
+  } else {
+    const FloatImage kernel = blur_kernel(covariance_px2);
+    cv::filter2D(view(image), target, CV_32F, view(kernel), {-1, -1}, 0.0, cv::BORDER_REPLICATE);
+  }
+  return out;
+}
+
+SplineImage::SplineImage(FloatImage samples) : m_coefficients(std::move(samples)) {
+  prefilter_columns(m_coefficients);
+  m_coefficients = transposed(m_coefficients);
+  prefilter_columns(m_coefficients);
+  m_coefficients = transposed(m_coefficients);
+}
+
+float SplineImage::at(int column, float fraction_x, int row, float fraction_y) const {
+  float wx[6];
+  float wy[6];
+  quintic_weights(fraction_x, wx);
+  quintic_weights(fraction_y, wy);
+  float sum = 0.0f;
+  const float* first = m_coefficients.row(row - 2) + column - 2;
+  for (int k = 0; k < 6; ++k, first += m_coefficients.width) {
+    sum += wy[k] * (wx[0] * first[0] + wx[1] * first[1] + wx[2] * first[2] + wx[3] * first[3] + wx[4] * first[4] +
+                    wx[5] * first[5]);
+  }
+  return sum;
+}
+
+FloatImage SplineImage::derivative(int order_x, int order_y) const {
+  FloatImage out(width(), height());
+  cv::Mat target = view(out);
+  const cv::Mat along_x(1, 5, CV_64F, const_cast<double*>(kernels[order_x]));
+  const cv::Mat along_y(1, 5, CV_64F, const_cast<double*>(kernels[order_y]));
+  cv::sepFilter2D(view(m_coefficients), target, CV_32F, along_x, along_y, {-1, -1}, 0.0, cv::BORDER_REFLECT_101);
+  return out;
+}
+
+}  // namespace zerodrift::vision

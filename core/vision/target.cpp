@@ -1,0 +1,216 @@
+#include "core/vision/target.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/vision/coarse_search.h"
+#include "core/vision/registration.h"
+#include "core/vision/target_mask.h"
+
+namespace zerodrift::vision {
+namespace {
+
+constexpr int smallest_region_px = 24;
+constexpr int template_margin_px = 12;
+constexpr int candidates_refined = 3;
+constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
+constexpr double rival_correlation = 0.25;     // a candidate further behind the best is not tried
+constexpr double least_energy = 4.0;           // mean squared gradient, grey levels^2 / px^2: below it is noise
+
+// Limits of an accepted registration.
+constexpr double least_inliers = 0.55;
+constexpr double least_informed = 0.50;
+constexpr double least_fine_correlation = 0.90;
+constexpr double least_contrast = 0.2;
+constexpr double largest_contrast = 3.0;
+constexpr double largest_linear = 0.035;
+constexpr double largest_blur_px2 = 18.0;
+constexpr double least_seen = 0.70;
+
+double linear_change(const Registration& r) {
+  return (r.linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
+}
+
+Refusal judge(const Registration& r, double coarse_correlation) {
+  if (!r.converged) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::too_different;
+  const bool fits = r.correlation > least_fine_correlation;
+  if (r.seen_share < least_seen) return Refusal::out_of_view;
+  if (r.contrast < least_contrast || r.contrast > largest_contrast) {
+    return fits ? Refusal::too_different : Refusal::missing;
+  }
+  if (!fits) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::wrong_target;
+  if (linear_change(r) > largest_linear) return Refusal::wrong_target;
+  if (r.blur_px2 > largest_blur_px2) return Refusal::blurred;
+  if (r.inlier_share < least_inliers || r.informed_share < least_informed) {
+    if (r.saturated_share > 0.10) return Refusal::glare;
+    return coarse_correlation < 0.5 ? Refusal::missing : Refusal::occluded;
+  }
+  return Refusal::none;
+}
+
+// Better of two registrations: more of the target explained, and better.
+double merit(const Registration& r) {
+  return r.converged ? r.informed_share * std::max(r.correlation, 0.0) : -1.0;
+}
+
+}  // namespace
+
+std::string_view words_of(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::none:
+      return "";
+    case Refusal::missing:
+      return "target missing";
+    case Refusal::wrong_target:
+      return "another target";
+    case Refusal::occluded:
+      return "target occluded";
+    case Refusal::glare:
+      return "glare";
+    case Refusal::blurred:
+      return "too blurred";
+    case Refusal::out_of_view:
+      return "target out of view";
+    case Refusal::too_different:
+      return "too different from the template";
+    case Refusal::other_size:
+      return "another resolution than the template";
+  }
+  return "";
+}
+
+struct Target::Impl {
+  GrayImage image;
+  Region region;
+  PixelPoint point;
+  std::vector<std::uint8_t> mask;
+  CoarseSearch coarse;
+  Registrar fine;
+
+  Impl(GrayImage picture, const Region& at, const PixelPoint& named, std::vector<std::uint8_t> usable)
+      : image(std::move(picture)),
+        region(at),
+        point(named),
+        mask(std::move(usable)),
+        coarse(image, at),
+        fine(source_of(*this)) {}
+
+  static TemplateSource source_of(const Impl& self) {
+    TemplateSource source;
+    const Region& at = self.region;
+    source.pixels = crop(self.image, {at.x - template_margin_px, at.y - template_margin_px,
+                                      at.width + 2 * template_margin_px, at.height + 2 * template_margin_px});
+    source.margin_px = template_margin_px;
+    source.region = at;
+    source.point = {self.point.x_px - at.x, self.point.y_px - at.y};
+    source.usable = self.mask;
+    return source;
+  }
+};
+
+Result<Target> Target::create(const GrayImage& image, const Region& region, std::optional<PixelPoint> point,
+                              const std::string& name) {
+  const std::string size = fmt::format("{}x{}", image.width, image.height);
+  if (!inside(region, image)) {
+    return fail(ErrorCode::region_outside_image,
+                {{"file", name},
+                 {"region", fmt::format("{},{},{},{}", region.x, region.y, region.width, region.height)},
+                 {"size", size}});
+  }
+  if (std::min(region.width, region.height) < smallest_region_px) {
+    return fail(ErrorCode::bad_argument, {{"what", "the region of the target"},
+                                          {"found", fmt::format("{}x{} pixels", region.width, region.height)},
+                                          {"expected", fmt::format("at least {0}x{0}", smallest_region_px)}});
+  }
+  const PixelPoint named = point.value_or(centre_of(region));
+  if (!std::isfinite(named.x_px) || !std::isfinite(named.y_px) || std::abs(named.x_px) > 1e5 ||
+      std::abs(named.y_px) > 1e5) {
+    return fail(ErrorCode::bad_argument,
+                {{"what", "the named point"}, {"found", "not a place"}, {"expected", "X,Y in pixels"}});
+  }
+  std::vector<std::uint8_t> usable = usable_pixels(image, region);
+  auto impl = std::make_shared<const Impl>(image, region, named, std::move(usable));
+  const TemplateModel& model = impl->fine.model();
+  if (model.gradient_energy < least_energy || model.pixels < 200) {
+    return fail(ErrorCode::template_without_texture, {{"file", name}});
+  }
+  return Target(std::move(impl));
+}
+
+Location Target::locate(const GrayImage& frame) const {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Location out;
+  out.point = m_impl->point;
+  out.x_px = out.y_px = out.sigma_x_px = out.sigma_y_px = nan;
+  const auto refuse = [&](Refusal why) {
+    out.refusal = why;
+    out.reason = words_of(why);
+    return out;
+  };
+  if (frame.width != m_impl->image.width || frame.height != m_impl->image.height) return refuse(Refusal::other_size);
+  const std::vector<Candidate> candidates = m_impl->coarse.find(frame, candidates_refined);
+  if (candidates.empty() || candidates.front().correlation < hopeless_correlation) return refuse(Refusal::missing);
+
+  Registration best;
+  double best_coarse = candidates.front().correlation;
+  for (const Candidate& one : candidates) {
+    if (one.correlation < candidates.front().correlation - rival_correlation) break;
+    const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px);
+    if (merit(found) > merit(best)) {
+      best = found;
+      best_coarse = one.correlation;
+    }
+    if (judge(best, best_coarse) == Refusal::none && best.informed_share > 0.9) break;
+  }
+  out.correlation = best.correlation;
+  out.inlier_share = best.inlier_share;
+  out.contrast = best.contrast;
+  out.blur_px2 = best.blur_px2;
+  out.linear = best.linear;
+  if (best.converged) {
+    out.point = {m_impl->point.x_px + best.displacement_px(0), m_impl->point.y_px + best.displacement_px(1)};
+  }
+  const Refusal why = judge(best, best_coarse);
+  if (why != Refusal::none) return refuse(why);
+  out.ok = true;
+  out.refusal = Refusal::none;
+  out.x_px = best.displacement_px(0);
+  out.y_px = best.displacement_px(1);
+  out.sigma_x_px = std::sqrt(best.covariance_px2(0, 0));
+  out.sigma_y_px = std::sqrt(best.covariance_px2(1, 1));
+  out.covariance_xy_px2 = best.covariance_px2(0, 1);
+  return out;
+}
+
+Target Target::with_mask_from(const std::vector<GrayImage>& frames) const {
+  std::vector<MovedFrame> moved;
+  for (const GrayImage& frame : frames) {
+    const Location at = locate(frame);
+    if (at.ok) moved.push_back({&frame, at.x_px, at.y_px});
+  }
+  const std::vector<std::uint8_t> learned = travelling_pixels(m_impl->image, m_impl->region, moved);
+  if (learned.empty()) return *this;
+  std::vector<std::uint8_t> mask = m_impl->mask;
+  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = mask[k] && learned[k];
+  auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(mask));
+  // A mask that leaves hardly anything was learned from frames that do not show the target's motion.
+  const double kept = static_cast<double>(impl->fine.model().pixels) / std::max(m_impl->fine.model().pixels, 1);
+  return kept > 0.3 ? Target(std::move(impl)) : *this;
+}
+
+const Region& Target::region() const {
+  return m_impl->region;
+}
+const PixelPoint& Target::point() const {
+  return m_impl->point;
+}
+const GrayImage& Target::image() const {
+  return m_impl->image;
+}
+const std::vector<std::uint8_t>& Target::mask() const {
+  return m_impl->mask;
+}
+
+}  // namespace zerodrift::vision

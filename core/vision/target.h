@@ -1,0 +1,64 @@
+#pragma once
+// The calibration target as it looked at rest (V1), and where it is in another frame (V3, V4).
+// What is measured is the displacement of one named point of the target since the template, in px: x to the right, y
+// down. A frame in which the target cannot be measured is refused with a reason, never answered with a doubtful number.
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/vision/image.h"
+
+namespace zerodrift::vision {
+
+enum class Refusal { none, missing, wrong_target, occluded, glare, blurred, out_of_view, too_different, other_size };
+/// "target missing", "glare", ...; "" for none.
+std::string_view words_of(Refusal refusal);
+
+struct Location {
+  bool ok = false;
+  Refusal refusal = Refusal::missing;
+  std::string reason;  // words_of(refusal), "" when ok
+  double x_px = 0.0;   // displacement of the named point since the template; NaN when refused
+  double y_px = 0.0;
+  double sigma_x_px = 0.0;  // standard uncertainty
+  double sigma_y_px = 0.0;
+  double covariance_xy_px2 = 0.0;
+  PixelPoint point;  // where the named point is in the frame (for the drawing; best guess when refused)
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();  // rotation, scale and shear since the template
+  double correlation = 0.0;                              // of frame and template after registration, weighted
+  double inlier_share = 0.0;
+  double contrast = 0.0;  // of the frame relative to the template
+  double blur_px2 = 0.0;  // change of the blur's variance since the template
+};
+
+class Target {
+ public:
+  /// `name` is the file's, for messages. Without a point the centre of the region is measured.
+  /// Errors: region_outside_image, template_without_texture, bad_argument.
+  static Result<Target> create(const GrayImage& image, const Region& region, std::optional<PixelPoint> point,
+                               const std::string& name);
+
+  Location locate(const GrayImage& frame) const;
+
+  /// The same target without the pixels of its region that do not travel with it, learned from frames in which it was
+  /// moved (the calibration's). Frames in which it is not found are left out; fewer than three teach nothing.
+  Target with_mask_from(const std::vector<GrayImage>& frames) const;
+
+  const Region& region() const;
+  const PixelPoint& point() const;
+  const GrayImage& image() const;
+  /// One byte a pixel of the region, 0 where it is left out.
+  const std::vector<std::uint8_t>& mask() const;
+
+ private:
+  struct Impl;
+  explicit Target(std::shared_ptr<const Impl> impl) : m_impl(std::move(impl)) {}
+  std::shared_ptr<const Impl> m_impl;
+};
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,108 @@
+#include "core/vision/template_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace zerodrift::vision {
+namespace {
+
+constexpr int border_px = 3;            // of the region: its gradients use what lies outside the template
+constexpr double energy_share = 0.98;   // of the gradient energy is worked on, the rest costs time and tells little
+constexpr std::size_t sparse_step = 9;  // and every ninth of the flat pixels, for the light
+
+// Pixels of the region to work on.
+std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<float>& energy) {
+  std::vector<int> usable;
+  for (int y = border_px; y < source.region.height - border_px; ++y) {
+    for (int x = border_px; x < source.region.width - border_px; ++x) {
+      if (source.usable[static_cast<std::size_t>(y) * source.region.width + x])
+        usable.push_back(y * source.region.width + x);
+    }
+  }
+  std::vector<int> order = usable;
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return energy[a] > energy[b]; });
+  double total = 0.0;
+  for (const int at : order) total += energy[at];
+  double sum = 0.0;
+  float limit = 0.0f;
+  for (const int at : order) {
+    sum += energy[at];
+    limit = energy[at];
+    if (sum > energy_share * total) break;
+  }
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < usable.size(); ++k) {
+    if (energy[usable[k]] >= limit || k % sparse_step == 0) kept.push_back(usable[k]);
+  }
+  // Every fourth comes first: the motion settles on them before all are used.
+  std::vector<int> out;
+  for (const bool first : {true, false}) {
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      if ((k % 4 == 0) == first) out.push_back(kept[k]);
+    }
+  }
+  return out;
+}
+
+// Variance of a shift estimated from noise blurred by the same kernel, over that from independent noise of equal power.
+double noise_growth(const FloatImage& gradient, const Eigen::Matrix2d& blur_px2, double kernel_power) {
+  const FloatImage twice = blurred(gradient, 2.0 * blur_px2);
+  double with = 0.0;
+  double plain = 0.0;
+  for (std::size_t k = 0; k < gradient.values.size(); ++k) {
+    with += double{gradient.values[k]} * twice.values[k];
+    plain += double{gradient.values[k]} * gradient.values[k];
+  }
+  return plain > 0.0 ? std::max(1.0, with / plain / kernel_power) : 1.0;
+}
+
+}  // namespace
+
+TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2) {
+  const FloatImage smooth = blurred(source.pixels, blur_px2);
+  const SplineImage spline(smooth);
+  const FloatImage fx = spline.derivative(1, 0);
+  const FloatImage fy = spline.derivative(0, 1);
+  const FloatImage fxx = spline.derivative(2, 0);
+  const FloatImage fxy = spline.derivative(1, 1);
+  const FloatImage fyy = spline.derivative(0, 2);
+
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y + source.margin_px) * smooth.width + x + source.margin_px;
+  };
+  std::vector<float> energy(static_cast<std::size_t>(source.region.width) * source.region.height);
+  for (int y = 0; y < source.region.height; ++y) {
+    for (int x = 0; x < source.region.width; ++x) {
+      const std::size_t k = index(x, y);
+      energy[static_cast<std::size_t>(y) * source.region.width + x] =
+          fx.values[k] * fx.values[k] + fy.values[k] * fy.values[k];
+    }
+  }
+  TemplateModel model;
+  model.blur_px2 = blur_px2;
+  model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
+  for (const int at : choose_pixels(source, energy)) {
+    const int x = at % source.region.width;
+    const int y = at / source.region.width;
+    const std::size_t k = index(x, y);
+    model.column.push_back(x);
+    model.row.push_back(y);
+    model.x.push_back(static_cast<float>(x - source.point.x_px));
+    model.y.push_back(static_cast<float>(y - source.point.y_px));
+    model.value.push_back(smooth.values[k]);
+    model.fx.push_back(fx.values[k]);
+    model.fy.push_back(fy.values[k]);
+    model.fxx.push_back(fxx.values[k]);
+    model.fxy.push_back(fxy.values[k]);
+    model.fyy.push_back(fyy.values[k]);
+  }
+  model.pixels = static_cast<int>(model.column.size());
+  double kernel_power = 0.0;
+  for (const float value : blur_kernel(blur_px2).values) kernel_power += double{value} * value;
+  model.noise_growth_x = noise_growth(fx, blur_px2, kernel_power);
+  model.noise_growth_y = noise_growth(fy, blur_px2, kernel_power);
+  return model;
+}
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,35 @@
+#pragma once
+// What the fine registration needs of the template at its informative pixels: value, gradients and curvatures of the
+// blurred template, as arrays. Coordinates are relative to the named point, whose displacement is asked.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/vision/spline_image.h"
+
+namespace zerodrift::vision {
+
+struct TemplateModel {
+  int pixels = 0;
+  std::vector<int> column, row;      // in the region
+  std::vector<float> x, y;           // px from the named point
+  std::vector<float> value;          // grey levels
+  std::vector<float> fx, fy;         // per px
+  std::vector<float> fxx, fxy, fyy;  // per px^2
+  Eigen::Matrix2d blur_px2;          // covariance of the blur in it
+  double noise_growth_x = 1.0;       // by how much the blur's noise correlation raises the variance of x and y
+  double noise_growth_y = 1.0;       // over the formula for independent noise
+  double gradient_energy = 0.0;      // mean of fx^2 + fy^2 over the region
+};
+
+struct TemplateSource {
+  FloatImage pixels;  // the region with a margin on each side
+  int margin_px = 0;
+  PixelPoint point;                  // named point, relative to the region's first pixel
+  Region region;                     // in the template's image
+  std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
+};
+
+TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2);
+
+}  // namespace zerodrift::vision
