@@ -7,10 +7,14 @@ namespace {
 
 const char* word_of(report::Verdict verdict) {
   switch (verdict) {
-    case report::Verdict::none: return "";
-    case report::Verdict::good: return "good";
-    case report::Verdict::doubtful: return "doubtful";
-    case report::Verdict::bad: return "bad";
+    case report::Verdict::none:
+      return "";
+    case report::Verdict::good:
+      return "good";
+    case report::Verdict::doubtful:
+      return "doubtful";
+    case report::Verdict::bad:
+      return "bad";
   }
   return "";
 }

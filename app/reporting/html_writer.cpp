@@ -30,10 +30,14 @@ std::string escaped(const std::string& text) {
 
 const char* class_of(report::Verdict verdict) {
   switch (verdict) {
-    case report::Verdict::good: return "figure good";
-    case report::Verdict::doubtful: return "figure doubtful";
-    case report::Verdict::bad: return "figure bad";
-    case report::Verdict::none: break;
+    case report::Verdict::good:
+      return "figure good";
+    case report::Verdict::doubtful:
+      return "figure doubtful";
+    case report::Verdict::bad:
+      return "figure bad";
+    case report::Verdict::none:
+      break;
   }
   return "figure";
 }

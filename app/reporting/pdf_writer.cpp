@@ -32,10 +32,14 @@ QFont font_of(int pixels, QFont::Weight weight = QFont::Normal) {
 
 QColor colour_of(report::Verdict verdict) {
   switch (verdict) {
-    case report::Verdict::good: return QColor(0x2E8B57);
-    case report::Verdict::doubtful: return QColor(0xC77700);
-    case report::Verdict::bad: return QColor(0xC4314B);
-    case report::Verdict::none: break;
+    case report::Verdict::good:
+      return QColor(0x2E8B57);
+    case report::Verdict::doubtful:
+      return QColor(0xC77700);
+    case report::Verdict::bad:
+      return QColor(0xC4314B);
+    case report::Verdict::none:
+      break;
   }
   return QColor(0xD9DFE5);
 }
@@ -179,7 +183,8 @@ class PaperWriter {
     double x = margin;
     for (std::size_t c = 0; c < std::min(cells.size(), widths.size()); ++c) {
       draw_text(QRectF(x, m_y + 2, widths[c] - 8, height), text_of(cells[c]),
-                font_of(10, is_header ? QFont::DemiBold : QFont::Normal), is_header ? QColor(0x5F6E7C) : QColor(0x1C2530));
+                font_of(10, is_header ? QFont::DemiBold : QFont::Normal),
+                is_header ? QColor(0x5F6E7C) : QColor(0x1C2530));
       x += widths[c];
     }
     m_y += height;

@@ -82,8 +82,7 @@ void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData
   fill(plot, data);
   painter.save();
   painter.translate(place.topLeft());
-  plot.toPainter(static_cast<QCPPainter*>(&painter), int(std::lround(place.width())),
-                 int(std::lround(place.height())));
+  plot.toPainter(static_cast<QCPPainter*>(&painter), int(std::lround(place.width())), int(std::lround(place.height())));
   painter.restore();
 }
 
