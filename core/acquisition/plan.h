@@ -27,6 +27,7 @@ struct Plan {
 
   double duration_s() const;
   /// The step running at this time since the start; the last one after the end.
+  std::size_t index_at(double time_s) const;
   const PlanStep& step_at(double time_s) const;
 };
 
