@@ -1,0 +1,317 @@
+#include "core/controller/modbus_machine.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "core/compensation/interlock.h"
+
+namespace zerodrift::controller {
+namespace {
+
+using acquisition::MachineIdentity;
+using acquisition::MachineSample;
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double move_timeout_machine_s = 120.0;
+
+// Capability bits of the identity block.
+constexpr int can_host_offset = 1 << 0;
+constexpr int can_table = 1 << 1;
+constexpr int has_probes = 1 << 3;
+
+// State bits.
+constexpr int state_moving = 1 << 1;
+constexpr int state_referenced = 1 << 2;
+constexpr int state_alarm = 1 << 3;
+
+void pause_ms(int milliseconds) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+std::chrono::steady_clock::time_point after(double host_s) {
+  return std::chrono::steady_clock::now() +
+         std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(host_s));
+}
+
+double first_of(const RegisterValues& values, const std::string& name, double fallback) {
+  const auto at = values.find(name);
+  return at == values.end() || at->second.empty() ? fallback : at->second.front();
+}
+
+int bits_of(const RegisterValues& values, const std::string& name, int fallback) {
+  const double value = first_of(values, name, fallback);
+  return std::isfinite(value) ? static_cast<int>(value) : fallback;
+}
+
+Error not_fitting(const std::string& what, const std::string& found, const std::string& expected) {
+  return Error{ErrorCode::machine_unsupported, {{"what", what}, {"found", found}, {"expected", expected}}};
+}
+
+/// What a sample is made of; a map need not have all of it.
+const std::vector<std::string> sample_names = {
+    "clock_s",        "state",         "compensation_state", "coolant_state",  "position_X_mm",
+    "position_Y_mm",  "position_Z_mm", "position_A_deg",     "position_C_deg", "spindle_rpm",
+    "spindle_load_W", "feed_X_mm_min", "feed_Y_mm_min",      "feed_Z_mm_min",  "applied_um",
+    "ambient_C",      "temperature_C", "probes_valid",       "probe_um"};
+
+std::vector<std::string> present(const RegisterMap& map, const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (const auto& name : names) {
+    if (map.find(name) != nullptr) out.push_back(name);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ModbusMachine>> ModbusMachine::open(const Profile& profile) {
+  const auto beside = std::filesystem::path(profile.file).parent_path();
+  ZD_TRY(RegisterMap map, load_register_map(profile.controller.register_map, beside));
+  return std::make_unique<ModbusMachine>(profile, std::move(map));
+}
+
+ModbusMachine::ModbusMachine(Profile profile, RegisterMap map)
+    : m_profile(std::move(profile)), m_map(std::move(map)), m_link([this] {
+        ControllerSettings settings = m_profile.controller;
+        if (m_map.unit) settings.unit = *m_map.unit;
+        return settings;
+      }()) {}
+
+double ModbusMachine::host_seconds(double machine_seconds) const {
+  return std::max(machine_seconds / m_profile.time_factor, 5.0);
+}
+
+Result<std::vector<std::uint16_t>> ModbusMachine::read_span(const ReadSpan& span, const std::string& what) {
+  std::vector<std::uint16_t> words;
+  while (static_cast<int>(words.size()) < span.count) {
+    const int done = static_cast<int>(words.size());
+    const int count = std::min(m_map.max_read, span.count - done);
+    ZD_TRY(const auto part, m_link.read(span.space, span.address + done, count, what));
+    words.insert(words.end(), part.begin(), part.end());
+  }
+  return words;
+}
+
+Result<RegisterValues> ModbusMachine::read_values(const std::vector<std::string>& names) {
+  std::vector<const Register*> entries;
+  for (const auto& name : names) {
+    ZD_CHECK(m_map.require(name).map([](const Register&) {}));
+    entries.push_back(m_map.find(name));
+  }
+  RegisterMap strict;
+  strict.max_read = m_map.max_read;
+  RegisterValues values;
+  for (const ReadSpan& span : plan_reads(m_single_reads ? strict : m_map, entries)) {
+    const auto words =
+        read_span(span, names.size() == 1 ? names.front() : fmt::format("registers from {}", span.address));
+    if (!words) {
+      const auto& context = words.error().context;
+      const bool gap_refused = words.error().code == ErrorCode::machine_exception && context.at("exception") == "2";
+      if (!gap_refused || m_single_reads || names.size() == 1) return fail(words.error());
+      m_single_reads = true;  // a device that answers only for the registers it names
+      return read_values(names);
+    }
+    for (const Register* entry : entries) {
+      const int from = entry->address - span.address;
+      if (entry->space != span.space || from < 0 || from + entry->words() > span.count) continue;
+      const auto part =
+          std::span(*words).subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(entry->words()));
+      auto& list = values[entry->name];
+      list.clear();
+      for (int i = 0; i < entry->count; ++i) list.push_back(decode(*entry, part, i));
+    }
+  }
+  return values;
+}
+
+Result<double> ModbusMachine::read_value(const std::string& name) {
+  ZD_TRY(const RegisterValues values, read_values({name}));
+  return values.at(name).front();
+}
+
+Status ModbusMachine::write_values(const std::string& name, const std::vector<double>& values, Retry retry) {
+  ZD_TRY(const Register entry, m_map.require(name));
+  std::vector<std::uint16_t> words;
+  for (const double value : values) {
+    ZD_TRY(const auto part, encode(entry, value));
+    words.insert(words.end(), part.begin(), part.end());
+  }
+  return m_link.write(entry.address, words, name, retry);
+}
+
+Result<std::vector<std::uint16_t>> ModbusMachine::read_words(const std::string& name, int count) {
+  ZD_TRY(const Register entry, m_map.require(name));
+  if (count > entry.words()) {
+    return fail(ErrorCode::limit_exceeded, {{"what", "number of registers of " + name},
+                                            {"found", std::to_string(count)},
+                                            {"limit", std::to_string(entry.words())}});
+  }
+  return read_span({entry.space, entry.address, count}, name);
+}
+
+Status ModbusMachine::write_words(const std::string& name, int offset, std::span<const std::uint16_t> words) {
+  ZD_TRY(const Register entry, m_map.require(name));
+  const auto chunk = static_cast<std::size_t>(std::min(m_profile.controller.chunk_registers, m_map.max_write));
+  for (std::size_t done = 0; done < words.size(); done += chunk) {
+    const auto part = words.subspan(done, std::min(chunk, words.size() - done));
+    ZD_CHECK(m_link.write(entry.address + offset + static_cast<int>(done), part, name));
+  }
+  return {};
+}
+
+Result<MachineIdentity> ModbusMachine::identify() {
+  MachineIdentity identity;
+  identity.name = m_profile.name;
+  ZD_TRY(const RegisterValues values, read_values(present(m_map, {"magic", "map_version", "capabilities",
+                                                                  "table_capacity", "serial", "sensor_count"})));
+  if (m_map.magic) {
+    const int magic = bits_of(values, "magic", -1);
+    if (magic != *m_map.magic) {
+      return fail(not_fitting("the identity register", fmt::format("0x{:04X}", static_cast<unsigned>(magic)),
+                              fmt::format("0x{:04X}", static_cast<unsigned>(*m_map.magic))));
+    }
+  }
+  const double serial = first_of(values, "serial", 0.0);
+  identity.serial = std::isfinite(serial) ? static_cast<std::uint32_t>(serial) : 0;
+  identity.map_version = bits_of(values, "map_version", 0);
+  if (m_map.magic && identity.map_version != 1) {
+    return fail(not_fitting("the version of the register map", std::to_string(identity.map_version), "1"));
+  }
+  // A map without a capability register says by its entries what the controller can do.
+  const bool listed = m_map.find("capabilities") != nullptr;
+  const int bits = bits_of(values, "capabilities", 0);
+  const auto able = [&](int bit, const char* entry) {
+    return listed ? (bits & bit) != 0 : m_map.find(entry) != nullptr;
+  };
+  identity.accepts_host_offset = able(can_host_offset, "host_offset_um") && m_map.find("host_offset_um") != nullptr;
+  identity.accepts_table = able(can_table, "table_commit") && m_map.find("table_commit") != nullptr;
+  identity.has_probes = able(has_probes, "probe_um") && m_map.find("probe_um") != nullptr;
+  const Register* staging = m_map.find("table_staging");
+  identity.table_capacity_registers = bits_of(values, "table_capacity", staging == nullptr ? 0 : staging->words());
+  if (staging != nullptr) {
+    identity.table_capacity_registers = std::min(identity.table_capacity_registers, staging->words());
+  }
+  const Register* temperatures = m_map.find("temperature_C");
+  const int available = bits_of(values, "sensor_count", temperatures == nullptr ? 0 : temperatures->count);
+  if (static_cast<int>(m_profile.sensors.size()) > available) {
+    return fail(not_fitting("the number of temperature sensors", std::to_string(available),
+                            fmt::format("the {} of the profile", m_profile.sensors.size())));
+  }
+  for (const auto& sensor : m_profile.sensors) {
+    identity.sensors.push_back({sensor.channel, sensor.label, sensor.place, sensor.accuracy_C});
+  }
+  return identity;
+}
+
+Result<MachineSample> ModbusMachine::read() {
+  ZD_TRY(const RegisterValues values, read_values(present(m_map, sample_names)));
+  MachineSample sample;
+  sample.machine_time_s = first_of(values, "clock_s", nan_value);
+  for (const char* axis : {"X", "Y", "Z", "A", "C"}) {
+    const std::string name(axis);
+    const double position = first_of(values, "position_" + name + (name < "D" ? "_deg" : "_mm"), nan_value);
+    if (std::isfinite(position)) sample.axes[name] = position;
+    const double feed = first_of(values, "feed_" + name + "_mm_min", nan_value);
+    if (std::isfinite(feed)) sample.feed_mm_min[name] = feed;
+  }
+  sample.spindle_rpm = first_of(values, "spindle_rpm", nan_value);
+  sample.spindle_load_W = first_of(values, "spindle_load_W", nan_value);
+  sample.coolant_on = bits_of(values, "coolant_state", 0) != 0;
+  sample.compensation_on = bits_of(values, "compensation_state", 0) != 0;
+  const int state = bits_of(values, "state", state_referenced);
+  sample.moving = (state & state_moving) != 0;
+  sample.referenced = (state & state_referenced) != 0;
+  sample.alarm = (state & state_alarm) != 0;
+  sample.ambient_C = first_of(values, "ambient_C", nan_value);
+  sample.temperature_C.assign(m_profile.sensors.size(), nan_value);
+  if (const auto at = values.find("temperature_C"); at != values.end()) {
+    const std::size_t count = std::min(at->second.size(), sample.temperature_C.size());
+    std::copy_n(at->second.begin(), count, sample.temperature_C.begin());
+  }
+  if (const auto at = values.find("applied_um"); at != values.end()) {
+    std::copy_n(at->second.begin(), std::min<std::size_t>(3, at->second.size()), sample.applied_um.begin());
+  }
+  if (const auto at = values.find("probe_um"); at != values.end() && bits_of(values, "probes_valid", 1) != 0) {
+    sample.probes_um.emplace();
+    std::copy_n(at->second.begin(), std::min<std::size_t>(5, at->second.size()), sample.probes_um->begin());
+  }
+  return sample;
+}
+
+Status ModbusMachine::command(double spindle_rpm, bool coolant_on, bool path_cycle) {
+  ZD_CHECK(write_values("command_spindle_rpm", {spindle_rpm}));
+  ZD_CHECK(write_values("command_coolant", {coolant_on ? 1.0 : 0.0}));
+  return write_values("command_cycle", {path_cycle ? 1.0 : 0.0});
+}
+
+Status ModbusMachine::wait_until_zero(const std::string& name, double host_s, const std::string& what) {
+  const auto end = after(host_s);
+  for (;;) {
+    ZD_TRY(const double value, read_value(name));
+    if (value == 0.0) return {};
+    if (std::chrono::steady_clock::now() > end) {
+      return fail(ErrorCode::machine_not_ready,
+                  {{"what", what}, {"reason", fmt::format("not done within {:.0f} s", host_s)}});
+    }
+    pause_ms(10);
+  }
+}
+
+Status ModbusMachine::move_to(const std::map<std::string, double>& target_mm) {
+  ZD_TRY(const RegisterValues now,
+         read_values(present(m_map, {"position_X_mm", "position_Y_mm", "position_Z_mm", "state"})));
+  if ((bits_of(now, "state", state_referenced) & state_alarm) != 0) {
+    return fail(ErrorCode::machine_not_ready, {{"what", "a move"}, {"reason", "an alarm is on"}});
+  }
+  std::vector<double> target;
+  for (const char* axis : {"X", "Y", "Z"}) {
+    const auto at = target_mm.find(axis);
+    target.push_back(at != target_mm.end() ? at->second : first_of(now, fmt::format("position_{}_mm", axis), 0.0));
+  }
+  ZD_CHECK(write_values("target_mm", target));
+  ZD_CHECK(write_values("move", {1.0}));
+  return wait_until_zero("move", host_seconds(move_timeout_machine_s), "a move");
+}
+
+Result<bool> ModbusMachine::compensation_on() {
+  ZD_TRY(const double state, read_value("compensation_state"));
+  return state != 0.0;
+}
+
+Status ModbusMachine::switch_compensation(bool on) {
+  ZD_CHECK(write_values("command_compensation", {on ? 1.0 : 0.0}));
+  const auto end = after(host_seconds(10.0));
+  for (;;) {
+    ZD_TRY(const bool is_on, compensation_on());
+    if (is_on == on) return {};
+    if (std::chrono::steady_clock::now() > end) {
+      return fail(ErrorCode::machine_not_ready,
+                  {{"what", on ? "compensation on" : "compensation off"}, {"reason", "the switch does not follow"}});
+    }
+    pause_ms(10);
+  }
+}
+
+Status ModbusMachine::beat() {
+  if (m_map.find("host_heartbeat") == nullptr) return {};
+  return write_values("host_heartbeat", {static_cast<double>(++m_beat)});
+}
+
+Status ModbusMachine::write_host_offset(const std::array<double, 3>& compensation_um) {
+  ZD_TRY(const bool on, compensation_on());
+  ZD_CHECK(compensation::allow_offset_write(on));
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::isfinite(compensation_um[i]) && std::abs(compensation_um[i]) <= m_profile.max_um) continue;
+    return fail(ErrorCode::limit_exceeded, {{"what", fmt::format("the offset of axis {}", "XYZ"[i])},
+                                            {"found", fmt::format("{:.2f} um", compensation_um[i])},
+                                            {"limit", fmt::format("{:.0f} um", m_profile.max_um)}});
+  }
+  ZD_CHECK(beat());
+  return write_values("host_offset_um", {compensation_um.begin(), compensation_um.end()});
+}
+
+}  // namespace zerodrift::controller

@@ -1,0 +1,62 @@
+#pragma once
+// A machine behind a register map: acquisition::MachineIo over one Modbus connection. A sample is read in as few
+// requests as the map allows. Reads and harmless writes survive the sporadic faults of a device (busy, late, wrong
+// transaction, truncated, dropped, byte by byte); they are counted in health().
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/acquisition/machine_io.h"
+#include "core/controller/link.h"
+#include "core/controller/profile.h"
+#include "core/controller/register_map.h"
+
+namespace zerodrift::controller {
+
+using RegisterValues = std::map<std::string, std::vector<double>>;  // register name -> its values
+
+class ModbusMachine : public acquisition::MachineIo {
+ public:
+  /// Loads the profile's register map; the first request connects.
+  static Result<std::unique_ptr<ModbusMachine>> open(const Profile& profile);
+  ModbusMachine(Profile profile, RegisterMap map);
+
+  Result<acquisition::MachineIdentity> identify() override;
+  Result<acquisition::MachineSample> read() override;
+  Status command(double spindle_rpm, bool coolant_on, bool path_cycle) override;
+  Status move_to(const std::map<std::string, double>& target_mm) override;
+  Status switch_compensation(bool on) override;
+  /// Also beats the host heartbeat. interlock_compensation_off while the switch is off.
+  Status write_host_offset(const std::array<double, 3>& compensation_um) override;
+
+  /// Decoded values of registers of the map, read together.
+  Result<RegisterValues> read_values(const std::vector<std::string>& names);
+  Result<double> read_value(const std::string& name);
+  /// One value, or all values of an array register, in one request.
+  Status write_values(const std::string& name, const std::vector<double>& values, Retry retry = Retry::yes);
+  /// Raw words of an array register of words (a table area).
+  Result<std::vector<std::uint16_t>> read_words(const std::string& name, int count);
+  Status write_words(const std::string& name, int offset, std::span<const std::uint16_t> words);
+  Result<bool> compensation_on();
+  Status beat();
+
+  const LinkHealth& health() const { return m_link.health(); }
+  Link& link() { return m_link; }
+  const RegisterMap& map() const { return m_map; }
+  const Profile& profile() const { return m_profile; }
+  /// Host seconds to wait for so many machine seconds, never less than a few round trips.
+  double host_seconds(double machine_seconds) const;
+
+ private:
+  Result<std::vector<std::uint16_t>> read_span(const ReadSpan& span, const std::string& what);
+  Status wait_until_zero(const std::string& name, double host_s, const std::string& what);
+
+  Profile m_profile;
+  RegisterMap m_map;
+  Link m_link;
+  bool m_single_reads = false;  // the device refused a read across a gap
+  std::uint16_t m_beat = 0;
+};
+
+}  // namespace zerodrift::controller

@@ -1,0 +1,140 @@
+#include "core/controller/profile.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/json.h"
+
+namespace zerodrift::controller {
+namespace {
+
+constexpr NumberRange factor_range{0.0, 100000.0, true, "a number above 0, at most 100000"};
+
+ControllerSettings read_controller(JsonObject& o) {
+  ControllerSettings c;
+  c.kind = o.word("kind", {"modbus-tcp", "modbus-rtu"}) == "modbus-tcp" ? LinkKind::tcp : LinkKind::rtu;
+  if (c.kind == LinkKind::tcp) {
+    c.host = o.text("host");
+    c.port = o.integer_or("port", 502, 1, 65535);
+  } else {
+    c.device = o.text("device");
+    c.baud = o.integer_or("baud", c.baud, 300, 4000000);
+    const std::string parity = o.has("parity") ? o.word("parity", {"N", "E", "O", "none", "even", "odd"}) : "E";
+    c.parity = static_cast<char>(std::toupper(static_cast<unsigned char>(parity[0])));
+    c.stop_bits = o.integer_or("stop_bits", c.stop_bits, 1, 2);
+  }
+  c.unit = o.integer_or("unit", 1, 0, 255);
+  c.timeout_ms = o.integer_or("timeout_ms", 1000, 20, 60000);
+  c.register_map = o.text_or("register_map", c.register_map);
+  c.chunk_registers = o.integer_or("chunk_registers", c.chunk_registers, 8, 123);
+  return c;
+}
+
+std::array<int, 4> read_region(JsonObject& o, const char* key) {
+  const auto numbers = o.numbers(key, 4);
+  std::array<int, 4> region{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (numbers[i] < 0 || numbers[i] > 100000 || (i > 1 && numbers[i] < 1)) {
+      o.reject(key, fmt::format("{}", numbers[i]), "x, y, width and height in pixels");
+    }
+    region[i] = static_cast<int>(numbers[i]);
+  }
+  return region;
+}
+
+CameraProfile read_camera(JsonObject& o) {
+  CameraProfile camera;
+  camera.id = o.text("id");
+  camera.url = o.text("url");
+  const auto axes = o.texts_or_empty("axes");
+  if (axes.size() != 2) o.reject("axes", fmt::format("{} axes", axes.size()), "two axes, right and up in the image");
+  camera.axes = {axes[0], axes[1]};
+  camera.um_per_px_nominal = o.number_or("um_per_px_nominal", 0.0, not_negative);
+  camera.target_roi_px = read_region(o, "target_roi_px");
+  if (o.has("reference_roi_px")) camera.reference_roi_px = read_region(o, "reference_roi_px");
+  camera.pixel_size_known = o.flag_or("pixel_size_known", true);
+  return camera;
+}
+
+SensorProfile read_sensor(JsonObject& o) {
+  SensorProfile sensor;
+  sensor.channel = o.text("channel");
+  sensor.label = o.text_or("label", sensor.channel);
+  sensor.place = o.text_or("place", "");
+  sensor.position_mm = o.number_if("position_mm");
+  sensor.accuracy_C = o.number_or("accuracy_C", 0.1, positive);
+  return sensor;
+}
+
+Profile read_body(JsonObject& o) {
+  Profile profile;
+  o.word("format", {"zerodrift-profile/1"});
+  profile.name = o.text_or("name", "");
+  profile.time_factor = o.number_or("time_factor", 1.0, factor_range);
+  profile.controller = read_controller(o.object("controller"));
+  for (JsonObject& camera : o.objects_or_empty("cameras")) profile.cameras.push_back(read_camera(camera));
+  if (JsonObject* errors = o.object_if("errors"); errors != nullptr) {
+    const bool probes = errors->word("source", {"camera", "probes"}) == "probes";
+    profile.error_source = probes ? ErrorSourceKind::probes : ErrorSourceKind::camera;
+  }
+  profile.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
+  if (JsonObject* position = o.object_if("measure_position_mm"); position != nullptr) {
+    for (const auto& axis : position->keys()) profile.measure_position_mm[axis] = position->number(axis);
+  }
+  profile.calibration_span_mm = o.number_or("calibration_span_mm", 1.6, positive);
+  for (JsonObject& sensor : o.objects_or_empty("sensors")) profile.sensors.push_back(read_sensor(sensor));
+  if (JsonObject* limits = o.object_if("limits"); limits != nullptr) {
+    profile.max_um = limits->number_or("max_um", profile.max_um, positive);
+    profile.max_um_per_s = limits->number_or("max_um_per_s", profile.max_um_per_s, positive);
+  }
+  o.raw("machine");
+  return profile;
+}
+
+}  // namespace
+
+Result<Profile> profile_from_json(const nlohmann::json& document, const std::string& file,
+                                  std::vector<std::string>* warnings) {
+  ZD_TRY(Profile profile, from_json<Profile>(document, file, warnings, read_body));
+  profile.file = file;
+  const auto machine = document.find("machine");
+  if (machine == document.end() || machine->is_null()) return profile;
+  if (machine->is_string()) {
+    const auto path = std::filesystem::path(file).parent_path() / machine->get<std::string>();
+    ZD_TRY(nlohmann::json description, read_json_file(path));
+    profile.machine = std::make_shared<const nlohmann::json>(std::move(description));
+    profile.machine_file = path.string();
+  } else {
+    profile.machine = std::make_shared<const nlohmann::json>(*machine);
+    profile.machine_file = file;
+  }
+  return profile;
+}
+
+Result<Profile> read_profile(const std::filesystem::path& path, std::vector<std::string>* warnings) {
+  ZD_TRY(const nlohmann::json document, read_json_file(path));
+  return profile_from_json(document, path.string(), warnings);
+}
+
+Result<int> sensor_number(const Profile& profile, const std::string& channel) {
+  if (channel == "ambient_C") return 0;
+  std::string available = "ambient_C";
+  for (std::size_t i = 0; i < profile.sensors.size(); ++i) {
+    if (profile.sensors[i].channel == channel) return static_cast<int>(i) + 1;
+    available += ", " + profile.sensors[i].channel;
+  }
+  return fail(ErrorCode::channel_missing, {{"channel", channel}, {"available", available}});
+}
+
+Result<std::string> sensor_channel(const Profile& profile, int number) {
+  if (number == 0) return "ambient_C";
+  if (number < 0 || number > static_cast<int>(profile.sensors.size())) {
+    return fail(ErrorCode::data_does_not_fit, {{"what", "a sensor number of the controller's table"},
+                                               {"found", std::to_string(number)},
+                                               {"expected", fmt::format("0 to {}", profile.sensors.size())}});
+  }
+  return profile.sensors[number - 1].channel;
+}
+
+}  // namespace zerodrift::controller

@@ -1,0 +1,85 @@
+#pragma once
+// The connection profile of a machine (docs/profile.md): how its controller, cameras and sensors are reached and what
+// its limits are.
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace zerodrift::controller {
+
+enum class LinkKind {
+  tcp,
+  rtu,
+};
+
+struct ControllerSettings {
+  LinkKind kind = LinkKind::tcp;
+  std::string host = "127.0.0.1";
+  int port = 502;
+  std::string device;  // RTU: serial port
+  int baud = 19200;
+  char parity = 'E';  // N, E, O
+  int stop_bits = 1;
+  int unit = 1;
+  int timeout_ms = 1000;
+  std::string register_map = "zerodrift-virtual";  // name of a shipped map, or a path
+  int chunk_registers = 64;                        // registers a write when a table is staged; 8 to 123
+};
+
+struct CameraProfile {
+  std::string id;
+  std::string url;
+  std::array<std::string, 2> axes;  // machine axes along the image's right and up
+  double um_per_px_nominal = 0.0;
+  std::array<int, 4> target_roi_px{};  // x, y, width, height
+  std::optional<std::array<int, 4>> reference_roi_px;
+  bool pixel_size_known = true;
+};
+
+struct SensorProfile {
+  std::string channel;
+  std::string label;
+  std::string place;
+  std::optional<double> position_mm;
+  double accuracy_C = 0.1;
+};
+
+enum class ErrorSourceKind {
+  camera,
+  probes,
+};
+
+struct Profile {
+  std::string file;
+  std::string name;
+  double time_factor = 1.0;  // machine seconds a host second
+  ControllerSettings controller;
+  std::vector<CameraProfile> cameras;
+  ErrorSourceKind error_source = ErrorSourceKind::camera;
+  std::map<std::string, double> measure_position_mm;
+  double calibration_span_mm = 1.6;
+  std::vector<SensorProfile> sensors;  // in the order of the controller's temperature registers
+  double max_um = 200.0;
+  double max_um_per_s = 2.0;
+  std::shared_ptr<const nlohmann::json> machine;  // machine description, null if the profile has none
+  std::string machine_file;                       // where it came from, for messages
+};
+
+Result<Profile> profile_from_json(const nlohmann::json& document, const std::string& file,
+                                  std::vector<std::string>* warnings = nullptr);
+Result<Profile> read_profile(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
+
+/// Number of a sensor in a table's words: the position in the profile, from 1; ambient_C is 0.
+Result<int> sensor_number(const Profile& profile, const std::string& channel);
+/// The channel of a number; data_does_not_fit when the profile has no such sensor.
+Result<std::string> sensor_channel(const Profile& profile, int number);
+
+}  // namespace zerodrift::controller

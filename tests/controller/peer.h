@@ -1,0 +1,30 @@
+#pragma once
+// Starts the pymodbus peer (peer_server.py) as a child process for a test and stops it again.
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace zerodrift::controller {
+
+class Peer {
+ public:
+  /// Starts and waits until it serves; running() is false where python3-pymodbus is not installed.
+  explicit Peer(const std::vector<std::string>& options = {});
+  ~Peer();
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  bool running() const { return m_running; }
+  const std::string& profile_file() const { return m_profile; }
+  int port() const { return m_port; }
+
+ private:
+  pid_t m_pid = -1;
+  bool m_running = false;
+  int m_port = 0;
+  std::string m_profile;
+};
+
+}  // namespace zerodrift::controller
