@@ -1,0 +1,197 @@
+#include "core/analysis/cleaning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace zerodrift::analysis {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return missing;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<double> present(const std::vector<double>& values) {
+  std::vector<double> out;
+  for (const double v : values) {
+    if (std::isfinite(v)) out.push_back(v);
+  }
+  return out;
+}
+
+double start_value(const std::vector<double>& values) {
+  std::vector<double> first = present(values);
+  if (first.size() > 9) first.resize(9);
+  return median_of(std::move(first));
+}
+
+/// First row of the stretch of equal or missing samples that the series ends with.
+std::size_t frozen_from(const std::vector<double>& values) {
+  std::size_t from = values.size();
+  double last = missing;
+  for (std::size_t i = values.size(); i-- > 0;) {
+    if (std::isfinite(values[i])) {
+      if (std::isfinite(last) && values[i] != last) break;
+      last = values[i];
+    }
+    from = i;
+  }
+  return from;
+}
+
+/// True when more than half of the steps before `end` change the value: a noisy sensor, so that standing still is odd.
+bool is_noisy(const std::vector<double>& values, std::size_t end) {
+  int moves = 0;
+  int steps = 0;
+  double last = missing;
+  for (std::size_t i = 0; i < end; ++i) {
+    if (!std::isfinite(values[i])) continue;
+    if (std::isfinite(last)) {
+      ++steps;
+      if (values[i] != last) ++moves;
+    }
+    last = values[i];
+  }
+  return steps >= 20 && 2 * moves > steps;
+}
+
+}  // namespace
+
+int remove_spikes(std::vector<double>& values) {
+  for (double& v : values) {
+    if (!std::isfinite(v)) v = missing;
+  }
+  constexpr int reach = 5;
+  constexpr double smallest_spike_K = 0.8;
+  const std::vector<double> original = values;
+  const int n = static_cast<int>(values.size());
+  int removed = 0;
+  for (int i = 0; i < n; ++i) {
+    if (!std::isfinite(original[i])) continue;
+    std::vector<double> around;
+    for (int j = std::max(0, i - reach); j <= std::min(n - 1, i + reach); ++j) {
+      if (j != i && std::isfinite(original[j])) around.push_back(original[j]);
+    }
+    if (around.size() < 4) continue;
+    const double middle = median_of(around);
+    std::vector<double> deviation;
+    for (const double v : around) deviation.push_back(std::abs(v - middle));
+    const double sigma = 1.4826 * median_of(std::move(deviation));
+    if (std::abs(original[i] - middle) > std::max(6.0 * sigma, smallest_spike_K)) {
+      values[i] = missing;
+      ++removed;
+    }
+  }
+  return removed;
+}
+
+std::optional<Finding> fatal_fault(const std::string& channel, const std::vector<double>& time_s,
+                                   const std::vector<double>& values) {
+  const std::vector<double> there = present(values);
+  if (there.size() < 3 || there.size() * 20 < values.size()) {
+    return Finding{FindingKind::dead_sensor, FindingAction::dropped, channel, fmt::format("{} samples", there.size())};
+  }
+  const auto [low, high] = std::minmax_element(there.begin(), there.end());
+  if (*high - *low < 1e-9) {
+    return Finding{FindingKind::constant_sensor, FindingAction::dropped, channel, fmt::format("always {:.4g}", *low)};
+  }
+  if (*low < -60.0 || *high > 1200.0) {
+    return Finding{FindingKind::implausible, FindingAction::dropped, channel,
+                   fmt::format("{:.4g} to {:.4g}", *low, *high)};
+  }
+  const double duration_s = time_s.back() - time_s.front();
+  std::size_t last = values.size();
+  while (last > 0 && !std::isfinite(values[last - 1])) --last;
+  if (time_s.back() - time_s[last - 1] > 0.1 * duration_s) {
+    return Finding{FindingKind::sensor_died, FindingAction::dropped, channel,
+                   fmt::format("no samples from {:.0f} s", time_s[last - 1])};
+  }
+  const std::size_t frozen = frozen_from(values);
+  if (values.size() - frozen >= 50 && time_s.back() - time_s[frozen] > 0.1 * duration_s && is_noisy(values, frozen)) {
+    return Finding{FindingKind::sensor_died, FindingAction::dropped, channel,
+                   fmt::format("frozen from {:.0f} s", time_s[frozen])};
+  }
+  return std::nullopt;
+}
+
+double bridge_gaps(const std::vector<double>& time_s, std::vector<double>& values) {
+  double longest_s = 0.0;
+  const std::size_t n = values.size();
+  std::size_t before = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!std::isfinite(values[i])) continue;
+    if (before == n) {
+      for (std::size_t j = 0; j < i; ++j) values[j] = values[i];
+      if (i > 0) longest_s = time_s[i] - time_s[0];
+    } else if (i > before + 1) {
+      longest_s = std::max(longest_s, time_s[i] - time_s[before]);
+      for (std::size_t j = before + 1; j < i; ++j) {
+        const double f = (time_s[j] - time_s[before]) / (time_s[i] - time_s[before]);
+        values[j] = values[before] + f * (values[i] - values[before]);
+      }
+    }
+    before = i;
+  }
+  if (before == n) return 0.0;
+  for (std::size_t j = before + 1; j < n; ++j) values[j] = values[before];
+  if (before + 1 < n) longest_s = std::max(longest_s, time_s[n - 1] - time_s[before]);
+  return longest_s;
+}
+
+void hold_gaps(std::vector<double>& values) {
+  double last = 0.0;
+  for (const double v : values) {
+    if (std::isfinite(v)) {
+      last = v;
+      break;
+    }
+  }
+  for (double& v : values) {
+    if (std::isfinite(v)) {
+      last = v;
+    } else {
+      v = last;
+    }
+  }
+}
+
+void convert_units(const std::vector<std::string>& channels, std::vector<std::vector<double>>& values,
+                   std::vector<Finding>& findings) {
+  const auto convert = [&](std::size_t c, FindingKind kind) {
+    for (double& v : values[c]) v = kind == FindingKind::kelvin ? v - 273.15 : (v - 32.0) / 1.8;
+    findings.push_back({kind, FindingAction::repaired, channels[c], {}});
+  };
+  std::vector<double> starts;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const std::vector<double> there = present(values[c]);
+    if (!there.empty() && *std::min_element(there.begin(), there.end()) > 200.0 && start_value(there) < 400.0) {
+      convert(c, FindingKind::kelvin);
+    }
+    const double start = start_value(values[c]);
+    if (std::isfinite(start)) starts.push_back(start);
+  }
+  if (starts.empty()) return;
+  const double coldest = *std::min_element(starts.begin(), starts.end());
+  const double middle = median_of(starts);
+  if (coldest > 50.0 && coldest < 120.0) {
+    for (std::size_t c = 0; c < channels.size(); ++c) convert(c, FindingKind::fahrenheit);
+    return;
+  }
+  // One sensor alone: only when the rest starts uniform and the converted value falls among them.
+  double uniform_count = 0.0;
+  for (const double s : starts) uniform_count += std::abs(s - middle) < 3.0 ? 1.0 : 0.0;
+  if (uniform_count < 0.6 * static_cast<double>(starts.size()) || starts.size() < 3) return;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const double start = start_value(values[c]);
+    if (start - middle > 20.0 && std::abs((start - 32.0) / 1.8 - middle) < 1.5) convert(c, FindingKind::fahrenheit);
+  }
+}
+
+}  // namespace zerodrift::analysis

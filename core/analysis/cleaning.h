@@ -1,0 +1,30 @@
+#pragma once
+// Faults of one temperature series: found, named, repaired where that is honest.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/analysis/findings.h"
+
+namespace zerodrift::analysis {
+
+/// Infinite becomes missing; isolated spikes (Hampel 1974: far from the median of the neighbours, in units of their
+/// median absolute deviation) become missing. Returns how many spikes there were.
+int remove_spikes(std::vector<double>& values);
+
+/// A fault that makes the whole series useless, if there is one: dead, died half-way, constant.
+std::optional<Finding> fatal_fault(const std::string& channel, const std::vector<double>& time_s,
+                                   const std::vector<double>& values);
+
+/// Missing samples: straight line between neighbours, held at the ends. Returns the longest gap bridged in s.
+double bridge_gaps(const std::vector<double>& time_s, std::vector<double>& values);
+/// Missing samples of an input: held from the sample before; before the first one its value.
+void hold_gaps(std::vector<double>& values);
+
+/// Converts series that are in K or in Fahrenheit by their look. A cold machine stands between about 0 and 45 C, so a
+/// whole set that starts above 50 "C" is in Fahrenheit, and anything that starts above 200 is in kelvin.
+void convert_units(const std::vector<std::string>& channels, std::vector<std::vector<double>>& values,
+                   std::vector<Finding>& findings);
+
+}  // namespace zerodrift::analysis

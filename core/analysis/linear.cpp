@@ -1,0 +1,195 @@
+#include "core/analysis/linear.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace zerodrift::analysis {
+namespace {
+
+Eigen::MatrixXd noise_matrix(const NoiseModel& noise, const Rows& rows) {
+  const Eigen::Index n = rows.size();
+  Eigen::MatrixXd k = Eigen::MatrixXd::Identity(n, n);
+  if (noise.memory_s <= 0.0) return k;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const bool same = rows.run[static_cast<std::size_t>(i)] == rows.run[static_cast<std::size_t>(j)];
+      const double dt_s = rows.time_s[static_cast<std::size_t>(i)] - rows.time_s[static_cast<std::size_t>(j)];
+      k(i, j) = k(j, i) = same ? std::exp(-std::abs(dt_s) / noise.memory_s) : 0.0;
+    }
+    k(i, i) = 1.0 + noise.nugget;
+  }
+  return k;
+}
+
+/// The regression after the noise is made white and the intercept is taken out: features a, error y, in the singular
+/// basis of a, where every penalty is a division.
+struct Whitened {
+  Eigen::VectorXd ones;
+  Eigen::VectorXd y;
+  Eigen::MatrixXd x;
+  Eigen::BDCSVD<Eigen::MatrixXd> svd;
+  Eigen::VectorXd uy;
+  double y_square = 0.0;
+  double log_determinant = 0.0;
+  double ones_square = 0.0;
+};
+
+Whitened whiten(const NoiseModel& noise, const Rows& rows, const Eigen::MatrixXd& standardised) {
+  Whitened w;
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(noise_matrix(noise, rows));
+  w.ones = cholesky.matrixL().solve(Eigen::VectorXd::Ones(rows.size()));
+  w.ones_square = w.ones.squaredNorm();
+  w.y = cholesky.matrixL().solve(rows.y);
+  w.x = cholesky.matrixL().solve(standardised);
+  w.log_determinant = 2.0 * Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
+  const Eigen::VectorXd y = w.y - w.ones * (w.ones.dot(w.y) / w.ones_square);
+  const Eigen::MatrixXd a = w.x - w.ones * ((w.ones.transpose() * w.x) / w.ones_square);
+  w.svd.compute(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  w.uy = w.svd.matrixU().transpose() * y;
+  w.y_square = y.squaredNorm();
+  return w;
+}
+
+double noise_variance(const Whitened& w, double penalty, Eigen::Index rows) {
+  const Eigen::ArrayXd shrink = 1.0 + w.svd.singularValues().array().square() / penalty;
+  const double outside = std::max(w.y_square - w.uy.squaredNorm(), 0.0);
+  return std::max((outside + (w.uy.array().square() / shrink).sum()) / static_cast<double>(rows - 1), 1e-20);
+}
+
+double log_likelihood(const Whitened& w, double penalty, Eigen::Index rows) {
+  const Eigen::ArrayXd shrink = 1.0 + w.svd.singularValues().array().square() / penalty;
+  return -0.5 * (static_cast<double>(rows - 1) * std::log(noise_variance(w, penalty, rows)) + shrink.log().sum() +
+                 w.log_determinant + std::log(w.ones_square));
+}
+
+}  // namespace
+
+LeastSquares least_squares(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool about_mean) {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  LeastSquares out;
+  Matrix a = x.cast<long double>();
+  Vector scale = a.colwise().norm().transpose();
+  for (Eigen::Index c = 0; c < a.cols(); ++c) {
+    if (scale(c) == 0.0L) scale(c) = 1.0L;
+    a.col(c) /= scale(c);
+  }
+  Eigen::ColPivHouseholderQR<Matrix> qr(a);
+  qr.setThreshold(1e-16L * static_cast<long double>(a.rows()));
+  const Vector b = y.cast<long double>();
+  Vector solution = qr.solve(b);
+  solution += qr.solve(Vector(b - a * solution));  // one step of refinement
+  const Vector residual = b - a * solution;
+  out.rank = static_cast<int>(qr.rank());
+  const auto freedom = static_cast<long double>(a.rows() - qr.rank());
+  const long double variance = freedom > 0 ? residual.squaredNorm() / freedom : 0.0L;
+  out.residual_deviation = static_cast<double>(std::sqrt(variance));
+  const long double total = about_mean ? (b.array() - b.mean()).matrix().squaredNorm() : b.squaredNorm();
+  out.r_squared = total > 0 ? static_cast<double>(1.0L - residual.squaredNorm() / total) : 0.0;
+  const Eigen::Index rank = qr.rank();
+  const Matrix r = qr.matrixR().topLeftCorner(rank, rank).template triangularView<Eigen::Upper>();
+  const Matrix inverse = r.template triangularView<Eigen::Upper>().solve(Matrix::Identity(rank, rank));
+  Vector errors = Vector::Zero(a.cols());
+  for (Eigen::Index k = 0; k < rank; ++k) {
+    errors(qr.colsPermutation().indices()(k)) = std::sqrt(variance * inverse.row(k).squaredNorm());
+  }
+  out.coefficient = solution.cwiseQuotient(scale).cast<double>();
+  out.standard_error = errors.cwiseQuotient(scale).cast<double>();
+  return out;
+}
+
+Rows pick(const Rows& rows, const std::vector<int>& which) {
+  Rows out;
+  out.x.resize(static_cast<Eigen::Index>(which.size()), rows.x.cols());
+  out.y.resize(static_cast<Eigen::Index>(which.size()));
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    const auto from = static_cast<std::size_t>(which[i]);
+    out.x.row(static_cast<Eigen::Index>(i)) = rows.x.row(which[i]);
+    out.y(static_cast<Eigen::Index>(i)) = rows.y(which[i]);
+    out.time_s.push_back(rows.time_s[from]);
+    out.run.push_back(rows.run[from]);
+  }
+  return out;
+}
+
+RidgeChoice default_choice(double duration_s) {
+  RidgeChoice choice;
+  choice.noises.push_back({0.0, 0.0});
+  for (const double hours : {0.5, 1.0, 2.0, 4.0, 8.0}) {
+    if (hours * 3600.0 * 3.0 > duration_s && hours > 0.5) continue;
+    for (const double nugget : {0.01, 0.3}) choice.noises.push_back({hours * 3600.0, nugget});
+  }
+  for (int k = -8; k <= 8; ++k) choice.penalties.push_back(std::pow(10.0, 0.5 * k));
+  return choice;
+}
+
+RidgeFit fit_ridge(const Rows& rows, const RidgeChoice& choice) {
+  RidgeFit fit;
+  const Eigen::Index n = rows.size();
+  fit.mean = rows.x.colwise().mean().transpose();
+  Eigen::MatrixXd z = rows.x.rowwise() - fit.mean.transpose();
+  fit.scale = (z.colwise().squaredNorm().transpose() / static_cast<double>(n)).cwiseSqrt();
+  for (double& s : fit.scale) {
+    if (!(s > 1e-9)) s = 1e9;  // a feature that never moved says nothing about states where it does
+  }
+  z = z * fit.scale.cwiseInverse().asDiagonal();
+  fit.likelihood = -std::numeric_limits<double>::infinity();
+  std::optional<Whitened> best;
+  for (const auto& noise : choice.noises) {
+    Whitened w = whiten(noise, rows, z);
+    bool better = false;
+    for (const double penalty : choice.penalties) {
+      const double likelihood = log_likelihood(w, penalty, n);
+      if (likelihood <= fit.likelihood) continue;
+      fit.likelihood = likelihood;
+      fit.penalty = penalty;
+      fit.noise = noise;
+      better = true;
+    }
+    if (better) best.emplace(std::move(w));
+  }
+  const Eigen::ArrayXd s = best->svd.singularValues().array();
+  const Eigen::MatrixXd& v = best->svd.matrixV();
+  fit.beta = v * (s / (s.square() + fit.penalty) * best->uy.array()).matrix();
+  fit.intercept = best->ones.dot(best->y - best->x * fit.beta) / best->ones_square;
+  fit.sigma_um = std::sqrt(noise_variance(*best, fit.penalty, n));
+  // Prior variance 1 / penalty, reduced in the directions that the run excited.
+  const Eigen::ArrayXd reduction = 1.0 / (s.square() + fit.penalty) - 1.0 / fit.penalty;
+  fit.covariance = v * reduction.matrix().asDiagonal() * v.transpose();
+  fit.covariance.diagonal().array() += 1.0 / fit.penalty;
+  return fit;
+}
+
+Eigen::VectorXd RidgeFit::predict(const Eigen::MatrixXd& x) const {
+  return ((x * raw_coefficients()).array() + raw_intercept()).matrix();
+}
+
+Eigen::VectorXd RidgeFit::deviation(const Eigen::MatrixXd& x) const {
+  const Eigen::MatrixXd z = (x.rowwise() - mean.transpose()) * scale.cwiseInverse().asDiagonal();
+  const Eigen::ArrayXd leverage = (z * covariance).cwiseProduct(z).rowwise().sum().array().max(0.0);
+  return (sigma_um * (1.0 + noise.nugget + leverage).sqrt()).matrix();
+}
+
+double remembered_um(const RidgeFit& fit, const Rows& past, double time_s, int run) {
+  if (fit.noise.memory_s <= 0.0) return 0.0;
+  std::vector<int> mine;
+  for (int i = 0; i < past.size(); ++i) {
+    if (past.run[static_cast<std::size_t>(i)] == run && past.time_s[static_cast<std::size_t>(i)] <= time_s) {
+      mine.push_back(i);
+    }
+  }
+  if (mine.empty()) return 0.0;
+  const Rows rows = pick(past, mine);
+  const Eigen::VectorXd residual = rows.y - fit.predict(rows.x);
+  Eigen::VectorXd k(rows.size());
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    k(i) = std::exp(-(time_s - rows.time_s[static_cast<std::size_t>(i)]) / fit.noise.memory_s);
+  }
+  return k.dot(noise_matrix(fit.noise, rows).llt().solve(residual));
+}
+
+}  // namespace zerodrift::analysis

@@ -1,0 +1,119 @@
+#include "core/analysis/cleaning.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/analysis/prepare.h"
+#include "tests/analysis/support.h"
+
+namespace zerodrift::analysis {
+namespace {
+
+using test::machine_run;
+using test::missing;
+using testing::Contains;
+using testing::Not;
+
+bool names(const Prepared& data, FindingKind kind, const std::string& channel, FindingAction action) {
+  for (const auto& f : data.findings) {
+    if (f.kind == kind && f.channel == channel && f.action == action) return true;
+  }
+  return false;
+}
+
+std::vector<double>& values(recording::Recording& r, const char* channel) {
+  return r.find(channel)->values;
+}
+
+}  // namespace
+
+TEST(Cleaning, CleanRecordingHasNoFindings) {
+  const auto data = prepare(machine_run({}));
+  ASSERT_TRUE(data) << describe(data.error());
+  EXPECT_TRUE(data->findings.empty()) << describe(data->findings.front());
+  EXPECT_EQ(data->sensors.size(), 20U);
+  EXPECT_EQ(data->errors.size(), 3U);
+}
+
+TEST(Cleaning, EveryFaultIsNamedAndTheRestIsFinite) {
+  auto r = machine_run({});
+  auto& dead = values(r, "T2_C");
+  std::fill(dead.begin(), dead.end(), missing);
+  auto& constant = values(r, "T3_C");
+  std::fill(constant.begin(), constant.end(), 21.0);
+  auto& frozen = values(r, "T4_C");
+  std::fill(frozen.begin() + 700, frozen.end(), frozen[700]);
+  auto& silent = values(r, "T5_C");
+  std::fill(silent.begin() + 700, silent.end(), missing);
+  values(r, "T7_C") = values(r, "T6_C");
+  values(r, "T8_C")[100] += 30.0;
+  values(r, "T8_C")[300] = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 400; i < 460; ++i) values(r, "T9_C")[i] = missing;
+  for (double& v : values(r, "T10_C")) v = v * 1.8 + 32.0;
+  for (double& v : values(r, "T11_C")) v += 273.15;
+  for (double& v : values(r, "dY_um")) v = 0.0;
+  const auto data = prepare(r);
+  ASSERT_TRUE(data) << describe(data.error());
+  EXPECT_TRUE(names(*data, FindingKind::dead_sensor, "T2_C", FindingAction::dropped));
+  EXPECT_TRUE(names(*data, FindingKind::constant_sensor, "T3_C", FindingAction::dropped));
+  EXPECT_TRUE(names(*data, FindingKind::sensor_died, "T4_C", FindingAction::dropped));
+  EXPECT_TRUE(names(*data, FindingKind::sensor_died, "T5_C", FindingAction::dropped));
+  EXPECT_TRUE(names(*data, FindingKind::duplicate_sensor, "T7_C", FindingAction::dropped));
+  EXPECT_TRUE(names(*data, FindingKind::spikes, "T8_C", FindingAction::repaired));
+  EXPECT_TRUE(names(*data, FindingKind::gaps, "T9_C", FindingAction::repaired));
+  EXPECT_TRUE(names(*data, FindingKind::fahrenheit, "T10_C", FindingAction::repaired));
+  EXPECT_TRUE(names(*data, FindingKind::kelvin, "T11_C", FindingAction::repaired));
+  EXPECT_TRUE(names(*data, FindingKind::error_never_moves, "dY_um", FindingAction::dropped));
+  EXPECT_EQ(data->findings.size(), 10U);
+  EXPECT_TRUE(data->temperature_C.allFinite());
+  EXPECT_LT(data->temperature_C.maxCoeff(), 40.0);
+  EXPECT_THAT(data->sensors, Not(Contains("T4_C")));
+}
+
+TEST(Cleaning, WholeRecordingInFahrenheitIsConverted) {
+  auto r = machine_run({});
+  const double before = values(r, "T1_C")[0];
+  for (int s = 1; s <= 20; ++s) {
+    for (double& v : values(r, ("T" + std::to_string(s) + "_C").c_str())) v = v * 1.8 + 32.0;
+  }
+  const auto data = prepare(r);
+  ASSERT_TRUE(data);
+  EXPECT_NEAR(data->temperature_C(0, 0), before, 1e-9);
+  EXPECT_EQ(data->findings.size(), 20U);
+}
+
+TEST(Cleaning, FaultySensorAskedForByNameIsRefused) {
+  auto r = machine_run({});
+  for (double& v : values(r, "T2_C")) v = missing;
+  const auto data = prepare(r, {{"T1_C", "T2_C"}, {}, true});
+  ASSERT_FALSE(data);
+  EXPECT_EQ(data.error().code, ErrorCode::sensor_dead);
+  EXPECT_EQ(data.error().context.at("sensor"), "T2_C");
+}
+
+TEST(Cleaning, RecordingWithoutMovingErrorsIsRefused) {
+  auto r = machine_run({});
+  for (const char* e : {"dX_um", "dY_um", "dZ_um"}) {
+    for (double& v : values(r, e)) v = 0.0;
+  }
+  const auto data = prepare(r);
+  ASSERT_FALSE(data);
+  EXPECT_EQ(data.error().code, ErrorCode::no_variation);
+}
+
+TEST(Cleaning, SmoothingKeepsAStraightLineAndSuppressesNoise) {
+  std::vector<double> t;
+  Eigen::MatrixXd v(400, 2);
+  Noise noise(3);
+  for (int i = 0; i < 400; ++i) {
+    t.push_back(10.0 * i);
+    v(i, 0) = 20.0 + 0.003 * t.back();
+    v(i, 1) = v(i, 0) + 0.1 * noise.normal();
+  }
+  const Eigen::MatrixXd s = smooth(t, v, 150.0);
+  EXPECT_LT((s.col(0) - v.col(0)).cwiseAbs().maxCoeff(), 1e-9);
+  const double left = std::sqrt((s.col(1) - v.col(0)).middleRows(20, 360).squaredNorm() / 360.0);
+  EXPECT_LT(left, 0.025);  // 0.1 / sqrt(31) = 0.018
+}
+
+}  // namespace zerodrift::analysis

@@ -1,0 +1,84 @@
+// Independent values by scikit-learn and scipy; golden/analysis/make_clustering.py says how they were made.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/analysis/kmeans.h"
+#include "core/analysis/statistics.h"
+
+namespace zerodrift::analysis {
+namespace {
+
+nlohmann::json golden() {
+  std::ifstream file(ZERODRIFT_SOURCE_DIR "/tests/golden/analysis/clustering.json");
+  return nlohmann::json::parse(file);
+}
+
+Eigen::VectorXd vector_of(const nlohmann::json& list) {
+  Eigen::VectorXd v(static_cast<Eigen::Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) v(static_cast<Eigen::Index>(i)) = list[i].get<double>();
+  return v;
+}
+
+Eigen::MatrixXd items_of(const nlohmann::json& g) {
+  Eigen::MatrixXd items(static_cast<Eigen::Index>(g["items"].size()), static_cast<Eigen::Index>(g["items"][0].size()));
+  for (Eigen::Index i = 0; i < items.rows(); ++i) items.row(i) = vector_of(g["items"][static_cast<std::size_t>(i)]);
+  return items;
+}
+
+}  // namespace
+
+TEST(Golden, LloydFromTheSameCentres) {
+  const auto g = golden();
+  const Eigen::MatrixXd items = items_of(g);
+  Eigen::MatrixXd centres(4, items.cols());
+  for (int k = 0; k < 4; ++k) centres.row(k) = items.row(g["initial_items"][static_cast<std::size_t>(k)].get<int>());
+  const Clustering c = lloyd(items, centres);
+  const auto labels = g["labels"].get<std::vector<int>>();
+  EXPECT_DOUBLE_EQ(adjusted_rand(c.cluster_of, labels), 1.0);
+  EXPECT_NEAR(c.inertia, g["inertia"].get<double>(), 1e-9);
+  const auto silhouette = silhouettes(items, c.cluster_of);
+  for (std::size_t i = 0; i < silhouette.size(); ++i) {
+    EXPECT_NEAR(silhouette[i], g["silhouettes"][i].get<double>(), 1e-12) << i;
+  }
+  EXPECT_NEAR(adjusted_rand(c.cluster_of, g["other_labels"].get<std::vector<int>>()), g["adjusted_rand"].get<double>(),
+              1e-12);
+}
+
+TEST(Golden, AverageLinkage) {
+  const auto g = golden();
+  const auto merges = dendrogram(items_of(g));
+  ASSERT_EQ(merges.size(), g["merges"].size());
+  for (std::size_t i = 0; i < merges.size(); ++i) {
+    EXPECT_EQ(merges[i].a, g["merges"][i][0].get<int>());
+    EXPECT_EQ(merges[i].b, g["merges"][i][1].get<int>());
+    EXPECT_NEAR(merges[i].height, g["merges"][i][2].get<double>(), 1e-9);
+    EXPECT_EQ(merges[i].size, g["merges"][i][3].get<int>());
+  }
+}
+
+TEST(Golden, PrincipalComponentsCorrelationAndInflation) {
+  const auto g = golden();
+  const Eigen::MatrixXd items = items_of(g);
+  const auto pc = principal_components(items);
+  const Eigen::VectorXd error = vector_of(g["error"]);
+  for (Eigen::Index i = 0; i < items.rows(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_NEAR(std::abs(pc.scores(i, 0)), g["pc1_absolute"][at].get<double>(), 1e-9);
+    EXPECT_NEAR(pearson(items.row(i).transpose(), error), g["pearson"][at].get<double>(), 1e-12);
+  }
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    EXPECT_NEAR(pc.explained(k), g["explained"][static_cast<std::size_t>(k)].get<double>(), 1e-12);
+  }
+  Eigen::MatrixXd columns(items.cols(), 3);
+  for (Eigen::Index k = 0; k < 3; ++k)
+    columns.col(k) = items.row(g["vif_items"][static_cast<std::size_t>(k)].get<int>());
+  const Eigen::VectorXd vif = variance_inflation(columns);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    EXPECT_NEAR(vif(k) / g["vif"][static_cast<std::size_t>(k)].get<double>(), 1.0, 1e-9);
+  }
+}
+
+}  // namespace zerodrift::analysis
