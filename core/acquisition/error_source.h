@@ -2,6 +2,7 @@
 // Where the errors of a run come from: camera and target (V1 to V4), displacement probes (V5).
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ class ErrorSource {
   virtual ~ErrorSource() = default;
   /// Takes the zero: what is measured from now on is relative to this moment.
   virtual Status take_zero(const TaskContext& context) = 0;
+  /// The zero in force, in um of the source's own scale, to be kept with the run: a run that goes on after a crash must
+  /// go on from the same zero. Nothing when the source cannot say; then an interrupted run is not resumed.
+  virtual std::optional<std::array<double, 3>> zero_um() const { return std::nullopt; }
+  /// Puts a kept zero in force instead of taking one; false when the source cannot.
+  virtual bool restore_zero_um(const std::array<double, 3>& /*zero_um*/) { return false; }
   /// One measurement with the machine standing at the measuring position. A refused frame is not a failure:
   /// its directions are NaN and problems says why. A failure is a dead source.
   virtual Result<ErrorSample> measure(const TaskContext& context) = 0;
