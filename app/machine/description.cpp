@@ -1,0 +1,131 @@
+#include "app/machine/description.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/machine/camera/view.h"
+#include "app/machine/nominal.h"
+#include "app/machine/sensors.h"
+
+namespace zerodrift::machine {
+namespace {
+
+using nlohmann::json;
+
+json bearing_json(const char* id, const nominal::Bearing& bearing) {
+  return {{"id", id},
+          {"kind", "bearing"},
+          {"from_mm", bearing.from_mm},
+          {"to_mm", bearing.to_mm},
+          {"mean_diameter_mm", bearing.mean_diameter_mm},
+          {"f0", bearing.f0},
+          {"f1", bearing.f1},
+          {"load_N", bearing.load_N},
+          {"oil_viscosity_mm2_s", bearing.viscosity_mm2_s}};
+}
+
+json spindle_json() {
+  const json motor = {{"id", "motor"},
+                      {"kind", "motor"},
+                      {"from_mm", nominal::motor_from_mm},
+                      {"to_mm", nominal::motor_to_mm},
+                      {"rated_power_W", nominal::motor_rated_power_W},
+                      {"efficiency", nominal::motor_net_efficiency},
+                      {"rated_speed_rpm", nominal::top_speed_rpm}};
+  return {{"id", "spindle"},
+          {"length_mm", nominal::spindle_length_mm},
+          {"outer_diameter_mm", nominal::housing_diameter_mm},
+          {"bore_diameter_mm", nominal::bore_diameter_mm},
+          {"material",
+           {{"conductivity_W_mK", nominal::conductivity_W_mK},
+            {"density_kg_m3", nominal::density_kg_m3},
+            {"heat_capacity_J_kgK", nominal::heat_capacity_J_kgK},
+            {"expansion_1_K", nominal::expansion_1_K}}},
+          {"heat_sources",
+           {motor, bearing_json("rear_bearing", nominal::rear_bearing),
+            bearing_json("front_bearing", nominal::front_bearing)}}};
+}
+
+json sensors_json() {
+  json sensors = json::array();
+  for (int i = 0; i < sensor_count; ++i) {
+    const SensorPlace& place = sensor_places()[i];
+    if (place.place != "spindle") continue;
+    sensors.push_back({{"channel", fmt::format("T{}_C", i + 1)},
+                       {"component", "spindle"},
+                       {"position_mm", place.position_mm},
+                       {"accuracy_C", 0.1}});
+  }
+  sensors.push_back({{"channel", "ambient_C"}, {"component", "ambient"}});
+  return sensors;
+}
+
+/// A box of 160 px about where the spindle's target stands, and one about the left mark of the table's target.
+json camera_json(View view, const Endpoints& endpoints) {
+  const ViewOptions options = view_options(view, 1);
+  constexpr int target_px = 160;
+  constexpr int mark_px = 120;
+  const PixelPosition mark = options.reference_marks_px[0];
+  return {{"id", name_of(view)},
+          {"url", fmt::format("http://{}:{}/{}.mjpg", endpoints.host, endpoints.camera_port, name_of(view))},
+          {"axes", {view == View::front ? "X" : "Y", "Z"}},
+          {"um_per_px_nominal", 12.0},
+          {"target_roi_px",
+           {(options.width_px - target_px) / 2, (options.height_px - target_px) / 2, target_px, target_px}},
+          {"reference_roi_px",
+           {static_cast<int>(mark.x_px) - mark_px / 2, static_cast<int>(mark.y_px) - mark_px / 2, mark_px, mark_px}},
+          {"pixel_size_known", false}};
+}
+
+}  // namespace
+
+json machine_description(const HiddenEffect& hidden) {
+  json description = {
+      {"format", "zerodrift-machine/1"},
+      {"name", "Virtual five-axis"},
+      {"components", {spindle_json()}},
+      {"effects", {"convection"}},
+      {"effect_parameters", {{"convection", {{"h_W_m2K", nominal::film_W_m2K}}}}},
+      {"tolerances", {{"conductivity", 0.05}, {"heat_capacity", 0.04}, {"heat_source_power", 0.15}, {"film", 0.15}}},
+      {"sensors", sensors_json()},
+      {"displacements",
+       {{{"channel", "dZ_um"}, {"direction", "Z"}, {"component", "spindle"}},
+        {{"channel", "dY_um"}, {"direction", "Y"}, {"component", "spindle"}}}}};
+  if (hidden.is("convection")) {
+    description["effects"] = json::array();
+    description.erase("effect_parameters");
+  }
+  return description;
+}
+
+json connection_profile(const Endpoints& endpoints, const HiddenEffect& hidden) {
+  json sensors = json::array();
+  for (int i = 0; i < sensor_count; ++i) {
+    const SensorPlace& place = sensor_places()[i];
+    sensors.push_back({{"channel", fmt::format("T{}_C", i + 1)},
+                       {"label", place.label},
+                       {"place", place.place},
+                       {"position_mm", place.position_mm},
+                       {"accuracy_C", 0.1}});
+  }
+  return {{"format", "zerodrift-profile/1"},
+          {"name", "Virtual five-axis"},
+          {"time_factor", endpoints.speedup},
+          {"controller",
+           {{"kind", "modbus-tcp"},
+            {"host", endpoints.host},
+            {"port", endpoints.port},
+            {"unit", 1},
+            {"timeout_ms", 1000},
+            {"register_map", "zerodrift-virtual"}}},
+          {"cameras", {camera_json(View::front, endpoints), camera_json(View::side, endpoints)}},
+          {"errors", {{"source", "camera"}}},
+          {"measure_position_mm", {{"X", 0}, {"Y", 0}, {"Z", 0}}},
+          {"calibration_span_mm", 1.6},
+          {"sensors", sensors},
+          {"limits", {{"max_um", 200}, {"max_um_per_s", 2}}},
+          {"machine", machine_description(hidden)}};
+}
+
+}  // namespace zerodrift::machine

@@ -1,0 +1,72 @@
+#include "app/machine/live_machine.h"
+
+#include <utility>
+
+namespace zerodrift::machine {
+namespace {
+
+constexpr std::chrono::milliseconds turn{5};
+constexpr std::uint32_t first_serial = 850000;
+
+}  // namespace
+
+LiveMachine::LiveMachine(const MachineParameters& parameters, int speedup,
+                         std::function<void(const Machine&)> on_moment)
+    : m_machine(parameters),
+      m_bank(m_machine, first_serial + static_cast<std::uint32_t>(parameters.seed), speedup),
+      m_speedup(speedup),
+      m_on_moment(std::move(on_moment)) {}
+
+void LiveMachine::start() {
+  const std::scoped_lock lock(m_mutex);
+  m_begin = std::chrono::steady_clock::now();
+  m_running = true;
+  m_thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void LiveMachine::stop() {
+  m_thread.request_stop();
+  if (m_thread.joinable()) m_thread.join();
+}
+
+void LiveMachine::catch_up() {
+  if (!m_running) return;
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - m_begin;
+  m_machine.advance_to(wall.count() * m_speedup);
+  if (m_on_moment) m_on_moment(m_machine);
+}
+
+void LiveMachine::run(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    {
+      const std::scoped_lock lock(m_mutex);
+      catch_up();
+    }
+    std::this_thread::sleep_for(turn);
+  }
+}
+
+controller::RegisterReply LiveMachine::read(int address, int count) {
+  const std::scoped_lock lock(m_mutex);
+  catch_up();
+  return m_bank.read(address, count);
+}
+
+std::optional<controller::ModbusException> LiveMachine::write(int address, std::span<const std::uint16_t> words) {
+  const std::scoped_lock lock(m_mutex);
+  catch_up();
+  return m_bank.write(address, words);
+}
+
+CameraScene LiveMachine::scene(View view) {
+  const std::scoped_lock lock(m_mutex);
+  catch_up();
+  return m_machine.scene(view);
+}
+
+void LiveMachine::set_sensor_fault(SensorFault fault) {
+  const std::scoped_lock lock(m_mutex);
+  m_machine.set_sensor_fault(fault);
+}
+
+}  // namespace zerodrift::machine

@@ -1,0 +1,83 @@
+#pragma once
+// The spindle's truth: shaft and cartridge housing as axial cells by radial rings, joined by the air gap and by the
+// bearings' contact; Palmgren friction in the bearings, rotor loss in the shaft, stator behind its cooling jacket.
+// x runs from the fixed rear end to the nose.
+
+#include <array>
+#include <vector>
+
+#include "app/machine/parameters.h"
+#include "app/machine/thermal_network.h"
+
+namespace zerodrift::machine {
+
+struct SpindleInputs {
+  double speed_rpm = 0.0;
+  bool coolant_on = false;
+  double load_W = 0.0;
+};
+
+class SpindleBody {
+ public:
+  /// Adds the nodes; headstock is the node the cartridge sits in.
+  SpindleBody(ThermalNetwork& network, const MachineParameters& parameters, int room, int jacket, int headstock);
+
+  /// Conductances and heats of the coming step, from the temperatures now.
+  void prepare(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s);
+  /// Housing temperature where sensors sit (inside of the cartridge), linear between the cells' middles.
+  double housing_C(const ThermalNetwork& network, double position_mm) const;
+  /// Mean of the stator.
+  double stator_C(const ThermalNetwork& network) const;
+  /// Growth of the shaft from its fixed end to the nose.
+  double growth_um(const ThermalNetwork& network) const;
+  /// Friction and iron loss that the drive must feed at this state, W.
+  double idle_load_W() const { return m_idle_load_W; }
+
+ private:
+  static constexpr int cells = 20;
+  static constexpr int shaft_rings = 3;
+  static constexpr int housing_rings = 2;
+  static constexpr int rings = shaft_rings + housing_rings;
+  using CellShare = std::array<double, cells>;  // sums to 1
+
+  struct AxialLink {
+    int link;
+    int node_a;
+    int node_b;
+    double conductance;
+    double face_area_m2;
+    double face_mm;
+  };
+  struct Bearing {
+    CellShare share;
+    std::array<int, cells> link{};  // contact, -1 where the bearing is not
+    double contact_W_K;
+  };
+
+  void build_rings(ThermalNetwork& network);
+  void build_gap_and_films(ThermalNetwork& network, int room, int headstock);
+  void build_stator(ThermalNetwork& network, int jacket, int headstock);
+  static CellShare share_of(double from_mm, double to_mm);
+  void prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front);
+  void prepare_films(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s);
+  void prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs);
+  void prepare_conductivity(ThermalNetwork& network);
+  int node(int cell, int ring) const { return m_nodes[cell * rings + ring]; }
+
+  const MachineParameters& m_parameters;
+  std::vector<int> m_nodes;
+  std::array<double, rings> m_ring_area_m2{};
+  std::vector<AxialLink> m_axial;
+  std::array<int, cells> m_gap{};
+  std::array<int, cells> m_film{};
+  int m_nose_film = 0;
+  Bearing m_front;
+  Bearing m_rear;
+  CellShare m_motor;
+  std::vector<int> m_stator;
+  double m_idle_load_W = 0.0;
+  double m_turning_s = 0.0;  // running time so far, for the run-in
+  double m_last_time_s = 0.0;
+};
+
+}  // namespace zerodrift::machine
