@@ -1,0 +1,242 @@
+#include "core/vision/calibration.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace zerodrift::vision {
+namespace {
+
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+struct Fit {
+  Eigen::Matrix2d um_from_px;
+  Eigen::Vector2d origin_um;  // machine position of the template's place
+  Eigen::Matrix2d spread;     // inverse of the centred px scatter
+};
+
+Points pixels_of(const std::vector<CalibrationView>& views) {
+  Points out(static_cast<Eigen::Index>(views.size()), 2);
+  for (std::size_t k = 0; k < views.size(); ++k) out.row(static_cast<Eigen::Index>(k)) << views[k].x_px, views[k].y_px;
+  return out;
+}
+
+Points machine_um_of(const std::vector<CalibrationView>& views) {
+  Points out(static_cast<Eigen::Index>(views.size()), 2);
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    out.row(static_cast<Eigen::Index>(k)) << 1000.0 * views[k].x_mm, 1000.0 * views[k].y_mm;
+  }
+  return out;
+}
+
+// The machine's repeatability is the noise (1 um against some 0.02 um of the image), so machine is regressed on px.
+Fit fit_full(const Points& pixels, const Points& machine_um) {
+  const Eigen::RowVector2d mean_px = pixels.colwise().mean();
+  const Eigen::RowVector2d mean_um = machine_um.colwise().mean();
+  const Points p = pixels.rowwise() - mean_px;
+  const Points m = machine_um.rowwise() - mean_um;
+  Fit fit;
+  fit.spread = (p.transpose() * p).inverse();
+  fit.um_from_px = (fit.spread * (p.transpose() * m)).transpose();
+  fit.origin_um = mean_um.transpose() - fit.um_from_px * mean_px.transpose();
+  return fit;
+}
+
+// Published form with two positions: c = (M2 - M1) / (p2 - p1) in complex numbers, the image's y turned upwards.
+Fit fit_two(const Points& pixels, const Points& machine_um) {
+  const std::complex<double> p(pixels(1, 0) - pixels(0, 0), -(pixels(1, 1) - pixels(0, 1)));
+  const std::complex<double> m(machine_um(1, 0) - machine_um(0, 0), machine_um(1, 1) - machine_um(0, 1));
+  const std::complex<double> c = m / p;
+  Fit fit;
+  fit.um_from_px << c.real(), c.imag(), c.imag(), -c.real();
+  fit.spread = Eigen::Matrix2d::Identity() * 2.0 / std::norm(p);
+  fit.origin_um = machine_um.row(0).transpose() - fit.um_from_px * pixels.row(0).transpose();
+  return fit;
+}
+
+std::string refusal_of(const Points& pixels, const Points& machine_um, const CalibrationLimits& limits) {
+  if (!pixels.allFinite() || !machine_um.allFinite()) return "a position is not a number";
+  if (pixels.rows() == 2) {
+    const double distance = (pixels.row(1) - pixels.row(0)).norm();
+    if (distance < limits.least_span_two_px) {
+      return fmt::format("the two positions are {:.1f} px apart in the image, at least {:.0f} px are needed", distance,
+                         limits.least_span_two_px);
+    }
+    if ((machine_um.row(1) - machine_um.row(0)).norm() < 1.0) return "both positions have the same machine coordinates";
+    return "";
+  }
+  const auto extents = [](const Points& points) {
+    const Points centred = points.rowwise() - points.colwise().mean();
+    const Eigen::JacobiSVD<Points> svd(centred, Eigen::ComputeThinV);
+    const Points along = centred * svd.matrixV();
+    return Eigen::Vector2d(along.col(0).maxCoeff() - along.col(0).minCoeff(),
+                           along.col(1).maxCoeff() - along.col(1).minCoeff());
+  };
+  const Eigen::Vector2d px = extents(pixels);
+  const Eigen::Vector2d um = extents(machine_um);
+  if (px.maxCoeff() < limits.least_span_px) {
+    return fmt::format("the positions span only {:.1f} px in the image, at least {:.0f} px are needed", px.maxCoeff(),
+                       limits.least_span_px);
+  }
+  if (px.minCoeff() < limits.least_aspect * px.maxCoeff() || um.minCoeff() < limits.least_aspect * um.maxCoeff()) {
+    return "the positions lie on one line: move along both axes";
+  }
+  if (px.minCoeff() < limits.least_span_px) {
+    return fmt::format("the positions span only {:.1f} px in one direction, at least {:.0f} px are needed",
+                       px.minCoeff(), limits.least_span_px);
+  }
+  return "";
+}
+
+// Repeats the fit without each view in turn; the view that fits worst to the others is named.
+struct LeftOut {
+  double rms_um = std::numeric_limits<double>::quiet_NaN();
+  double worst_um = 0.0;
+  Eigen::Index worst = 0;
+};
+LeftOut leave_one_out(const Points& pixels, const Points& machine_um) {
+  LeftOut out;
+  const Eigen::Index n = pixels.rows();
+  if (n < 5) return out;
+  double sum = 0.0;
+  for (Eigen::Index skip = 0; skip < n; ++skip) {
+    Points p(n - 1, 2);
+    Points m(n - 1, 2);
+    for (Eigen::Index k = 0, to = 0; k < n; ++k) {
+      if (k == skip) continue;
+      p.row(to) = pixels.row(k);
+      m.row(to++) = machine_um.row(k);
+    }
+    const Fit fit = fit_full(p, m);
+    const double miss =
+        (machine_um.row(skip).transpose() - fit.origin_um - fit.um_from_px * pixels.row(skip).transpose()).norm();
+    sum += miss * miss;
+    if (miss > out.worst_um) {
+      out.worst_um = miss;
+      out.worst = skip;
+    }
+  }
+  out.rms_um = std::sqrt(sum / (2.0 * static_cast<double>(n)));
+  return out;
+}
+
+// Scale, rotation and handedness in the engineer's terms, and what looks odd about them.
+void describe_geometry(Calibration& c) {
+  // Image y runs down: a camera that is not mirrored has a negative determinant.
+  const double determinant = c.um_from_px.determinant();
+  c.mirrored = determinant > 0.0;
+  c.scale_um_per_px = std::sqrt(std::abs(determinant));
+  Eigen::Matrix2d up = c.um_from_px;  // machine from image with y up
+  up.col(1) *= -1.0;
+  if (c.mirrored) up.col(0) *= -1.0;
+  c.rotation_deg = std::atan2(up(1, 0) - up(0, 1), up(0, 0) + up(1, 1)) * 180.0 / M_PI;
+  const Eigen::JacobiSVD<Eigen::Matrix2d> svd(c.um_from_px);
+  const double ratio = svd.singularValues()(0) / svd.singularValues()(1);
+  if (ratio > 1.1) {
+    c.warnings.push_back(fmt::format(
+        "the scale differs by {:.0f} % between two directions: the camera looks at the plane of motion from the side",
+        100.0 * (ratio - 1.0)));
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix2d Calibration::sigma() const {
+  Eigen::Matrix2d out;
+  out << covariance(0, 0), covariance(1, 1), covariance(2, 2), covariance(3, 3);
+  return out.cwiseMax(0.0).cwiseSqrt();
+}
+
+ErrorUm Calibration::to_um(const Location& location) const {
+  const Eigen::Vector2d p(location.x_px, location.y_px);
+  const Eigen::Vector2d um = um_from_px * p;
+  Eigen::Matrix2d image;
+  image << location.sigma_x_px * location.sigma_x_px, location.covariance_xy_px2, location.covariance_xy_px2,
+      location.sigma_y_px * location.sigma_y_px;
+  const Eigen::Matrix2d from_image = um_from_px * image * um_from_px.transpose();
+  const double from_scale_x = p.dot(covariance.topLeftCorner<2, 2>() * p);
+  const double from_scale_y = p.dot(covariance.bottomRightCorner<2, 2>() * p);
+  return {um(0), um(1), std::sqrt(from_image(0, 0) + from_scale_x), std::sqrt(from_image(1, 1) + from_scale_y)};
+}
+
+Result<Calibration> calibrate(std::vector<CalibrationView> views, const CalibrationLimits& limits) {
+  if (views.size() < 2) {
+    return fail(ErrorCode::not_enough_data, {{"what", "the calibration"},
+                                             {"found", fmt::format("{} usable views", views.size())},
+                                             {"needed", "2, better 9"}});
+  }
+  const Points pixels = pixels_of(views);
+  const Points machine_um = machine_um_of(views);
+  if (const std::string reason = refusal_of(pixels, machine_um, limits); !reason.empty()) {
+    return fail(ErrorCode::calibration_refused, {{"reason", reason}});
+  }
+  const bool two = views.size() == 2;
+  const Fit fit = two ? fit_two(pixels, machine_um) : fit_full(pixels, machine_um);
+  Calibration out;
+  out.um_from_px = fit.um_from_px;
+  out.handedness_assumed = two;
+  const Points residual = (machine_um - pixels * fit.um_from_px.transpose()).rowwise() - fit.origin_um.transpose();
+  out.rms_um = std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()));
+  const LeftOut left_out = leave_one_out(pixels, machine_um);
+  out.leave_one_out_um = left_out.rms_um;
+  const double span_um = (machine_um.colwise().maxCoeff() - machine_um.colwise().minCoeff()).norm();
+  const double limit_um = std::max(limits.largest_rms_um, 0.005 * span_um);
+  if (out.rms_um > limit_um) {
+    std::string reason = fmt::format("the residual is {:.1f} um rms, the limit {:.1f} um", out.rms_um, limit_um);
+    if (std::isfinite(left_out.rms_um)) {
+      reason += fmt::format("; the view that fits worst is {} ({:.0f} um off)",
+                            views[static_cast<std::size_t>(left_out.worst)].image, left_out.worst_um);
+    }
+    return fail(ErrorCode::calibration_refused, {{"reason", reason}});
+  }
+  // Residual variance with the assumed repeatability as two further observations: few views say little of it.
+  const double freedom = 2.0 * static_cast<double>(views.size()) - (two ? 4.0 : 6.0);
+  const double variance =
+      (residual.squaredNorm() + 2.0 * limits.repeatability_um * limits.repeatability_um) / (freedom + 2.0);
+  out.covariance.topLeftCorner<2, 2>() = variance * fit.spread;
+  out.covariance.bottomRightCorner<2, 2>() = variance * fit.spread;
+  out.range_px = {pixels.col(0).cwiseAbs().maxCoeff(), pixels.col(1).cwiseAbs().maxCoeff()};
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    views[k].residual_x_um = residual(static_cast<Eigen::Index>(k), 0);
+    views[k].residual_y_um = residual(static_cast<Eigen::Index>(k), 1);
+  }
+  out.views = std::move(views);
+  describe_geometry(out);
+  if (two) {
+    out.warnings.push_back(
+        "two positions cannot show a mirrored camera; the image was taken as not mirrored: add a third position beside "
+        "the line of the two");
+  } else if (out.views.size() == 3) {
+    out.warnings.push_back("three positions leave nothing to check the calibration with: use nine");
+  }
+  return out;
+}
+
+std::vector<ProposedPosition> propose_positions(double span_mm, int per_side, double approach_mm) {
+  std::vector<ProposedPosition> out{{0.0, 0.0, -approach_mm, -approach_mm}};
+  const double step = span_mm / (per_side - 1);
+  for (int row = 0; row < per_side; ++row) {
+    for (int column = 0; column < per_side; ++column) {
+      const double x = -0.5 * span_mm + column * step;
+      const double y = -0.5 * span_mm + row * step;
+      if (std::abs(x) < 1e-9 && std::abs(y) < 1e-9) continue;
+      out.push_back({x, y, x - approach_mm, y - approach_mm});
+    }
+  }
+  return out;
+}
+
+double propose_span_mm(double expected_drift_um, double um_per_px_nominal, const GrayImage& image,
+                       const Region& target) {
+  const double wanted_px = std::max(60.0, 3.0 * expected_drift_um / um_per_px_nominal);
+  // The target may use the room to the nearest border, less 10 px for what is not known yet.
+  const int room_px =
+      std::min({target.x, target.y, image.width - target.x - target.width, image.height - target.y - target.height});
+  const double possible_px = std::max(2.0 * (room_px - 10), 20.0);
+  return std::min(wanted_px, possible_px) * um_per_px_nominal / 1000.0;
+}
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,99 @@
+#include "core/vision/calibration_run.h"
+
+#include <fmt/format.h>
+
+#include "core/vision/error_view.h"
+
+namespace zerodrift::vision {
+namespace {
+
+std::map<std::string, double> place(const CalibrationPlan& plan, double x_mm, double y_mm) {
+  std::map<std::string, double> out = plan.centre_mm;
+  out[plan.axes[0]] += x_mm;
+  out[plan.axes[1]] += y_mm;
+  return out;
+}
+
+struct Seen {
+  CalibrationView view;
+  std::vector<GrayImage> frames;
+};
+
+Result<std::vector<GrayImage>> frames_at(const Camera& camera, const CalibrationPlan& plan,
+                                         const TaskContext& context) {
+  std::vector<GrayImage> out;
+  Camera::Time after = std::chrono::steady_clock::now();
+  for (int k = 0; k < plan.frames; ++k) {
+    ZD_TRY(const std::shared_ptr<const CameraFrame> frame, camera.fresh_frame(after, plan.frame_timeout, context.stop));
+    after = frame->arrived - std::chrono::milliseconds(1);
+    out.push_back(frame->image);
+  }
+  return out;
+}
+
+MeanLocation located(const Target& target, const std::vector<GrayImage>& frames) {
+  std::vector<Location> locations;
+  for (const GrayImage& frame : frames) locations.push_back(target.locate(frame));
+  return mean_of(locations);
+}
+
+Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
+                 const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
+  ZD_CHECK(machine.move_to(place(plan, at.approach_x_mm, at.approach_y_mm)));
+  ZD_CHECK(machine.move_to(place(plan, at.x_mm, at.y_mm)));
+  Seen seen;
+  ZD_TRY(const acquisition::MachineSample sample, machine.read());
+  ZD_TRY(seen.frames, frames_at(camera, plan, context));
+  const auto coordinate = [&](int axis) -> double {
+    const auto found = sample.axes.find(plan.axes[static_cast<std::size_t>(axis)]);
+    return found == sample.axes.end() ? std::nan("") : found->second;
+  };
+  seen.view.image = fmt::format("position {:+.3f}, {:+.3f} mm", at.x_mm, at.y_mm);
+  seen.view.x_mm = coordinate(0);
+  seen.view.y_mm = coordinate(1);
+  const MeanLocation mean = located(target, seen.frames);
+  if (!mean.location.ok) {
+    return fail(ErrorCode::target_refused, {{"reason", mean.location.reason + " at " + seen.view.image}});
+  }
+  seen.view.x_px = mean.location.x_px;
+  seen.view.y_px = mean.location.y_px;
+  return seen;
+}
+
+}  // namespace
+
+Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
+                                           const CalibrationPlan& plan, const TaskContext& context,
+                                           const CalibrationWatcher& watcher) {
+  const std::vector<ProposedPosition> positions = propose_positions(plan.span_mm, plan.per_side, plan.approach_mm);
+  const int count = static_cast<int>(positions.size());
+  std::vector<Seen> all;
+  for (const ProposedPosition& at : positions) {
+    if (context.cancelled()) return fail(ErrorCode::cancelled);
+    ZD_TRY(Seen seen, see(machine, camera, target, plan, at, context));
+    all.push_back(std::move(seen));
+    const int done = static_cast<int>(all.size());
+    if (watcher) watcher(done, count, all.back().frames.back(), target.locate(all.back().frames.back()));
+    context.progress(static_cast<double>(done) / count, "calibration");
+  }
+  ZD_CHECK(machine.move_to(place(plan, positions[0].approach_x_mm, positions[0].approach_y_mm)));
+  ZD_CHECK(machine.move_to(place(plan, 0.0, 0.0)));
+
+  // With the pixels that stand still taken out, the positions are measured again on the stored frames.
+  std::vector<GrayImage> frames;
+  for (const Seen& seen : all) frames.push_back(seen.frames.back());
+  const Target masked = target.with_mask_from(frames);
+  std::vector<CalibrationView> views;
+  for (const Seen& seen : all) {
+    CalibrationView view = seen.view;
+    if (const MeanLocation mean = located(masked, seen.frames); mean.location.ok) {
+      view.x_px = mean.location.x_px;
+      view.y_px = mean.location.y_px;
+    }
+    views.push_back(view);
+  }
+  ZD_TRY(Calibration calibration, calibrate(std::move(views)));
+  return CalibrationOutcome{std::move(calibration), masked, std::move(frames)};
+}
+
+}  // namespace zerodrift::vision

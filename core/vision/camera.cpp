@@ -1,0 +1,249 @@
+#include "core/vision/camera.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <thread>
+
+#include "core/vision/opencv_image.h"
+
+namespace zerodrift::vision {
+namespace {
+
+using Steady = std::chrono::steady_clock;
+using Milliseconds = std::chrono::milliseconds;
+
+constexpr double default_file_rate_hz = 25.0;
+
+enum class SourceKind { stream, device, file };
+
+SourceKind kind_of(const std::string& source) {
+  if (source.find("://") != std::string::npos) return SourceKind::stream;
+  const bool number =
+      !source.empty() && std::all_of(source.begin(), source.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return number || source.rfind("/dev/", 0) == 0 ? SourceKind::device : SourceKind::file;
+}
+
+// The libraries below print to stderr on their own; what matters is said through the errors.
+void quiet_libraries() {
+  static const bool once = [] {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+    return true;
+  }();
+  (void)once;
+}
+
+bool open_source(cv::VideoCapture& capture, const std::string& source, const CameraOptions& options) {
+  // The back end is always named: the automatic choice walks through all of them, which takes seconds.
+  if (kind_of(source) == SourceKind::device) {
+    const bool number = source.front() != '/';
+    return number ? capture.open(std::atoi(source.c_str()), cv::CAP_V4L2) : capture.open(source, cv::CAP_V4L2);
+  }
+  return capture.open(source, cv::CAP_FFMPEG,
+                      {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, static_cast<int>(options.open_timeout.count()),
+                       cv::CAP_PROP_READ_TIMEOUT_MSEC, static_cast<int>(options.read_timeout.count())});
+}
+
+GrayImage gray_of(const cv::Mat& picture) {
+  if (picture.channels() == 1) return gray_from_mat(picture);
+  cv::Mat gray;
+  cv::cvtColor(picture, gray, picture.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  return gray_from_mat(gray);
+}
+
+std::string seconds_text(Steady::duration duration) {
+  return fmt::format("{:.1f}", std::chrono::duration<double>(duration).count());
+}
+
+}  // namespace
+
+struct Camera::Work {
+  std::string source;
+  CameraOptions options;
+  mutable std::mutex mutex;
+  mutable std::condition_variable_any changed;
+  std::shared_ptr<const CameraFrame> frame;
+  Steady::time_point started = Steady::now();
+  Steady::time_point last_change;  // when the picture last differed from the one before
+  std::deque<Steady::time_point> arrivals;
+  std::uint64_t opened = 0;
+  std::string detail = "not opened yet";
+  std::jthread thread;
+
+  void run(std::stop_token stop);
+  void read_all(cv::VideoCapture& capture, const std::stop_token& stop);
+  void publish(GrayImage image);
+  Result<std::shared_ptr<const CameraFrame>> state(Steady::time_point now) const;
+  bool pause(Steady::duration duration, const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    return !changed.wait_for(lock, stop, duration, [&] { return stop.stop_requested(); });
+  }
+};
+
+void Camera::Work::run(std::stop_token stop) {
+  Milliseconds wait{200};
+  while (!stop.stop_requested()) {
+    bool worked = false;
+    try {
+      cv::VideoCapture capture;
+      if (open_source(capture, source, options)) {
+        const std::uint64_t before = frame ? frame->count : 0;
+        {
+          const std::lock_guard lock(mutex);
+          ++opened;
+        }
+        read_all(capture, stop);
+        worked = frame && frame->count > before;
+      }
+      const std::lock_guard lock(mutex);
+      detail = worked ? "the stream ended" : "no picture could be opened";
+    } catch (const cv::Exception& problem) {
+      const std::lock_guard lock(mutex);
+      detail = problem.err;
+    }
+    if (stop.stop_requested()) return;
+    if (kind_of(source) == SourceKind::file && worked) continue;
+    wait = worked ? Milliseconds{200} : std::min(2 * wait, options.longest_pause);
+    if (!pause(wait, stop)) return;
+  }
+}
+
+void Camera::Work::read_all(cv::VideoCapture& capture, const std::stop_token& stop) {
+  const bool from_file = kind_of(source) == SourceKind::file;
+  double rate = capture.get(cv::CAP_PROP_FPS);
+  if (!(rate > 0.5 && rate < 500.0)) rate = default_file_rate_hz;
+  const auto period = std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(1.0 / rate));
+  Steady::time_point due = Steady::now();
+  cv::Mat picture;
+  while (!stop.stop_requested() && capture.read(picture) && !picture.empty()) {
+    publish(gray_of(picture));
+    if (!from_file) continue;
+    due += period;
+    if (!pause(due - Steady::now(), stop)) return;
+  }
+}
+
+void Camera::Work::publish(GrayImage image) {
+  auto next = std::make_shared<CameraFrame>();
+  next->image = std::move(image);
+  next->arrived = Steady::now();
+  const std::lock_guard lock(mutex);
+  next->count = frame ? frame->count + 1 : 1;
+  if (!frame || frame->image.pixels != next->image.pixels) last_change = next->arrived;
+  frame = std::move(next);
+  arrivals.push_back(frame->arrived);
+  if (arrivals.size() > 60) arrivals.pop_front();
+  changed.notify_all();
+}
+
+// With the mutex held.
+Result<std::shared_ptr<const CameraFrame>> Camera::Work::state(Steady::time_point now) const {
+  const bool live = kind_of(source) != SourceKind::file;
+  if (!frame) {
+    if (opened == 0) return fail(ErrorCode::camera_unreachable, {{"url", source}, {"detail", detail}});
+    return fail(ErrorCode::camera_silent, {{"url", source}, {"seconds", seconds_text(now - started)}});
+  }
+  if (now - frame->arrived > options.silent_after) {
+    return fail(ErrorCode::camera_silent, {{"url", source}, {"seconds", seconds_text(now - frame->arrived)}});
+  }
+  if (live && now - last_change > options.frozen_after) {
+    return fail(ErrorCode::camera_frozen, {{"url", source}, {"seconds", seconds_text(now - last_change)}});
+  }
+  return frame;
+}
+
+Camera::Camera(std::string source, CameraOptions options) : m_work(std::make_shared<Work>()) {
+  quiet_libraries();
+  m_work->source = std::move(source);
+  m_work->options = options;
+  m_work->thread = std::jthread([work = m_work.get()](std::stop_token stop) { work->run(std::move(stop)); });
+}
+
+Camera::~Camera() {
+  m_work->thread.request_stop();
+  m_work->thread.join();  // at most the read timeout
+}
+
+const std::string& Camera::source() const {
+  return m_work->source;
+}
+
+Result<std::shared_ptr<const CameraFrame>> Camera::newest() const {
+  const std::lock_guard lock(m_work->mutex);
+  return m_work->state(Steady::now());
+}
+
+Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milliseconds timeout,
+                                                               std::stop_token stop) const {
+  std::unique_lock lock(m_work->mutex);
+  const Time deadline = Steady::now() + timeout;
+  std::uint64_t first_after = 0;
+  while (true) {
+    const auto& frame = m_work->frame;
+    if (frame && frame->arrived > after) {
+      if (first_after == 0) first_after = frame->count;
+      // The first may have been exposed before; so may one that changed nothing (a frozen camera repeats itself).
+      if (frame->count > first_after && m_work->last_change > after) return frame;
+      if (kind_of(m_work->source) == SourceKind::file && frame->count > first_after) return frame;
+    }
+    if (stop.stop_requested()) return fail(ErrorCode::cancelled);
+    const std::uint64_t seen = frame ? frame->count : 0;
+    const bool more =
+        m_work->changed.wait_until(lock, stop, deadline, [&] { return m_work->frame && m_work->frame->count != seen; });
+    if (more) continue;
+    if (stop.stop_requested()) return fail(ErrorCode::cancelled);
+    const Time now = Steady::now();
+    if (now < deadline) continue;
+    if (const auto state = m_work->state(now); !state) return fail(state.error());
+    const bool frozen = m_work->frame && m_work->frame->arrived > after && m_work->last_change <= after;
+    return fail(frozen ? ErrorCode::camera_frozen : ErrorCode::camera_silent,
+                {{"url", m_work->source}, {"seconds", seconds_text(timeout)}});
+  }
+}
+
+double Camera::frames_per_s() const {
+  const std::lock_guard lock(m_work->mutex);
+  const auto& arrivals = m_work->arrivals;
+  if (arrivals.size() < 2 || Steady::now() - arrivals.back() > std::chrono::seconds(2)) return 0.0;
+  const double span_s = std::chrono::duration<double>(arrivals.back() - arrivals.front()).count();
+  return span_s > 0.0 ? static_cast<double>(arrivals.size() - 1) / span_s : 0.0;
+}
+
+std::uint64_t Camera::reconnections() const {
+  const std::lock_guard lock(m_work->mutex);
+  return m_work->opened > 0 ? m_work->opened - 1 : 0;
+}
+
+Result<GrayImage> mean_of_fresh_frames(const Camera& camera, Camera::Time after, int count, Milliseconds timeout,
+                                       std::stop_token stop) {
+  std::vector<int> sum;
+  GrayImage out;
+  for (int k = 0; k < count; ++k) {
+    ZD_TRY(const std::shared_ptr<const CameraFrame> frame, camera.fresh_frame(after, timeout, stop));
+    if (k == 0) {
+      out = frame->image;
+      sum.assign(out.pixels.size(), 0);
+    }
+    if (frame->image.pixels.size() != sum.size()) {
+      return fail(ErrorCode::image_size, {{"file", camera.source()},
+                                          {"found", fmt::format("{}x{}", frame->image.width, frame->image.height)},
+                                          {"expected", fmt::format("{}x{}", out.width, out.height)}});
+    }
+    for (std::size_t at = 0; at < sum.size(); ++at) sum[at] += frame->image.pixels[at];
+    after = frame->arrived;
+  }
+  for (std::size_t at = 0; at < sum.size(); ++at) {
+    out.pixels[at] = static_cast<std::uint8_t>((sum[at] + count / 2) / count);
+  }
+  return out;
+}
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,62 @@
+#pragma once
+// A live camera: a thread reads the stream as fast as it comes and keeps the newest frame, so that no queue grows and a
+// measurement never sees the past. Sources: an http(s) or rtsp address, a device ("0" or "/dev/video0"), a video file,
+// or an image sequence ("seq/img_%04d.png"); the last two are played in a loop at their own rate. Dead streams are
+// opened anew by themselves, with a growing pause. Failures are named: camera_unreachable (never opened), camera_silent
+// (no picture for a while), camera_frozen (the same picture for a while: a live picture has noise).
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/vision/image.h"
+
+namespace zerodrift::vision {
+
+struct CameraFrame {
+  GrayImage image;
+  std::uint64_t count = 0;  // frames since the start
+  std::chrono::steady_clock::time_point arrived;
+};
+
+struct CameraOptions {
+  std::chrono::milliseconds open_timeout{1000};
+  std::chrono::milliseconds read_timeout{1500};
+  std::chrono::milliseconds silent_after{3000};
+  std::chrono::milliseconds frozen_after{3000};
+  std::chrono::milliseconds longest_pause{5000};  // between attempts to open
+};
+
+class Camera {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// Starts reading at once and returns; whether it works shows in the frames.
+  explicit Camera(std::string source, CameraOptions options = {});
+  ~Camera();
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
+
+  const std::string& source() const;
+  /// The newest frame, or why there is none.
+  Result<std::shared_ptr<const CameraFrame>> newest() const;
+  /// A frame taken after this moment: the first to arrive may have been on its way already and is passed over.
+  Result<std::shared_ptr<const CameraFrame>> fresh_frame(Time after, std::chrono::milliseconds timeout,
+                                                         std::stop_token stop = {}) const;
+  /// Frames a second over the last few seconds; 0 while nothing comes.
+  double frames_per_s() const;
+  std::uint64_t reconnections() const;
+
+ private:
+  struct Work;
+  std::shared_ptr<Work> m_work;
+};
+
+/// The mean of `count` fresh frames, for the template: its noise enters every measurement.
+Result<GrayImage> mean_of_fresh_frames(const Camera& camera, Camera::Time after, int count,
+                                       std::chrono::milliseconds timeout, std::stop_token stop = {});
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,157 @@
+#include "core/vision/camera_error_source.h"
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace zerodrift::vision {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* axis_names[] = {"X", "Y", "Z"};
+
+// What a dead camera is called among the reasons of a sample.
+std::string problem_of(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::camera_unreachable:
+      return "camera does not answer";
+    case ErrorCode::camera_silent:
+      return "camera sends no picture";
+    case ErrorCode::camera_frozen:
+      return "camera is frozen";
+    default:
+      return std::string(name_of(error.code));
+  }
+}
+
+// Weighted mean of the directions as the cameras see them.
+struct Combined {
+  double weight = 0.0;
+  double sum = 0.0;
+
+  void add(double value_um, double sigma_um) {
+    const double w = 1.0 / std::max(sigma_um * sigma_um, 1e-12);
+    weight += w;
+    sum += w * value_um;
+  }
+};
+
+}  // namespace
+
+CameraErrorSource::CameraErrorSource(std::vector<ErrorView> views, MeasureOptions options)
+    : m_views(std::move(views)), m_options(options), m_zero(m_views.size()), m_states(m_views.size()) {
+  for (std::size_t k = 0; k < m_views.size(); ++k) m_states[k].id = m_views[k].id;
+}
+
+Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskContext& context) const {
+  ViewState state;
+  state.id = view.id;
+  std::vector<Location> locations;
+  Camera::Time after = std::chrono::steady_clock::now() + m_options.settle;
+  for (int k = 0; k < m_options.frames; ++k) {
+    ZD_TRY(state.frame, view.camera->fresh_frame(after, m_options.frame_timeout, context.stop));
+    // Only the first frame can have been on its way when the machine came to stand; the others follow it.
+    after = state.frame->arrived - std::chrono::milliseconds(1);
+    locations.push_back(locate_against(*view.target, view.references, state.frame->image, &state.references));
+  }
+  const MeanLocation mean = mean_of(locations);
+  state.location = mean.location;
+  state.good_frames = mean.good;
+  state.refused_frames = mean.refused;
+  state.scatter_x_px = mean.scatter_x_px;
+  state.scatter_y_px = mean.scatter_y_px;
+  if (!mean.location.ok) state.problem = mean.location.reason;
+  return state;
+}
+
+Status CameraErrorSource::take_zero(const TaskContext& context) {
+  for (std::size_t k = 0; k < m_views.size(); ++k) {
+    ZD_TRY(ViewState state, look(m_views[k], context));
+    if (!state.problem.empty()) {
+      return fail(ErrorCode::target_refused, {{"reason", m_views[k].id + ": " + state.problem}});
+    }
+    m_zero[k] = {state.location.x_px, state.location.y_px, state.location.sigma_x_px, state.location.sigma_y_px};
+    state.trail.push_back({state.location.x_px, state.location.y_px});
+    const std::lock_guard lock(m_mutex);
+    m_states[k] = std::move(state);
+  }
+  return {};
+}
+
+Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& context) {
+  std::array<Combined, 3> combined{};
+  acquisition::ErrorSample sample;
+  std::optional<Error> dead;
+  std::size_t dead_count = 0;
+  for (std::size_t k = 0; k < m_views.size(); ++k) {
+    const ErrorView& view = m_views[k];
+    Result<ViewState> looked = look(view, context);
+    if (!looked) {
+      if (looked.error().code == ErrorCode::cancelled) return fail(looked.error());
+      sample.problems.push_back(view.id + ": " + problem_of(looked.error()));
+      dead = looked.error();
+      ++dead_count;
+      const std::lock_guard lock(m_mutex);
+      m_states[k].problem = problem_of(looked.error());
+      continue;
+    }
+    ViewState& state = *looked;
+    if (state.problem.empty()) {
+      Location since_zero = state.location;
+      since_zero.x_px -= m_zero[k].x_px;
+      since_zero.y_px -= m_zero[k].y_px;
+      since_zero.sigma_x_px = std::hypot(since_zero.sigma_x_px, m_zero[k].sigma_x_px);
+      since_zero.sigma_y_px = std::hypot(since_zero.sigma_y_px, m_zero[k].sigma_y_px);
+      state.error = view.calibration.to_um(since_zero);
+      combined[view.axes[0]].add(state.error.x_um, state.error.sigma_x_um);
+      combined[view.axes[1]].add(state.error.y_um, state.error.sigma_y_um);
+    } else {
+      state.error = {nan_value, nan_value, nan_value, nan_value};
+      sample.problems.push_back(view.id + ": " + state.problem);
+    }
+    const std::lock_guard lock(m_mutex);
+    state.trail = std::move(m_states[k].trail);
+    if (state.problem.empty()) state.trail.push_back({state.location.x_px, state.location.y_px});
+    m_states[k] = std::move(state);
+  }
+  if (dead && dead_count == m_views.size()) return fail(*dead);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool seen = combined[axis].weight > 0.0;
+    sample.error_um[axis] = seen ? combined[axis].sum / combined[axis].weight : nan_value;
+    sample.sigma_um[axis] = seen ? 1.0 / std::sqrt(combined[axis].weight) : nan_value;
+  }
+  return sample;
+}
+
+std::string CameraErrorSource::name() const {
+  std::string text = "camera";
+  for (const ErrorView& view : m_views) {
+    text += " " + view.id + " (" + axis_names[view.axes[0]] + ", " + axis_names[view.axes[1]] + ")";
+  }
+  return text;
+}
+
+std::vector<ViewState> CameraErrorSource::states() const {
+  const std::lock_guard lock(m_mutex);
+  return m_states;
+}
+
+std::vector<std::array<double, 4>> CameraErrorSource::zero_px() const {
+  std::vector<std::array<double, 4>> out;
+  for (const Zero& zero : m_zero) out.push_back({zero.x_px, zero.y_px, zero.sigma_x_px, zero.sigma_y_px});
+  return out;
+}
+
+Status CameraErrorSource::restore_zero(const std::vector<std::array<double, 4>>& zero_px) {
+  if (zero_px.size() != m_zero.size()) {
+    return fail(ErrorCode::data_does_not_fit, {{"what", "the stored zero"},
+                                               {"found", std::to_string(zero_px.size()) + " views"},
+                                               {"expected", std::to_string(m_zero.size())}});
+  }
+  for (std::size_t k = 0; k < m_zero.size(); ++k) {
+    m_zero[k] = {zero_px[k][0], zero_px[k][1], zero_px[k][2], zero_px[k][3]};
+  }
+  return {};
+}
+
+}  // namespace zerodrift::vision

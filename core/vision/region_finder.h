@@ -1,0 +1,15 @@
+#pragma once
+// Finds where the target is in a template when nobody said: the square window whose gradients point into all directions
+// most strongly (largest smaller eigenvalue of the structure tensor, as in Shi and Tomasi, CVPR 1994).
+
+#include <string>
+
+#include "core/base/result.h"
+#include "core/vision/image.h"
+
+namespace zerodrift::vision {
+
+/// Errors: template_without_texture.
+Result<Region> find_textured_region(const GrayImage& image, const std::string& name);
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,130 @@
+#include "core/vision/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace zerodrift::vision {
+namespace {
+
+// A camera turned by 3 degrees at 12 um/px; y_px runs down.
+Eigen::Matrix2d true_um_from_px(bool mirrored = false) {
+  const double a = 3.0 * M_PI / 180.0;
+  Eigen::Matrix2d m;
+  m << 12.0 * std::cos(a), 12.0 * std::sin(a), 12.0 * std::sin(a), -12.0 * std::cos(a);
+  if (mirrored) m.col(0) *= -1.0;
+  return m;
+}
+
+std::vector<CalibrationView> views_at(const std::vector<std::pair<double, double>>& positions_mm,
+                                      const Eigen::Matrix2d& um_from_px, double repeatability_um = 0.0) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  std::vector<CalibrationView> views;
+  for (const auto& [x_mm, y_mm] : positions_mm) {
+    const Eigen::Vector2d actual_um(1000.0 * x_mm + repeatability_um * noise(random),
+                                    1000.0 * y_mm + repeatability_um * noise(random));
+    const Eigen::Vector2d px = um_from_px.inverse() * actual_um;
+    views.push_back({"view" + std::to_string(views.size()) + ".png", x_mm + 100.0, y_mm - 20.0, px(0), px(1), 0, 0});
+  }
+  return views;
+}
+
+std::vector<std::pair<double, double>> grid() {
+  std::vector<std::pair<double, double>> out;
+  for (const ProposedPosition& p : propose_positions(0.8)) out.emplace_back(p.x_mm, p.y_mm);
+  return out;
+}
+
+TEST(Calibration, GridGivesTheFullMatrixWithTrueUncertainty) {
+  const auto exact = calibrate(views_at(grid(), true_um_from_px()));
+  ASSERT_TRUE(exact);
+  EXPECT_TRUE(exact->um_from_px.isApprox(true_um_from_px(), 1e-12));
+  EXPECT_NEAR(exact->rotation_deg, 3.0, 1e-9);
+  EXPECT_NEAR(exact->scale_um_per_px, 12.0, 1e-9);
+  EXPECT_FALSE(exact->mirrored);
+
+  const auto noisy = calibrate(views_at(grid(), true_um_from_px(), 1.0));
+  ASSERT_TRUE(noisy);
+  EXPECT_NEAR(noisy->rms_um, 0.8, 0.5);
+  const Eigen::Matrix2d pull = (noisy->um_from_px - true_um_from_px()).cwiseQuotient(noisy->sigma());
+  EXPECT_LT(pull.cwiseAbs().maxCoeff(), 3.0);
+  EXPECT_GT(noisy->leave_one_out_um, noisy->rms_um);
+}
+
+TEST(Calibration, ThreePositionsShowAMirroredCamera) {
+  const auto result = calibrate(views_at({{0, 0}, {0.5, 0}, {0, 0.5}}, true_um_from_px(true)));
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->mirrored);
+  EXPECT_TRUE(result->um_from_px.isApprox(true_um_from_px(true), 1e-12));
+}
+
+TEST(Calibration, TwoPositionsAreASimilarityWithStatedHandedness) {
+  const auto result = calibrate(views_at({{0, 0}, {0.7, 0.2}}, true_um_from_px()));
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->um_from_px.isApprox(true_um_from_px(), 1e-12));
+  EXPECT_TRUE(result->handedness_assumed);
+  ASSERT_FALSE(result->warnings.empty());
+}
+
+TEST(Calibration, RefusesWhatCannotSupportTheClaim) {
+  const auto refused = [](std::vector<CalibrationView> views) {
+    const auto result = calibrate(std::move(views));
+    return result ? std::string("accepted") : result.error().context.at("reason");
+  };
+  EXPECT_NE(refused(views_at({{0, 0}, {0.1, 0}}, true_um_from_px())).find("px apart"), std::string::npos);
+  EXPECT_NE(refused(views_at({{0, 0}, {0.02, 0}, {0, 0.03}}, true_um_from_px())).find("span only"), std::string::npos);
+  EXPECT_NE(refused(views_at({{0, 0}, {0.4, 0.4}, {0.8, 0.8}, {0.2, 0.2}}, true_um_from_px())).find("one line"),
+            std::string::npos);
+  auto wrong = views_at(grid(), true_um_from_px());
+  wrong[4].x_mm += 0.1;
+  EXPECT_NE(refused(wrong).find("view4.png"), std::string::npos);
+  EXPECT_EQ(calibrate({}).error().code, ErrorCode::not_enough_data);
+}
+
+TEST(Calibration, UncertaintyInMicrometresHasBothParts) {
+  const auto c = calibrate(views_at(grid(), true_um_from_px(), 1.0));
+  ASSERT_TRUE(c);
+  Location at;
+  at.sigma_x_px = at.sigma_y_px = 0.001;
+  at.x_px = at.y_px = 0.0;
+  EXPECT_NEAR(c->to_um(at).sigma_x_um, 0.012, 0.001);
+  at.x_px = 30.0;
+  EXPECT_GT(c->to_um(at).sigma_x_um, 0.1);
+  EXPECT_NEAR(c->to_um(at).x_um, 360.0 * std::cos(3.0 * M_PI / 180.0), 1.5);
+}
+
+TEST(Calibration, FileReadsBackTheSame) {
+  const auto c = calibrate(views_at(grid(), true_um_from_px(), 1.0));
+  ASSERT_TRUE(c);
+  const auto back = calibration_from_json(to_json(*c), "calibration.json");
+  ASSERT_TRUE(back) << describe(back.error());
+  EXPECT_EQ(back->um_from_px, c->um_from_px);
+  EXPECT_EQ(back->covariance, c->covariance);
+  EXPECT_EQ(back->views.size(), 9u);
+  nlohmann::json broken = to_json(*c);
+  broken["um_from_px"] = {{1, 2}, {"a", 3}};
+  EXPECT_EQ(calibration_from_json(broken, "c.json").error().context.at("key"), "um_from_px");
+  broken.erase("um_from_px");
+  EXPECT_EQ(calibration_from_json(broken, "c.json").error().code, ErrorCode::json_missing_key);
+  const auto minimal = calibration_from_json(nlohmann::json::parse(R"({"um_from_px": [[12, 0], [0, -12]],
+      "sigma": [[0.01, 0.01], [0.01, 0.01]], "rms_um": 1, "views": 9})"),
+                                             "c.json");
+  EXPECT_TRUE(minimal);
+}
+
+TEST(Calibration, ProposedPositionsComeFromOneSideAndStartAtTheCentre) {
+  const auto positions = propose_positions(1.6);
+  ASSERT_EQ(positions.size(), 9u);
+  EXPECT_EQ(positions[0].x_mm, 0.0);
+  for (const ProposedPosition& p : positions) {
+    EXPECT_LE(std::abs(p.x_mm), 0.8 + 1e-12);
+    EXPECT_LT(p.approach_x_mm, p.x_mm);
+    EXPECT_LT(p.approach_y_mm, p.y_mm);
+  }
+}
+
+}  // namespace
+}  // namespace zerodrift::vision
