@@ -125,7 +125,7 @@ std::vector<double> FrameRenderer::background(const CameraShift& shift) const {
   for (int row = 0; row < m_camera.height_px; ++row) {
     for (int column = 0; column < m_camera.width_px; ++column, ++index) {
       const Vector2 seen = object_from_pixel({static_cast<double>(column), static_cast<double>(row)}, shift);
-      double sum = 0.36;
+      double sum = 0.42;
       for (const Spot& spot : spots) {
         const double x = seen.x - spot.place_um.x;
         const double y = seen.y - spot.place_um.y;

@@ -184,7 +184,7 @@ double Pattern::speckle(double x, double y, double sigma) const {
 double Pattern::ball(double x, double y, const LampDirection& lamp) const {
   const double nx = x / (0.95 * m_half_um);
   const double ny = y / (0.95 * m_half_um);
-  const double sky = 0.10 + 0.10 * (1.0 + ny) + 0.05 * nx * nx;
+  const double sky = 0.06 + 0.07 * (1.0 + ny) + 0.04 * nx * nx;
   const auto lobe = [&](double cx, double cy, double width, double height) {
     return height * std::exp(-0.5 * ((nx - cx) * (nx - cx) + (ny - cy) * (ny - cy)) / (width * width));
   };
