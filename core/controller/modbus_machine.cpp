@@ -17,6 +17,8 @@ using acquisition::MachineSample;
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double move_timeout_machine_s = 120.0;
+constexpr double ramp_timeout_machine_s = 300.0;
+constexpr double watchdog_host_s = 5.0;
 
 // Capability bits of the identity block.
 constexpr int can_host_offset = 1 << 0;
@@ -301,6 +303,26 @@ Status ModbusMachine::beat() {
   return write_values("host_heartbeat", {static_cast<double>(++m_beat)});
 }
 
+Result<double> ModbusMachine::wait_for_ramp(bool on) {
+  if (m_map.find("table_ramp_percent") == nullptr) return 100.0;
+  const auto end = after(host_seconds(ramp_timeout_machine_s));
+  for (;;) {
+    ZD_TRY(const double percent, read_value("table_ramp_percent"));
+    if (on ? percent >= 100.0 : percent <= 0.0) return percent;
+    if (std::chrono::steady_clock::now() > end) return percent;
+    pause_ms(20);
+  }
+}
+
+/// The watchdog counts machine seconds; it must outlast a few turns of a host that is far slower than a quick machine.
+Status ModbusMachine::set_watchdog() {
+  if (m_watchdog_set || m_map.find("host_watchdog_s") == nullptr) return {};
+  const double seconds = std::clamp(std::ceil(watchdog_host_s * m_profile.time_factor), 10.0, 60000.0);
+  ZD_CHECK(write_values("host_watchdog_s", {seconds}));
+  m_watchdog_set = true;
+  return {};
+}
+
 Status ModbusMachine::write_host_offset(const std::array<double, 3>& compensation_um) {
   ZD_TRY(const bool on, compensation_on());
   ZD_CHECK(compensation::allow_offset_write(on));
@@ -310,6 +332,7 @@ Status ModbusMachine::write_host_offset(const std::array<double, 3>& compensatio
                                             {"found", fmt::format("{:.2f} um", compensation_um[i])},
                                             {"limit", fmt::format("{:.0f} um", m_profile.max_um)}});
   }
+  ZD_CHECK(set_watchdog());
   ZD_CHECK(beat());
   return write_values("host_offset_um", {compensation_um.begin(), compensation_um.end()});
 }

@@ -40,6 +40,8 @@ class ModbusMachine : public acquisition::MachineIo {
   Status write_words(const std::string& name, int offset, std::span<const std::uint16_t> words);
   Result<bool> compensation_on();
   Status beat();
+  /// Waits until the ramp of the applied compensation has ended; the percentage reached (100 when it does not tell).
+  Result<double> wait_for_ramp(bool on);
 
   const LinkHealth& health() const { return m_link.health(); }
   Link& link() { return m_link; }
@@ -50,12 +52,14 @@ class ModbusMachine : public acquisition::MachineIo {
 
  private:
   Result<std::vector<std::uint16_t>> read_span(const ReadSpan& span, const std::string& what);
+  Status set_watchdog();
   Status wait_until_zero(const std::string& name, double host_s, const std::string& what);
 
   Profile m_profile;
   RegisterMap m_map;
   Link m_link;
   bool m_single_reads = false;  // the device refused a read across a gap
+  bool m_watchdog_set = false;
   std::uint16_t m_beat = 0;
 };
 

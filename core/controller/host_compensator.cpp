@@ -1,0 +1,153 @@
+#include "core/controller/host_compensator.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "core/compensation/interlock.h"
+#include "core/controller/upload.h"
+
+namespace zerodrift::controller {
+namespace {
+
+class Loop {
+ public:
+  Loop(ModbusMachine& machine, const compensation::Table& table, const HostCompensatorOptions& options,
+       const TaskContext& context, const std::function<void(const CompensatorTurn&)>& observer)
+      : m_machine(machine),
+        m_options(options),
+        m_context(context),
+        m_observer(observer),
+        m_follower(table, follower_options(machine, options)) {}
+
+  Result<CompensatorSummary> run() {
+    ZD_CHECK(prepare());
+    ZD_TRY(const bool on, m_machine.compensation_on());
+    ZD_CHECK(compensation::allow_offset_write(on));
+    double next = m_clock.steady().count();
+    while (!ending()) {
+      ZD_CHECK(turn(next));
+      next = std::max(next + m_options.period_s, m_clock.steady().count());
+      m_clock.wait_until(Seconds(next), m_context.stop);
+    }
+    ZD_CHECK(run_to_zero());
+    return m_summary;
+  }
+
+ private:
+  static compensation::FollowerOptions follower_options(const ModbusMachine& machine,
+                                                        const HostCompensatorOptions& options) {
+    compensation::FollowerOptions out = options.follower;
+    out.largest_step_um = std::min(out.largest_step_um, machine.map().host_offset_step_um);
+    return out;
+  }
+
+  Status prepare() {
+    ZD_TRY(const auto identity, m_machine.identify());
+    if (!identity.accepts_host_offset) {
+      return fail(ErrorCode::machine_unsupported,
+                  {{"what", "the host offset"}, {"found", "none"}, {"expected", "one to write to"}});
+    }
+    if (!identity.accepts_table) return {};
+    ZD_TRY(const ActiveTable active, read_active(m_machine));
+    if (active.words.size() <= 2) return {};
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", "the controller's own table"},
+                 {"found", fmt::format("an active one (version {}) that compensates already", active.sequence)},
+                 {"expected", "none beside the host compensator; roll it back first"}});
+  }
+
+  bool ending() const {
+    if (m_context.cancelled()) return true;
+    return m_options.duration_s && m_first_time_s && m_time_s - *m_first_time_s >= *m_options.duration_s;
+  }
+
+  /// One turn. A lost link is not the end: the controller's watchdog takes the offset out, and we come back.
+  Status turn(double planned_s) {
+    const double now_s = m_clock.steady().count();
+    const double late_s = now_s - planned_s;
+    m_summary.largest_jitter_s = std::max(m_summary.largest_jitter_s, late_s);
+    if (late_s > 0.5 * m_options.period_s) ++m_summary.late_turns;
+    ++m_summary.turns;
+    CompensatorTurn report;
+    Status done = exchange(report);
+    if (done) {
+      m_last_good_s = m_clock.steady().count();
+    } else {
+      ++m_summary.lost_turns;
+      report.link_lost = true;
+      if (!is_link_error(done.error()) || m_clock.steady().count() - m_last_good_s > m_options.give_up_s) return done;
+    }
+    if (m_observer) m_observer(report);
+    return {};
+  }
+
+  static bool is_link_error(const Error& error) {
+    switch (error.code) {
+      case ErrorCode::machine_unreachable:
+      case ErrorCode::machine_silent:
+      case ErrorCode::machine_link_lost:
+      case ErrorCode::machine_bad_reply:
+      case ErrorCode::machine_busy:
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  Status exchange(CompensatorTurn& report) {
+    ZD_TRY(const auto sample, m_machine.read());
+    if (!m_first_time_s) m_first_time_s = sample.machine_time_s;
+    const double dt_s = m_time_s == 0.0 ? 0.0 : std::max(0.0, sample.machine_time_s - m_time_s);
+    m_time_s = sample.machine_time_s;
+    compensation::Temperatures temperatures{{"ambient_C", sample.ambient_C}};
+    const auto& sensors = m_machine.profile().sensors;
+    for (std::size_t i = 0; i < sensors.size(); ++i) temperatures[sensors[i].channel] = sample.temperature_C[i];
+    report.machine_time_s = sample.machine_time_s;
+    report.applied_um = sample.applied_um;
+    report.switch_on = sample.compensation_on;
+    if (!sample.compensation_on) {
+      report.output.reasons.emplace_back("the compensation switch is off");
+      return {};
+    }
+    // The controller's own value counts: its watchdog or switch may have taken the offset out since the last turn.
+    ZD_TRY(const RegisterValues held, m_machine.read_values({"host_offset_um"}));
+    const auto& values = held.at("host_offset_um");
+    m_follower.start_from({values.at(0), values.at(1), values.at(2)});
+    report.output = m_follower.step(dt_s, temperatures, sample.axes);
+    m_summary.last_offset_um = report.output.offset_um;
+    return m_machine.write_host_offset(report.output.offset_um);
+  }
+
+  Status run_to_zero() {
+    m_follower.stop();
+    const double end_s = m_clock.steady().count() + m_machine.host_seconds(600.0);
+    while (!m_follower.at_zero() && m_clock.steady().count() < end_s) {
+      ZD_CHECK(turn(m_clock.steady().count()));
+      m_clock.wait_for(Seconds(std::min(m_options.period_s, 0.2)), {});
+    }
+    return {};
+  }
+
+  ModbusMachine& m_machine;
+  const HostCompensatorOptions& m_options;
+  const TaskContext& m_context;
+  const std::function<void(const CompensatorTurn&)>& m_observer;
+  compensation::Follower m_follower;
+  SystemClock m_clock;
+  CompensatorSummary m_summary;
+  std::optional<double> m_first_time_s;
+  double m_time_s = 0.0;
+  double m_last_good_s = 0.0;
+};
+
+}  // namespace
+
+Result<CompensatorSummary> run_host_compensator(ModbusMachine& machine, const compensation::Table& table,
+                                                const HostCompensatorOptions& options, const TaskContext& context,
+                                                const std::function<void(const CompensatorTurn&)>& observer) {
+  return Loop(machine, table, options, context, observer).run();
+}
+
+}  // namespace zerodrift::controller

@@ -1,0 +1,46 @@
+#pragma once
+// The host compensator (C1): once a second or faster it reads the temperatures, lets the model predict and writes the
+// offset, interlocked with the switch. Both sides watch: the host beats a heartbeat, the controller ramps the offset to
+// 0 when it stops. At the end the offset is run to 0. Runs for days in constant memory.
+
+#include <functional>
+#include <optional>
+
+#include "core/acquisition/machine_io.h"
+#include "core/base/clock.h"
+#include "core/base/result.h"
+#include "core/base/task_context.h"
+#include "core/compensation/follower.h"
+#include "core/controller/modbus_machine.h"
+
+namespace zerodrift::controller {
+
+struct HostCompensatorOptions {
+  double period_s = 1.0;             // host seconds
+  std::optional<double> duration_s;  // machine seconds; none: until stopped
+  double give_up_s = 60.0;           // host seconds without the machine before it ends with the link's error
+  compensation::FollowerOptions follower;
+};
+
+struct CompensatorTurn {
+  double machine_time_s = 0.0;
+  compensation::FollowerOutput output;
+  std::array<double, 3> applied_um{};  // as the controller tells
+  bool switch_on = true;               // off: nothing was written (R4)
+  bool link_lost = false;
+};
+
+struct CompensatorSummary {
+  long turns = 0;
+  long late_turns = 0;  // turns that began more than half a period late
+  long lost_turns = 0;  // without the machine
+  double largest_jitter_s = 0.0;
+  std::array<double, 3> last_offset_um{};
+};
+
+/// Runs until stopped, or for the duration. data_does_not_fit when the controller's own table already compensates.
+Result<CompensatorSummary> run_host_compensator(ModbusMachine& machine, const compensation::Table& table,
+                                                const HostCompensatorOptions& options, const TaskContext& context,
+                                                const std::function<void(const CompensatorTurn&)>& observer = {});
+
+}  // namespace zerodrift::controller

@@ -1,0 +1,34 @@
+#pragma once
+// Displacement probes read by the controller as the source of errors (V5): five-probe nest, X1 X2 Y1 Y2 Z in um, pair 1
+// at the nose. Error = reading - zero; the mean of several readings, its scatter is the uncertainty.
+
+#include <optional>
+
+#include "core/acquisition/error_source.h"
+#include "core/controller/modbus_machine.h"
+
+namespace zerodrift::controller {
+
+class ProbeErrorSource : public acquisition::ErrorSource {
+ public:
+  /// The machine must outlive the source and is used from the same thread.
+  explicit ProbeErrorSource(ModbusMachine& machine, int readings = 5) : m_machine(machine), m_readings(readings) {}
+
+  Status take_zero(const TaskContext& context) override;
+  Result<acquisition::ErrorSample> measure(const TaskContext& context) override;
+  std::string name() const override { return "probes"; }
+
+ private:
+  struct Nose {
+    std::array<double, 3> mean_um{};
+    std::array<double, 3> sigma_um{};
+    bool valid = false;
+  };
+  Result<Nose> read_nose(const TaskContext& context);
+
+  ModbusMachine& m_machine;
+  int m_readings;
+  std::array<double, 3> m_zero_um{};
+};
+
+}  // namespace zerodrift::controller

@@ -1,0 +1,49 @@
+#pragma once
+// A small controller with the documented table transaction behind our own server, whose replies can be spoilt at a
+// chosen request: what the upload and the compensator are tried against.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/controller/modbus_server.h"
+#include "core/controller/profile.h"
+
+namespace zerodrift::controller {
+
+class Device {
+ public:
+  Device();
+
+  Profile profile() const;
+  std::vector<std::uint16_t> active() const;
+  int commits() const { return m_commits; }
+  std::uint16_t word(int address) const;
+  void set(int address, std::uint16_t value);
+  void set_float(int address, double value);
+  double float_at(int address) const;
+  /// The reply to request number n (counted from now, from 0) is spoilt; every one from there on with `lasting`.
+  void spoil(int n, ReplyFault fault, bool lasting = false);
+  /// From on_write, where the lock is held.
+  void set_unlocked(int address, std::uint16_t value) { m_words[static_cast<std::size_t>(address)] = value; }
+  int requests() const { return m_requests; }
+  /// Called on each write, with the lock held; may refuse.
+  std::function<std::optional<ModbusException>(int address, std::span<const std::uint16_t>)> on_write;
+
+ private:
+  std::optional<ModbusException> write(int address, std::span<const std::uint16_t> values);
+  void commit();
+
+  mutable std::mutex m_lock;
+  std::vector<std::uint16_t> m_words;
+  std::atomic<int> m_requests{0};
+  std::atomic<int> m_commits{0};
+  std::atomic<int> m_spoil_at{-1};
+  std::atomic<bool> m_lasting{false};
+  ReplyFault m_fault;
+  std::unique_ptr<ModbusServer> m_server;  // last: stops before the rest goes
+};
+
+}  // namespace zerodrift::controller

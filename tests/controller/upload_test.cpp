@@ -1,0 +1,266 @@
+// The upload transaction: what becomes of the table when anything goes wrong at any moment.
+
+#include "core/controller/upload.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/controller/table_history.h"
+#include "core/controller/table_words.h"
+#include "device.h"
+#include "peer.h"
+
+namespace zerodrift::controller {
+namespace {
+
+using compensation::Table;
+using Kind = ReplyFault::Kind;
+
+Table sample(double coefficient = 2.0) {
+  Table table;
+  compensation::AxisTable& z = table.axes["Z"];
+  z.offset_um = -3.0;
+  z.terms = {{"T1_C", coefficient, 20.0, 0.5}, {"ambient_C", -1.0, 20.0, 0.0}};
+  for (int i = 0; i < 20; ++i) z.points.push_back({10.0 * i, 0.5 * i, 0.5 * i + 1.0, 0.25});
+  table.axes["X"].offset_um = 4.0;
+  return table;
+}
+
+std::unique_ptr<ModbusMachine> open(const Profile& profile) {
+  auto machine = ModbusMachine::open(profile);
+  EXPECT_TRUE(machine) << describe(machine.error());
+  return std::move(*machine);
+}
+
+std::string text_of(const Status& status) {
+  return status ? "done" : describe(status.error());
+}
+
+}  // namespace
+
+TEST(TableWords, RoundTripIsExactInSinglePrecision) {
+  const Device device;
+  const Table table = sample();
+  const auto words = encode_table(table, device.profile());
+  ASSERT_TRUE(words) << describe(words.error());
+  EXPECT_EQ(words->size(), 2U + 12U + 12U + 2U * 7U + 20U * 8U);
+  // All of it is compensation: the offset of X, +4 um of error, is written as -4 um.
+  EXPECT_FLOAT_EQ(float_at(*words, 6), -4.0F);
+  const auto back = decode_table(*words, device.profile());
+  ASSERT_TRUE(back) << describe(back.error());
+  EXPECT_EQ(encode_table(*back, device.profile()).value(), *words);
+  EXPECT_DOUBLE_EQ(back->axes.at("Z").points[3].error_down_um, 2.5);
+  EXPECT_EQ(back->axes.at("Z").terms[1].sensor, "ambient_C");
+}
+
+TEST(TableWords, RefusesWhatDoesNotFit) {
+  const Device device;
+  Table table = sample();
+  EXPECT_EQ(encode_table(table, device.profile(), 100).error().code, ErrorCode::limit_exceeded);
+  table.axes["Z"].terms[0].sensor = "T99_C";
+  EXPECT_EQ(encode_table(table, device.profile()).error().code, ErrorCode::channel_missing);
+  auto words = encode_table(sample(), device.profile()).value();
+  words.pop_back();
+  EXPECT_EQ(decode_table(words, device.profile()).error().code, ErrorCode::wrong_format);
+  words[0] = 9;
+  EXPECT_EQ(decode_table(words, device.profile()).error().code, ErrorCode::wrong_format);
+}
+
+TEST(Upload, PushReadBackRollback) {
+  Device device;
+  auto machine = open(device.profile());
+  std::vector<std::string> states;
+  UploadOptions options;
+  options.observer = [&](const UploadStep& step) { states.emplace_back(name_of(step.state)); };
+  const auto first = upload_table(*machine, sample(), options, {});
+  ASSERT_TRUE(first.result) << text_of(first.result);
+  EXPECT_EQ(states.back(), "done");
+  EXPECT_EQ(device.active(), first.new_words);
+  EXPECT_EQ(device.word(17), 1);  // on
+  EXPECT_TRUE(first.old_words.empty());
+  const auto second = upload_table(*machine, sample(3.0), {}, {});
+  ASSERT_TRUE(second.result) << text_of(second.result);
+  EXPECT_EQ(second.old_words, first.new_words);
+  EXPECT_EQ(second.sequence, first.sequence + 1);
+  ASSERT_EQ(second.difference.size(), 2U);
+  EXPECT_GT(second.difference[1].largest_um, 4.9);
+  const auto back = upload_words(*machine, second.old_words, {}, {});
+  ASSERT_TRUE(back.result) << text_of(back.result);
+  EXPECT_EQ(device.active(), first.new_words);
+  EXPECT_EQ(read_active(*machine)->words, first.new_words);
+  EXPECT_FALSE(to_json(back).contains("error"));
+}
+
+TEST(Upload, DryRunWritesNothing) {
+  Device device;
+  device.set(17, 1);
+  bool written = false;
+  device.on_write = [&](int, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
+    written = true;
+    return std::nullopt;
+  };
+  auto machine = open(device.profile());
+  UploadOptions options;
+  options.dry_run = true;
+  const auto record = upload_table(*machine, sample(), options, {});
+  EXPECT_TRUE(record.result) << text_of(record.result);
+  EXPECT_FALSE(written);
+  EXPECT_FALSE(record.difference.empty());
+}
+
+TEST(Upload, RefusesBeforeWriting) {
+  Device device;
+  auto machine = open(device.profile());
+  const auto refusal = [&](const Table& table) {
+    const auto record = upload_table(*machine, table, {}, {});
+    EXPECT_EQ(device.commits(), 0);
+    return record.result ? ErrorCode::internal : record.result.error().code;
+  };
+  Table other = sample();
+  other.machine = "Another machine";
+  EXPECT_EQ(refusal(other), ErrorCode::data_does_not_fit);
+  Table far = sample();
+  far.axes["X"].offset_um = 150.0;
+  far.axes["X"].max_um = 500.0;
+  far.axes["X"].points = {{0.0, 100.0, 0.0, 0.0}};
+  EXPECT_EQ(refusal(far), ErrorCode::limit_exceeded);
+  EXPECT_EQ(refusal(sample(60.0)), ErrorCode::limit_exceeded);
+  for (const int state : {4 | 2, 4 | 8, 0, 4 | 1}) {
+    device.set(16, static_cast<std::uint16_t>(state));
+    EXPECT_EQ(refusal(sample()), ErrorCode::machine_not_ready) << state;
+  }
+}
+
+TEST(Upload, RejectionLeavesTheOldTableActive) {
+  Device device;
+  auto machine = open(device.profile());
+  ASSERT_TRUE(upload_table(*machine, sample(), {}, {}).result);
+  const auto old_words = device.active();
+  // A controller that rejects: it finds its switch on at the commit.
+  device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
+    if (address == 205) device.set_unlocked(17, 1);
+    return std::nullopt;
+  };
+  const auto record = upload_table(*machine, sample(5.0), {}, {});
+  ASSERT_FALSE(record.result);
+  EXPECT_EQ(record.result.error().code, ErrorCode::upload_rejected) << text_of(record.result);
+  EXPECT_EQ(device.active(), old_words);
+}
+
+TEST(Upload, CorruptStagingIsFoundBeforeTheCommit) {
+  Device device;
+  device.on_write = [&](int address, std::span<const std::uint16_t> values) -> std::optional<ModbusException> {
+    if (address >= 1000) {
+      auto* words = const_cast<std::uint16_t*>(values.data());
+      words[values.size() / 2] ^= 0x0100;
+    }
+    return std::nullopt;
+  };
+  auto machine = open(device.profile());
+  const auto record = upload_table(*machine, sample(), {}, {});
+  ASSERT_FALSE(record.result);
+  EXPECT_EQ(record.result.error().code, ErrorCode::upload_read_back) << text_of(record.result);
+  EXPECT_EQ(device.commits(), 0);
+}
+
+class UploadFault : public testing::TestWithParam<Kind> {};
+
+// One spoilt reply at each possible request: the table is the old or the new one, whole, and the record says which.
+TEST_P(UploadFault, AtEveryRequest) {
+  Device device;
+  auto machine = open(device.profile());
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  device.spoil(-1, {});
+  ASSERT_TRUE(upload_table(*machine, sample(2.0), {}, {}).result);
+  const int all = device.requests();
+  const auto at_two = device.active();
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  const auto at_one = device.active();
+  int failed = 0;
+  for (int n = 0; n < all + 2; ++n) {
+    const bool to_two = device.active() == at_one;
+    device.spoil(n, {GetParam(), std::chrono::milliseconds(GetParam() == Kind::late ? 90 : 0)});
+    const auto record = upload_table(*machine, sample(to_two ? 2.0 : 1.0), {}, {});
+    const auto now = device.active();
+    ASSERT_TRUE(now == at_one || now == at_two) << "request " << n;
+    ASSERT_EQ(now == (to_two ? at_two : at_one), record.result.has_value()) << n << ": " << text_of(record.result);
+    failed += record.result ? 0 : 1;
+    EXPECT_NE(record.reached, UploadState::restore_failed) << n << ": " << text_of(record.result);
+  }
+  EXPECT_EQ(failed, 0) << "a single fault is overcome";
+}
+
+// The link dies for good at any request: nothing is half active, and a doubtful end says so.
+TEST_P(UploadFault, ForGoodFromEachRequest) {
+  Device device;
+  auto machine = open(device.profile());
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  const auto old_words = device.active();
+  const auto new_words = encode_table(sample(2.0), device.profile()).value();
+  device.spoil(-1, {});
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  const int all = device.requests();
+  machine->link().set_attempts(2);
+  for (int n = 0; n < all; n += 2) {
+    device.spoil(n, {GetParam(), std::chrono::milliseconds(GetParam() == Kind::late ? 90 : 0)}, true);
+    const auto record = upload_table(*machine, sample(2.0), {}, {});
+    device.spoil(-1, {});
+    const auto now = device.active();
+    ASSERT_TRUE(now == old_words || now == new_words) << "request " << n;
+    if (record.result) {
+      EXPECT_TRUE(now == new_words) << n;
+    } else if (now == new_words) {
+      EXPECT_EQ(record.reached, UploadState::restore_failed) << n << text_of(record.result);
+    }
+    ASSERT_TRUE(upload_words(*machine, old_words, {}, {}).result);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Device, UploadFault,
+                         testing::Values(Kind::busy, Kind::late, Kind::wrong_transaction, Kind::truncated, Kind::drop));
+
+TEST(Upload, CommitIsNeverSentTwiceBlindly) {
+  Device device;
+  auto machine = open(device.profile());
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  int commit_at = -1;
+  device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
+    if (address == 205) commit_at = device.requests() - 1;
+    return std::nullopt;
+  };
+  device.spoil(-1, {});
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  const int before = device.commits();
+  device.spoil(commit_at, {Kind::truncated, {}});  // the commit is carried out, its reply is lost
+  const auto record = upload_table(*machine, sample(2.0), {}, {});
+  EXPECT_TRUE(record.result) << text_of(record.result);
+  EXPECT_EQ(device.commits(), before + 1);
+}
+
+TEST(Upload, APymodbusPeerTakesTheTable) {
+  const Peer peer({"--speedup", "60"});
+  if (!peer.running()) GTEST_SKIP() << "python3-pymodbus is not installed";
+  auto machine = open(*read_profile(peer.profile_file()));
+  const auto record = upload_table(*machine, sample(), {}, {});
+  ASSERT_TRUE(record.result) << text_of(record.result);
+  EXPECT_EQ(read_active(*machine)->words, record.new_words);
+  const auto back = upload_words(*machine, record.old_words, {}, {});
+  ASSERT_TRUE(back.result) << text_of(back.result);
+  EXPECT_EQ(read_active(*machine)->words, (std::vector<std::uint16_t>{1, 0}));
+}
+
+TEST(TableHistory, KeepsAndForgets) {
+  const TableHistory history(std::filesystem::path(testing::TempDir()) / "zd_table_history");
+  std::filesystem::remove_all(std::filesystem::path(testing::TempDir()) / "zd_table_history");
+  EXPECT_TRUE(history.read(5)->empty());
+  ASSERT_TRUE(history.push(5, {"2026-01-01T00:00:00.000Z", 3, {1, 0}}));
+  ASSERT_TRUE(history.push(5, {"2026-01-02T00:00:00.000Z", 4, {1, 1, 65535}}));
+  EXPECT_EQ(history.read(5)->back().words, (std::vector<std::uint16_t>{1, 1, 65535}));
+  EXPECT_TRUE(history.read(6)->empty());
+  ASSERT_TRUE(history.pop(5));
+  EXPECT_EQ(history.read(5)->back().sequence, 3);
+}
+
+}  // namespace zerodrift::controller
