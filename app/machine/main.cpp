@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/machine/camera/camera_server.h"
+#include "app/machine/case_writer.h"
 #include "app/machine/description.h"
+#include "app/machine/faults.h"
 #include "app/machine/live_machine.h"
 #include "app/machine/truth_log.h"
 #include "core/base/json.h"
@@ -27,6 +29,9 @@ struct Options {
   int camera_port = 8090;
   std::string profile;
   std::string truth;
+  std::vector<std::string> faults;
+  std::string conceal;
+  std::string case_folder;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -43,6 +48,9 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--profile", options.profile, "write the connection profile to this file");
   app.add_option("--truth", options.truth, "write what the machine truly does to this CSV file");
+  app.add_option("--fault", options.faults, "a fault now and then (NAME) or all the time (NAME:always)");
+  app.add_option("--conceal", options.conceal, "hide this effect from the machine description, or a random one");
+  app.add_option("--write-case", options.case_folder, "write recordings and description there and end");
 }
 
 /// Blocks the signals that end the program in every thread; wait_for_end then takes them.
@@ -55,17 +63,32 @@ sigset_t end_signals() {
   return signals;
 }
 
-void wait_for_end(const sigset_t& signals) {
-  int signal = 0;
-  sigwait(&signals, &signal);
+/// Until a signal comes; meanwhile the camera's fault is set for the machine time that is near.
+void wait_for_end(const sigset_t& signals, const std::vector<Fault>& faults, LiveMachine& machine,
+                  CameraServer& cameras) {
+  const timespec turn{0, 50'000'000};
+  while (sigtimedwait(&signals, nullptr, &turn) < 0) {
+    const CameraFault fault = camera_fault(faults, machine.scene(View::front).machine_time_s);
+    if (fault.kind != CameraFault::Kind::none) cameras.set_fault(fault);
+  }
 }
 
-Status serve(const Options& options, const sigset_t& signals) {
+Result<std::vector<Fault>> parse_faults(const std::vector<std::string>& texts) {
+  std::vector<Fault> faults;
+  for (const std::string& text : texts) {
+    ZD_TRY(faults.emplace_back(), parse_fault(text));
+  }
+  return faults;
+}
+
+Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t& signals) {
+  ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
   TruthLog truth;
   if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
-  const HiddenEffect hidden;
+  ReplyFaults reply_faults(faults);
   LiveMachine machine(build_machine(options.seed, hidden), options.speedup,
                       [&truth](const Machine& now) { truth.moment(now); });
+  machine.set_sensor_fault(sensor_fault(faults));
   controller::ModbusServerOptions server_options;
   server_options.host = options.host;
   server_options.port = options.port;
@@ -73,19 +96,33 @@ Status serve(const Options& options, const sigset_t& signals) {
   server_options.write = [&](int address, std::span<const std::uint16_t> words) {
     return machine.write(address, words);
   };
+  server_options.fault = [&](bool) { return reply_faults.next(); };
   CameraServer cameras(camera_options(options.seed), [&](View view) { return machine.scene(view); });
   ZD_TRY(const int camera_port, cameras.start(options.camera_port));
-  machine.start();
-  ZD_TRY(const auto server, controller::ModbusServer::start(std::move(server_options)));
+  ZD_TRY(auto server, controller::ModbusServer::start(std::move(server_options)));
   const Endpoints endpoints{options.host, server->port(), camera_port, options.speedup};
   if (!options.profile.empty()) ZD_CHECK(write_json_file(options.profile, connection_profile(endpoints, hidden)));
+  machine.start();
   fmt::print("ready modbus={} camera=http://127.0.0.1:{}/\n", server->port(), camera_port);
   std::fflush(stdout);
-  wait_for_end(signals);
+  wait_for_end(signals, faults, machine, cameras);
+  server.reset();
   cameras.stop();
   machine.stop();
   truth.close();
   return {};
+}
+
+/// What is hidden is promised on stderr before and opened there at the end; stdout holds the line "ready" alone.
+Status work(const Options& options, const sigset_t& signals) {
+  ZD_TRY(const HiddenEffect hidden, draw_effect(options.conceal, options.seed));
+  if (!options.case_folder.empty()) return write_case(options.case_folder, hidden, options.seed);
+  if (options.conceal.empty()) return serve(options, hidden, signals);
+  const Commitment commitment = commit_to(hidden);
+  fmt::print(stderr, "concealed sha256={}\n", commitment.sha256);
+  const Status done = serve(options, hidden, signals);
+  fmt::print(stderr, "opened salt={} answer={}\n", commitment.salt, commitment.answer);
+  return done;
 }
 
 int run(int argc, char** argv) {
@@ -98,7 +135,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   const sigset_t signals = end_signals();
-  const Status done = serve(options, signals);
+  const Status done = work(options, signals);
   if (done) return 0;
   fmt::print(stderr, "zerodrift-machine: {}\n", describe(done.error()));
   return 1;

@@ -36,6 +36,7 @@ struct MachineParameters {
   double room_day_amplitude_K = 1.6;
   double room_phase_h = 8.0;  // hour of the day at the start
   std::array<double, sensor_count> sensor_offset_K{};
+  std::uint64_t noise_day = 0;  // another day: other noise and weather, the same machine
   HiddenEffect hidden;
 };
 

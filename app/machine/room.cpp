@@ -19,7 +19,7 @@ Room::Room(const MachineParameters& parameters)
       m_amplitude_K(parameters.room_day_amplitude_K),
       m_phase_h(parameters.room_phase_h),
       m_temperature_C(parameters.room_start_C),
-      m_noise(parameters.seed * 31 + 5) {}
+      m_noise(parameters.seed * 31 + 5 + parameters.noise_day * 1000003) {}
 
 double Room::wave(double time_s) const {
   const double turn = 2.0 * std::numbers::pi;

@@ -78,7 +78,8 @@ double place_temperature_C(const SensorPlace& place, const ThermalNetwork& netwo
 }
 
 std::int16_t SensorBoard::reading(int sensor, double true_C, std::uint64_t second) const {
-  const std::uint64_t counter = (m_parameters.seed << 40U) + second * 64ULL + static_cast<std::uint64_t>(sensor);
+  const std::uint64_t counter = (m_parameters.seed << 40U) + (m_parameters.noise_day << 38U) + second * 64ULL +
+                                static_cast<std::uint64_t>(sensor);
   double shown_C = true_C + noise_sigma_C * normal_of(counter);
   if (sensor > 0) shown_C += m_parameters.sensor_offset_K[sensor - 1];
   const HiddenEffect& hidden = m_parameters.hidden;
