@@ -190,11 +190,14 @@ Target Target::with_mask_from(const std::vector<GrayImage>& frames) const {
     const Location at = locate(frame);
     if (at.ok) moved.push_back({&frame, at.x_px, at.y_px});
   }
-  const std::vector<std::uint8_t> learned = travelling_pixels(m_impl->image, m_impl->region, moved);
-  if (learned.empty()) return *this;
-  std::vector<std::uint8_t> mask = m_impl->mask;
-  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = mask[k] && learned[k];
-  auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(mask));
+  return with_mask(travelling_pixels(m_impl->image, m_impl->region, moved));
+}
+
+Target Target::with_mask(const std::vector<std::uint8_t>& mask) const {
+  if (mask.size() != m_impl->mask.size()) return *this;
+  std::vector<std::uint8_t> both = m_impl->mask;
+  for (std::size_t k = 0; k < both.size(); ++k) both[k] = both[k] && mask[k];
+  auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(both));
   // A mask that leaves hardly anything was learned from frames that do not show the target's motion.
   const double kept = static_cast<double>(impl->fine.model().pixels) / std::max(m_impl->fine.model().pixels, 1);
   return kept > 0.3 ? Target(std::move(impl)) : *this;

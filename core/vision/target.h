@@ -49,6 +49,9 @@ class Target {
   /// moved (the calibration's). Frames in which it is not found are left out; fewer than three teach nothing.
   Target with_mask_from(const std::vector<GrayImage>& frames) const;
 
+  /// The same target with a stored mask (one byte a pixel of the region); itself if the mask does not suit.
+  Target with_mask(const std::vector<std::uint8_t>& mask) const;
+
   const Region& region() const;
   const PixelPoint& point() const;
   const GrayImage& image() const;

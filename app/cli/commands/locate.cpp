@@ -1,0 +1,128 @@
+// locate: where the target is in each frame of a folder, in px and, with a calibration, as an error in um.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/command.h"
+#include "app/cli/commands/vision_options.h"
+#include "core/base/file.h"
+#include "core/base/json.h"
+#include "core/vision/calibration.h"
+#include "core/vision/measure_files.h"
+#include "core/vision/target_file.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct Options {
+  std::string image;
+  std::string region;
+  std::string point;
+  std::vector<std::string> references;
+  std::string frames;
+  std::string calibration;
+  std::string views;
+  std::string out;
+};
+
+struct Prepared {
+  vision::Target target;
+  vision::LocateRequest request;
+};
+
+// Region, point and mask come from the calibration where the command line is silent, so that both see the same pixels.
+Result<Prepared> prepare(const Options& options, std::vector<std::string>& warnings, const TaskContext& context) {
+  vision::TemplateChoice choice{options.image, {}, {}};
+  ZD_TRY(choice.region, region_from(options.region, "--roi"));
+  ZD_TRY(choice.point, point_from(options.point, "--point"));
+  vision::LocateRequest request;
+  std::optional<vision::StoredTarget> stored;
+  if (!options.calibration.empty()) {
+    ZD_TRY(const nlohmann::json document, read_json_file(options.calibration));
+    ZD_TRY(request.calibration, vision::calibration_from_json(document, options.calibration, &warnings));
+    stored = vision::target_from_json(document);
+    if (stored && !choice.region) {
+      choice.region = stored->region;
+      if (!choice.point) choice.point = stored->point;
+    }
+  }
+  ZD_TRY(vision::Target target, vision::load_target(choice, &warnings));
+  const vision::Region& at = target.region();
+  if (!options.views.empty()) {
+    ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views));
+    ZD_TRY(const vision::FileCalibration learned, vision::calibrate_from_files(target, views, &warnings, context));
+    target = learned.target;
+  } else if (stored && stored->region.x == at.x && stored->region.y == at.y && stored->region.width == at.width &&
+             stored->region.height == at.height) {
+    target = target.with_mask(stored->mask);
+  }
+  for (const std::string& text : options.references) {
+    vision::TemplateChoice reference{options.image, {}, {}};
+    ZD_TRY(reference.region, region_from(text, "--reference-roi"));
+    ZD_TRY(vision::Target mark, vision::load_target(reference, nullptr));
+    request.references.push_back(std::move(mark));
+  }
+  return Prepared{std::move(target), std::move(request)};
+}
+
+nlohmann::json json_of(const vision::FramePosition& p) {
+  const vision::Location& at = p.location;
+  nlohmann::json out{{"frame", p.frame}, {"ok", at.ok}, {"reason", at.reason}};
+  if (at.ok) {
+    out["x_px"] = at.x_px;
+    out["y_px"] = at.y_px;
+    out["sigma_x_px"] = at.sigma_x_px;
+    out["sigma_y_px"] = at.sigma_y_px;
+    out["correlation"] = at.correlation;
+  }
+  if (p.error) {
+    out["ex_um"] = p.error->x_um;
+    out["ey_um"] = p.error->y_um;
+    out["sigma_ex_um"] = p.error->sigma_x_um;
+    out["sigma_ey_um"] = p.error->sigma_y_um;
+  }
+  return out;
+}
+
+Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+  CommandOutput output;
+  ZD_TRY(const Prepared prepared, prepare(options, output.warnings, context));
+  ZD_TRY(const std::vector<vision::FramePosition> positions,
+         vision::locate_in_folder(prepared.target, prepared.request, options.frames, &output.warnings, context));
+  const bool with_um = prepared.request.calibration.has_value();
+  ZD_CHECK(write_file(options.out, vision::positions_csv(positions, with_um)));
+  int good = 0;
+  output.json["positions"] = nlohmann::json::array();
+  for (const vision::FramePosition& p : positions) {
+    good += p.location.ok ? 1 : 0;
+    output.json["positions"].push_back(json_of(p));
+    if (!p.location.ok) output.text += fmt::format("{}: {}\n", p.frame, p.location.reason);
+  }
+  output.json["frames"] = positions.size();
+  output.json["measured"] = good;
+  output.text += fmt::format("{} of {} frames measured, written to {}", good, positions.size(), options.out);
+  return output;
+}
+
+}  // namespace
+
+void add_locate(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = cli.add("locate", "Measure the target's displacement in the frames of a folder",
+                              [options](const TaskContext& context) { return run(*options, context); });
+  command->add_option("--template", options->image, "Picture of the target at rest")->required();
+  command->add_option("--roi", options->region,
+                      "Region of the target, X,Y,W,H in px; default: the calibration's, or found by itself");
+  command->add_option("--point", options->point,
+                      "Point whose displacement is measured, X,Y in px; default: the centre");
+  command->add_option("--reference-roi", options->references,
+                      "Region of a fixed mark whose motion is taken off; may be given more than once");
+  command->add_option("--frames", options->frames, "Folder of pictures")->required();
+  command->add_option("--calibration", options->calibration, "Calibration file: adds the error in um");
+  command->add_option("--views", options->views, "Calibration views, to learn which pixels travel with the target");
+  command->add_option("--out", options->out, "CSV file to write")->required();
+}
+
+}  // namespace zerodrift::cli

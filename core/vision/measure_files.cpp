@@ -1,0 +1,208 @@
+#include "core/vision/measure_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/recording/csv.h"
+#include "core/vision/error_view.h"
+#include "core/vision/image_codec.h"
+#include "core/vision/region_finder.h"
+
+namespace zerodrift::vision {
+namespace {
+
+namespace fs = std::filesystem;
+
+void warn(std::vector<std::string>* warnings, std::string text) {
+  if (warnings != nullptr) warnings->push_back(std::move(text));
+}
+
+// In few words, for a row or a warning; the file's name stands beside it.
+std::string short_reason(const Error& error) {
+  const auto detail = error.context.find("detail");
+  return "unreadable: " + (detail != error.context.end() ? detail->second : std::string(name_of(error.code)));
+}
+
+bool looks_like_picture(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  static const std::vector<std::string> known{".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<std::string>* warnings) {
+  std::error_code problem;
+  if (!fs::is_directory(folder, problem)) return fail(ErrorCode::file_not_found, {{"file", folder.string()}});
+  std::vector<fs::path> out;
+  for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
+    std::error_code ignored;
+    const std::string name = it->path().filename().string();
+    if (name.empty() || name.front() == '.' || it->is_directory(ignored)) continue;
+    if (looks_like_picture(it->path())) {
+      out.push_back(it->path());
+    } else {
+      warn(warnings, name + " is no picture and was left out");
+    }
+  }
+  if (problem) {
+    return fail(ErrorCode::file_unreadable, {{"file", folder.string()}, {"detail", problem.message()}});
+  }
+  std::sort(out.begin(), out.end(), [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
+  if (out.empty()) {
+    return fail(ErrorCode::not_enough_data,
+                {{"what", "the folder " + folder.string()}, {"found", "no picture"}, {"needed", "at least one"}});
+  }
+  return out;
+}
+
+Location unreadable(const std::string& reason) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Location location;
+  location.reason = reason;
+  location.x_px = location.y_px = location.sigma_x_px = location.sigma_y_px = nan;
+  return location;
+}
+
+struct LoadedView {
+  ViewRow row;
+  GrayImage image;
+};
+
+std::vector<LoadedView> load_views(const std::vector<ViewRow>& views, std::vector<std::string>* warnings) {
+  std::vector<LoadedView> out;
+  for (const ViewRow& row : views) {
+    Result<DecodedImage> image = read_image(row.image);
+    if (!image) {
+      warn(warnings, row.name + " was left out: " + short_reason(image.error()));
+      continue;
+    }
+    if (!image->note.empty()) warn(warnings, row.name + ": " + image->note);
+    out.push_back({row, std::move(image->image)});
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string>* warnings) {
+  ZD_TRY(const DecodedImage picture, read_image(choice.file));
+  const std::string name = choice.file.string();
+  if (!picture.note.empty()) warn(warnings, name + ": " + picture.note);
+  Region region;
+  if (choice.region) {
+    region = *choice.region;
+  } else {
+    ZD_TRY(region, find_textured_region(picture.image, name));
+    warn(warnings, fmt::format("no region was given: {},{},{},{} shows the most pattern and is used", region.x,
+                               region.y, region.width, region.height));
+  }
+  return Target::create(picture.image, region, choice.point, name);
+}
+
+Result<std::vector<ViewRow>> read_views(const fs::path& file) {
+  ZD_TRY(const recording::TextTable table, recording::read_table(file));
+  std::array<int, 3> columns{};
+  const std::array<const char*, 3> names{"image", "x_mm", "y_mm"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    columns[k] = table.column(names[k]);
+    if (columns[k] >= 0) continue;
+    return fail(ErrorCode::csv_bad_header, {{"file", file.string()},
+                                            {"column", std::to_string(k + 1)},
+                                            {"found", k < table.header.size() ? table.header[k] : ""},
+                                            {"expected", "image,x_mm,y_mm"}});
+  }
+  std::vector<ViewRow> out;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    ViewRow view;
+    view.name = table.rows[row][static_cast<std::size_t>(columns[0])];
+    for (std::size_t k = 1; k < 3; ++k) {
+      ZD_TRY(double& value = k == 1 ? view.x_mm : view.y_mm, recording::number_in(table, row, columns[k]));
+      if (!std::isfinite(value)) {
+        return fail(
+            ErrorCode::csv_bad_number,
+            {{"file", file.string()}, {"line", std::to_string(table.lines[row])}, {"column", names[k]}, {"found", ""}});
+      }
+    }
+    const fs::path beside = file.parent_path() / view.name;
+    std::error_code ignored;
+    view.image = fs::exists(beside, ignored) || !fs::exists(view.name, ignored) ? beside : fs::path(view.name);
+    out.push_back(std::move(view));
+  }
+  return out;
+}
+
+Result<FileCalibration> calibrate_from_files(const Target& target, const std::vector<ViewRow>& views,
+                                             std::vector<std::string>* warnings, const TaskContext& context) {
+  const std::vector<LoadedView> loaded = load_views(views, warnings);
+  std::vector<GrayImage> frames;
+  for (const LoadedView& view : loaded) frames.push_back(view.image);
+  const Target masked = target.with_mask_from(frames);
+  std::vector<CalibrationView> used;
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    if (context.cancelled()) return fail(ErrorCode::cancelled);
+    context.progress(static_cast<double>(k) / static_cast<double>(loaded.size()), "calibration");
+    const Location at = masked.locate(loaded[k].image);
+    if (!at.ok) {
+      warn(warnings, loaded[k].row.name + " was left out: " + at.reason);
+      continue;
+    }
+    used.push_back({loaded[k].row.name, loaded[k].row.x_mm, loaded[k].row.y_mm, at.x_px, at.y_px, 0.0, 0.0});
+  }
+  ZD_TRY(Calibration calibration, calibrate(std::move(used)));
+  return FileCalibration{std::move(calibration), masked};
+}
+
+Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const LocateRequest& request,
+                                                    const fs::path& folder, std::vector<std::string>* warnings,
+                                                    const TaskContext& context) {
+  ZD_TRY(const std::vector<fs::path> files, pictures_in(folder, warnings));
+  std::vector<FramePosition> out;
+  for (const fs::path& file : files) {
+    if (context.cancelled()) return fail(ErrorCode::cancelled);
+    context.progress(static_cast<double>(out.size()) / static_cast<double>(files.size()), "location");
+    FramePosition position;
+    position.frame = file.filename().string();
+    const Result<DecodedImage> picture = read_image(file);
+    if (!picture) {
+      position.location = unreadable(short_reason(picture.error()));
+      warn(warnings, position.frame + ": " + position.location.reason);
+    } else {
+      if (!picture->note.empty()) warn(warnings, position.frame + ": " + picture->note);
+      position.location = locate_against(target, request.references, picture->image);
+      if (position.location.refusal == Refusal::other_size) {
+        warn(warnings, fmt::format("{}: {}x{} pixels, the template has {}x{}", position.frame, picture->image.width,
+                                   picture->image.height, target.image().width, target.image().height));
+      }
+    }
+    if (request.calibration && position.location.ok) position.error = request.calibration->to_um(position.location);
+    out.push_back(std::move(position));
+  }
+  return out;
+}
+
+std::string positions_csv(const std::vector<FramePosition>& positions, bool with_um) {
+  using recording::cell_text;
+  using recording::number_text;
+  std::string text = "frame,x_px,y_px,sigma_x_px,sigma_y_px,ok,reason";
+  if (with_um) text += ",ex_um,ey_um,sigma_ex_um,sigma_ey_um";
+  text += '\n';
+  for (const FramePosition& p : positions) {
+    const Location& at = p.location;
+    text += fmt::format("{},{},{},{},{},{},{}", cell_text(p.frame), number_text(at.x_px), number_text(at.y_px),
+                        number_text(at.sigma_x_px), number_text(at.sigma_y_px), at.ok ? 1 : 0, cell_text(at.reason));
+    if (with_um && p.error) {
+      text += fmt::format(",{},{},{},{}", number_text(p.error->x_um), number_text(p.error->y_um),
+                          number_text(p.error->sigma_x_um), number_text(p.error->sigma_y_um));
+    } else if (with_um) {
+      text += ",,,,";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace zerodrift::vision

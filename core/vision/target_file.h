@@ -1,0 +1,24 @@
+#pragma once
+// The target in calibration.json: template file name, region, named point and the mask learned from the views, so that
+// `locate` measures with the same pixels the calibration was made with.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vision/target.h"
+
+namespace zerodrift::vision {
+
+nlohmann::json target_to_json(const Target& target, const std::string& template_name);
+
+struct StoredTarget {
+  Region region;
+  PixelPoint point;
+  std::vector<std::uint8_t> mask;  // region's width * height
+};
+/// What calibration.json says of the target; nothing when it says nothing or something else than we write.
+std::optional<StoredTarget> target_from_json(const nlohmann::json& calibration_document);
+
+}  // namespace zerodrift::vision
