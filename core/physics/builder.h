@@ -1,0 +1,99 @@
+#pragma once
+// Makes the thermal network of a machine for one run. Effects use it to put in their terms; everything that every
+// machine has (conduction, capacities, listed sources, couplings, sensors, displacements) is put in by build_network.
+
+#include <string>
+#include <vector>
+
+#include "core/physics/effects/effect.h"
+#include "core/physics/network.h"
+#include "core/recording/recording.h"
+
+namespace zerodrift::physics {
+
+struct BuildOptions {
+  int cells = 40;  // of a rod
+};
+
+/// What an effect does to the friction of one bearing.
+struct BearingModifier {
+  enum class Kind { viscosity, preload_temperature, preload_speed, preload_constant, run_in } kind;
+  int parameter = 0;
+  int second_parameter = -1;  // run_in: ln of the time constant
+  double reference_C = 0.0;
+};
+
+class NetworkBuilder {
+ public:
+  NetworkBuilder(const Machine& machine, const recording::Recording& inputs, const BuildOptions& options);
+
+  const Machine& machine() const { return m_machine; }
+  const recording::Recording& inputs() const { return m_inputs; }
+  Network& network() { return m_network; }
+  const Network::Place& place(const std::string& component) const;
+  double reference_C(const std::string& component) const;  // initial temperature
+  double mean_initial_C() const { return m_mean_initial_C; }
+
+  int add_parameter(Parameter parameter);
+  /// A parameter of an effect: for a candidate with the effect's own prior, for a described effect around its value
+  /// with the film tolerance; `value` is the default when the spec has no such number.
+  int effect_parameter(const EffectSpec& spec, int index, std::string_view key, double value = 0.0);
+  /// Index of the held input; a channel that the recording lacks reads 0.
+  int held(const std::string& channel);
+  int linear(const std::string& channel);
+  int signal(Signal signal);
+  int room();  // environment
+  int environment(Environment environment);
+  int probe(Probe probe);
+  int conductivity(const std::string& component) const { return m_conductivity.at(component); }
+  int capacity(const std::string& component) const { return m_capacity.at(component); }
+  /// Adds a node of its own (a body behind a surface); returns its index.
+  int add_node(double volume, int capacity_parameter, double initial_C);
+
+  Term source_over(const std::string& component, double from_mm, double to_mm) const;
+  Term film_over(const std::string& component, double from_mm, double to_mm) const;
+  /// A source whose Gaussian shape moves with a position parameter.
+  Term source_at(const std::string& component, int place_parameter, double width_mm) const;
+  Probe probe_at(const std::string& component, double position_mm) const;
+  Probe mean_probe(const std::string& component) const;
+  Term& add(Term term);
+  void modify_bearing(const std::string& source, BearingModifier modifier);
+  /// The listed source's term, null if it has none yet.
+  Term* term(const std::string& label);
+  int held_speed() { return held("spindle_rpm"); }
+  std::vector<std::string> rods() const;
+
+  void build();
+
+ private:
+  void add_components();
+  void add_rod(const Component& component);
+  void add_lump(const Component& component);
+  void add_initial_state();
+  void add_sources();
+  void add_source(const Component& component, const HeatSource& source);
+  void add_couplings();
+  void add_sensors();
+  void add_displacements();
+  void add_end_loss();
+
+  const Machine& m_machine;
+  const recording::Recording& m_inputs;
+  BuildOptions m_options;
+  Network m_network;
+  std::map<std::string, int> m_conductivity;
+  std::map<std::string, int> m_capacity;
+  std::map<std::string, double> m_initial_C;
+  std::map<std::string, std::vector<BearingModifier>> m_modifiers;
+  double m_mean_initial_C = 20.0;
+  int m_room = -1;
+};
+
+Network build_network(const Machine& machine, const recording::Recording& inputs, const BuildOptions& options = {});
+
+/// Heat of a listed source in W at given inputs and bearing temperature, by its nominal law.
+double nominal_heat_W(const HeatSource& source, double input, double full_speed_rpm);
+/// The initial temperature of each component: the description's, or the first samples.
+std::map<std::string, double> initial_temperatures(const Machine& machine, const recording::Recording& inputs);
+
+}  // namespace zerodrift::physics

@@ -1,0 +1,59 @@
+// Heat lost to the room over the outer surface: rho c A dT/dt = ... - h P (T - T_room). The published spindle model
+// writes this term and then drops it. A lump of unknown surface has a conductance instead.
+#include "core/physics/effects/laws.h"
+
+namespace zerodrift::physics {
+namespace {
+
+void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
+  const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
+  for_components(builder, spec, [&](const Component& component) {
+    if (!by_conductance && !has_surface(component)) return;
+    Term film = builder.film_over(component.id, 0.0, component.length_mm);
+    if (by_conductance) film.weights.assign(film.weights.size(), 1.0 / static_cast<double>(film.weights.size()));
+    film.label = component.id + "/convection";
+    film.law_kind = LawKind::constant;
+    film.environment = builder.room();
+    film.parameters = {strength};
+    film.law = proportional_law;
+    builder.add(std::move(film));
+  });
+}
+
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
+  std::vector<EffectSpec> list;
+  bool surfaces = false;
+  const bool all_described =
+      machine.effect("convection") != nullptr && machine.effect("convection")->word_or("component", "").empty();
+  for (const auto& component : machine.components) {
+    if (component.prescribed) continue;
+    if (has_surface(component)) {
+      surfaces = true;
+      continue;
+    }
+    bool described = false;
+    for (const auto& spec : machine.effects) {
+      described = described || (spec.id == "convection" && spec.word_or("component", "") == component.id);
+    }
+    if (!described) list.push_back({"convection", true, {{"conductance_W_K", 0.0}}, {{"component", component.id}}});
+  }
+  if (surfaces && !all_described) list.push_back({"convection", true, {{"h_W_m2K", 0.0}}, {}});
+  return list;
+}
+
+}  // namespace
+
+extern const Effect convection_effect;
+const Effect convection_effect = {
+    "convection",
+    "-h P (T - T_room) over the outer surface; a lump of unknown surface: -G (T - T_room)",
+    "Newton's law; VDI Heat Atlas F: 5 to 25 W/(m2 K) for free, up to 100 for forced air",
+    "All temperatures are simulated too hot, more so the longer it runs; the measured cool-down is faster",
+    "speed_convection radiation",
+    {{"h_W_m2K", 25.0, 0.0, 300.0, true}, {"conductance_W_K", 0.5, 0.0, 100.0, true}},
+    {"h_W_m2K", "conductance_W_K"},
+    add,
+    candidates};
+
+}  // namespace zerodrift::physics

@@ -1,0 +1,62 @@
+#pragma once
+// An effect is a piece of physics that a simulation may include or leave out. Each stands in one file with its
+// equation, its source, the plausible range of its parameters and its fingerprint in words; list.cpp is the list of
+// them all.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/physics/machine.h"
+
+namespace zerodrift::physics {
+
+class NetworkBuilder;
+struct RunFacts;
+
+/// How one parameter of an effect is known beforehand. Amplitudes are half-normal from 0 when only physical signs are
+/// allowed (low = 0), else normal.
+struct EffectParameter {
+  std::string_view key;
+  double sigma = 1.0;
+  double low = 0.0;
+  double high = 1e300;
+  bool amplitude = false;
+};
+
+struct Effect {
+  std::string_view id;
+  std::string_view equation;
+  std::string_view source;
+  std::string_view fingerprint;
+  std::string_view confused_with;
+  std::vector<EffectParameter> parameters;
+  std::vector<std::string_view> required_numbers;  // a description that lists the effect gives one of them at least
+  /// Puts the effect into the network.
+  void (*add)(NetworkBuilder& builder, const EffectSpec& spec, int index);
+  /// The forms in which the effect could be missing from this machine in this run; parameters at their start values.
+  std::vector<EffectSpec> (*candidates)(const Machine& machine, const RunFacts& facts);
+
+  const EffectParameter& parameter(std::string_view key) const;
+};
+
+/// What the recording can excite, for making candidates.
+struct RunFacts {
+  double duration_s = 0.0;
+  double full_speed_rpm = 0.0;
+  bool has_speed = false;    // the speed is there and not always 0
+  bool has_coolant = false;  // coolant_on is there and not always 0
+  bool has_load = false;
+  bool room_logged = false;
+  double typical_heat_W = 0.0;      // all known sources at full inputs
+  double temperature_rise_K = 0.0;  // largest in the recording
+  double displacement_range_um = 0.0;
+  std::vector<std::string> channels;  // of the machine that the recording has
+};
+
+const std::vector<const Effect*>& all_effects();
+const Effect* find_effect(std::string_view id);
+/// "convection, speed_convection, ..."
+std::string effect_ids();
+
+}  // namespace zerodrift::physics

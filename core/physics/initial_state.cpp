@@ -1,0 +1,80 @@
+#include "core/physics/initial_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/physics/builder.h"
+
+namespace zerodrift::physics {
+
+double first_value(const recording::Recording& recording, const std::string& channel) {
+  const recording::Channel* found = recording.find(channel);
+  if (found == nullptr) return std::nan("");
+  // The median of the first three samples: one spike at the start must not become the start temperature.
+  std::vector<double> first;
+  for (std::size_t i = 0; i < found->values.size() && first.size() < 3; ++i) {
+    if (std::isfinite(found->values[i])) first.push_back(found->values[i]);
+  }
+  if (first.empty()) return std::nan("");
+  std::sort(first.begin(), first.end());
+  return first[first.size() / 2];
+}
+
+std::map<std::string, double> initial_temperatures(const Machine& machine, const recording::Recording& inputs) {
+  std::map<std::string, double> result;
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& component : machine.components) {
+    std::vector<double> seen;
+    for (const auto& sensor : machine.sensors) {
+      const double value = sensor.component == component.id ? first_value(inputs, sensor.channel) : std::nan("");
+      if (std::isfinite(value)) seen.push_back(value);
+    }
+    if (!seen.empty()) {
+      for (const double value : seen) sum += value;
+      count += static_cast<int>(seen.size());
+      std::sort(seen.begin(), seen.end());
+      double middle = 0.0;
+      for (const double value : seen) middle += value / static_cast<double>(seen.size());
+      result[component.id] = seen.size() >= 5 ? seen[seen.size() / 2] : middle;
+    }
+    if (machine.initial_temperature_C) result[component.id] = *machine.initial_temperature_C;
+  }
+  double elsewhere_C = count > 0 ? sum / count : machine.initial_temperature_C.value_or(20.0);
+  if (machine.initial_temperature_C) elsewhere_C = *machine.initial_temperature_C;
+  for (const auto& component : machine.components) result.emplace(component.id, elsewhere_C);
+  return result;
+}
+
+std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const recording::Recording& inputs) {
+  std::map<std::string, Profile> warm;
+  const auto initial = initial_temperatures(machine, inputs);
+  for (const auto& component : machine.components) {
+    if (component.lump) continue;
+    Profile profile;
+    int beyond = 0;
+    for (const auto& sensor : machine.sensors) {
+      if (sensor.component != component.id) continue;
+      const double value = first_value(inputs, sensor.channel);
+      if (!std::isfinite(value)) continue;
+      profile.emplace_back(sensor.position_mm, value);
+      if (std::abs(value - initial.at(component.id)) > std::max(0.8, 5.0 * sensor.accuracy_C)) ++beyond;
+    }
+    std::sort(profile.begin(), profile.end());
+    if (beyond >= 2) warm[component.id] = std::move(profile);
+  }
+  return warm;
+}
+
+double profile_at(const Profile& profile, double position_mm) {
+  if (position_mm <= profile.front().first) return profile.front().second;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    if (position_mm > profile[i].first) continue;
+    const auto& [x0, t0] = profile[i - 1];
+    const auto& [x1, t1] = profile[i];
+    return x1 > x0 ? t0 + (t1 - t0) * (position_mm - x0) / (x1 - x0) : t1;
+  }
+  return profile.back().second;
+}
+
+}  // namespace zerodrift::physics

@@ -1,0 +1,24 @@
+#pragma once
+// How a run starts: at rest and uniform, unless the first samples of several sensors say otherwise together (one sensor
+// out of line is a faulty sensor, not a warm machine).
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/physics/machine.h"
+#include "core/recording/recording.h"
+
+namespace zerodrift::physics {
+
+/// Temperature over position: (mm, C), increasing in mm.
+using Profile = std::vector<std::pair<double, double>>;
+
+/// First present value of a channel; NaN if it has none.
+double first_value(const recording::Recording& recording, const std::string& channel);
+/// The start profile of each rod that is clearly not uniform.
+std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const recording::Recording& inputs);
+/// Linear between the points, held beyond them.
+double profile_at(const Profile& profile, double position_mm);
+
+}  // namespace zerodrift::physics

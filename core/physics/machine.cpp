@@ -1,0 +1,58 @@
+#include "core/physics/machine.h"
+
+#include <numbers>
+
+namespace zerodrift::physics {
+
+double Component::section_m2() const {
+  const double outer_m = 1e-3 * outer_diameter_mm;
+  const double bore_m = 1e-3 * bore_diameter_mm;
+  return 0.25 * std::numbers::pi * (outer_m * outer_m - bore_m * bore_m);
+}
+
+double Component::perimeter_m() const {
+  return 1e-3 * std::numbers::pi * outer_diameter_mm;
+}
+
+double EffectSpec::number_or(const std::string& key, double fallback) const {
+  const auto at = numbers.find(key);
+  return at == numbers.end() ? fallback : at->second;
+}
+
+std::string EffectSpec::word_or(const std::string& key, const std::string& fallback) const {
+  const auto at = words.find(key);
+  return at == words.end() ? fallback : at->second;
+}
+
+const Component* Machine::find(const std::string& id) const {
+  for (const auto& component : components) {
+    if (component.id == id) return &component;
+  }
+  return nullptr;
+}
+
+const Sensor* Machine::sensor(const std::string& channel) const {
+  for (const auto& one : sensors) {
+    if (one.channel == channel) return &one;
+  }
+  return nullptr;
+}
+
+const EffectSpec* Machine::effect(const std::string& id) const {
+  for (const auto& one : effects) {
+    if (one.id == id) return &one;
+  }
+  return nullptr;
+}
+
+double Machine::rated_speed_rpm() const {
+  double rated_rpm = 0.0;
+  for (const auto& component : components) {
+    for (const auto& source : component.sources) {
+      if (source.kind == SourceKind::motor) rated_rpm = std::max(rated_rpm, source.rated_speed_rpm);
+    }
+  }
+  return rated_rpm;
+}
+
+}  // namespace zerodrift::physics

@@ -1,0 +1,167 @@
+#pragma once
+// The machine description "zerodrift-machine/1": rods and lumps, what heats them, what joins them, where the sensors
+// sit. x runs along a rod from its fixed end (0) to its free end. SI inside formulas; the file's units stand in the
+// names. What the file leaves open stays open here (std::optional): the diagnosis identifies it, the simulation says
+// so.
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace zerodrift::physics {
+
+struct Material {
+  double conductivity_W_mK = 0.0;
+  double density_kg_m3 = 0.0;
+  double heat_capacity_J_kgK = 0.0;
+  double expansion_1_K = 0.0;
+};
+
+enum class SourceKind { motor, bearing, input, speed, nut, guide };
+
+/// Cooling jacket of a motor, laminar flow: Nu = 1.86 (Re Pr D/L)^(1/3) (Sieder and Tate 1936).
+struct CoolingJacket {
+  double flow_L_min = 0.0;
+  double channel_diameter_mm = 0.0;
+  double channel_length_mm = 0.0;
+  double area_mm2 = 0.0;
+  double conductivity_W_mK = 0.6;
+  double density_kg_m3 = 998.0;
+  double heat_capacity_J_kgK = 4182.0;
+  double viscosity_mm2_s = 1.0;
+  double coolant_temperature_C = 20.0;
+};
+
+struct HeatSource {
+  std::string id;
+  SourceKind kind = SourceKind::motor;
+  double from_mm = 0.0;  // rods only
+  double to_mm = 0.0;
+  double rated_power_W = 0.0;  // motor
+  double efficiency = 1.0;
+  double rated_speed_rpm = 1.0;
+  std::optional<CoolingJacket> jacket;
+  double mean_diameter_mm = 0.0;  // bearing (Palmgren)
+  double f0 = 0.0;
+  double f1 = 0.0;
+  double load_N = 0.0;
+  double oil_viscosity_mm2_s = 0.0;
+  std::string channel;                      // input, speed, nut, guide
+  double watts_per_unit = 0.0;              // input
+  double friction_N = 0.0;                  // nut, guide
+  std::vector<std::string> law;             // speed: "on", "n", "n2"
+  std::map<std::string, double> law_watts;  // speed: heat of each term at full speed, when known
+  double full_speed_rpm = 0.0;              // speed: what "n" = 1 means; 0: the recording's largest
+  bool power_unknown = false;
+  double scale = 1.0;  // correction of the whole source, written by a refined description
+};
+
+struct Component {
+  std::string id;
+  bool lump = false;
+  bool prescribed = false;  // its measured temperature is a boundary
+  double length_mm = 0.0;
+  double outer_diameter_mm = 0.0;
+  double bore_diameter_mm = 0.0;
+  Material material;
+  std::optional<double> heat_capacity_J_K;  // lumps
+  std::optional<double> area_mm2;           // lumps: surface towards the room
+  std::vector<HeatSource> sources;
+  double section_m2() const;
+  double perimeter_m() const;
+};
+
+struct CouplingEnd {
+  std::string component;
+  double position_mm = 0.0;
+};
+
+struct Coupling {
+  CouplingEnd first;
+  CouplingEnd second;
+  std::optional<double> conductance_W_K;
+};
+
+struct Fluid {
+  std::string id;
+  std::string temperature_channel;
+  std::string flow_channel;  // empty: none
+  bool always_on = false;
+};
+
+/// The air around the machine.
+struct Room {
+  std::string channel = "ambient_C";    // empty: not logged
+  std::optional<double> temperature_C;  // a known constant when not logged
+  double sigma_C = 0.7;                 // how well the start temperature stands for it when not logged
+};
+
+struct Sensor {
+  std::string channel;
+  std::string component;  // "ambient": the room
+  double position_mm = 0.0;
+  double accuracy_C = 0.1;
+};
+
+struct Displacement {
+  std::string channel;
+  std::string direction;
+  std::string component;  // empty: unknown
+  double sign = 1.0;
+};
+
+/// One effect that the model includes beside conduction and the listed sources.
+struct EffectSpec {
+  std::string id;
+  bool candidate = false;  // a hypothesis of the diagnosis: its strength may be 0; else part of the description
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> words;  // component, channel, region, law ...
+
+  double number_or(const std::string& key, double fallback) const;
+  std::string word_or(const std::string& key, const std::string& fallback) const;
+};
+
+/// Relative, 1 sigma. The defaults are those of a catalogue machine.
+struct Tolerances {
+  double conductivity = 0.04;
+  double heat_capacity = 0.03;
+  double heat_source_power = 0.10;
+  double film = 0.15;
+  double expansion = 0.04;
+  double conductance = 0.3;
+};
+
+struct Machine {
+  std::string file;  // for messages
+  std::string name;
+  std::optional<double> initial_temperature_C;
+  std::vector<Component> components;
+  std::vector<Coupling> couplings;
+  std::vector<Fluid> fluids;
+  Room room;
+  std::vector<EffectSpec> effects;
+  Tolerances tolerances;
+  std::vector<Sensor> sensors;
+  std::vector<Displacement> displacements;
+  double input_timing_sigma_s = 0.0;  // 0: not stated
+  std::string document;               // the JSON text it was read from; unknown keys are kept there
+
+  const Component* find(const std::string& id) const;
+  const Sensor* sensor(const std::string& channel) const;
+  const EffectSpec* effect(const std::string& id) const;
+  /// The speed that stands for "full": the largest rated speed, 0 if none is named.
+  double rated_speed_rpm() const;
+};
+
+Result<Machine> read_machine(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
+Result<Machine> machine_from_json(const nlohmann::json& document, const std::string& file,
+                                  std::vector<std::string>* warnings = nullptr);
+/// The document it came from with the values of today; unknown keys are kept.
+nlohmann::json to_json(const Machine& machine);
+
+}  // namespace zerodrift::physics

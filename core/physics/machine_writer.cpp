@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/physics/machine.h"
+
+namespace zerodrift::physics {
+namespace {
+
+using nlohmann::json;
+
+json& entry(json& list, const std::string& id) {
+  if (!list.is_array()) list = json::array();
+  for (auto& one : list) {
+    if (one.value("id", "") == id) return one;
+  }
+  list.push_back({{"id", id}});
+  return list.back();
+}
+
+void write_source(json& out, const HeatSource& source) {
+  if (source.scale != 1.0) out["scale"] = source.scale;
+  if (!source.law_watts.empty()) {
+    out["law_watts"] = source.law_watts;
+    out["full_speed_rpm"] = source.full_speed_rpm;
+  }
+}
+
+void write_component(json& out, const Component& component) {
+  if (component.lump) {
+    out["kind"] = "lump";
+    if (component.heat_capacity_J_K) out["heat_capacity_J_K"] = *component.heat_capacity_J_K;
+    if (component.area_mm2) out["area_mm2"] = *component.area_mm2;
+  } else {
+    json& material = out["material"];
+    material["conductivity_W_mK"] = component.material.conductivity_W_mK;
+    material["density_kg_m3"] = component.material.density_kg_m3;
+    material["heat_capacity_J_kgK"] = component.material.heat_capacity_J_kgK;
+  }
+  if (component.material.expansion_1_K != 0.0) out["material"]["expansion_1_K"] = component.material.expansion_1_K;
+  for (const auto& source : component.sources) write_source(entry(out["heat_sources"], source.id), source);
+}
+
+void write_effects(json& document, const Machine& machine) {
+  json ids = json::array();
+  json parameters = json::object();
+  std::map<std::string, json> sets;
+  for (const auto& spec : machine.effects) {
+    ids.push_back(spec.id);
+    json own = json::object();
+    for (const auto& [key, value] : spec.numbers) own[key] = value;
+    for (const auto& [key, value] : spec.words) own[key] = value;
+    sets[spec.id].push_back(own);
+  }
+  for (const auto& [id, list] : sets) parameters[id] = list.size() == 1 ? list[0] : list;
+  document["effects"] = ids;
+  document["effect_parameters"] = parameters;
+}
+
+}  // namespace
+
+json to_json(const Machine& machine) {
+  json document = machine.document.empty() ? json::object() : json::parse(machine.document);
+  document["format"] = "zerodrift-machine/1";
+  document["name"] = machine.name;
+  if (machine.initial_temperature_C) document["initial_temperature_C"] = *machine.initial_temperature_C;
+  for (const auto& component : machine.components)
+    write_component(entry(document["components"], component.id), component);
+  for (std::size_t i = 0; i < machine.couplings.size() && document.contains("couplings"); ++i) {
+    const auto& g = machine.couplings[i].conductance_W_K;
+    if (g) document["couplings"][i]["conductance_W_K"] = *g;
+  }
+  write_effects(document, machine);
+  return document;
+}
+
+}  // namespace zerodrift::physics

@@ -1,0 +1,182 @@
+#include "core/physics/prediction.h"
+
+#include <cmath>
+
+namespace zerodrift::physics {
+namespace {
+
+struct LagStep {
+  double keep, now, before;        // y1 = keep y0 + now u1 + before u0
+  double d_keep, d_now, d_before;  // by tau
+};
+
+LagStep lag_step(double dt_s, double tau_s) {
+  if (tau_s < 1e-9) return {0.0, 1.0, 0.0, 0.0, -1.0 / dt_s, 1.0 / dt_s};
+  const double keep = std::exp(-dt_s / tau_s);
+  const double q = tau_s / dt_s * (1.0 - keep);
+  const double d_keep = keep * dt_s / (tau_s * tau_s);
+  const double d_q = (1.0 - keep) / dt_s - keep / tau_s;
+  return {keep, 1.0 - q, q - keep, d_keep, -d_q, d_q - d_keep};
+}
+
+/// Filters `columns` series side by side in place.
+void lag_columns(std::vector<double>& x, std::size_t columns, const std::vector<double>& time_s, double tau_s) {
+  if (tau_s < 1e-9 || columns == 0 || time_s.empty()) return;
+  std::vector<double> before(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(columns));
+  std::vector<double> y = before;
+  for (std::size_t k = 1; k < time_s.size(); ++k) {
+    const LagStep s = lag_step(time_s[k] - time_s[k - 1], tau_s);
+    double* row = x.data() + k * columns;
+    for (std::size_t c = 0; c < columns; ++c) {
+      y[c] = s.keep * y[c] + s.now * row[c] + s.before * before[c];
+      before[c] = row[c];
+      row[c] = y[c];
+    }
+  }
+}
+
+class Observer {
+ public:
+  Observer(const Network& network, const InputSet& inputs, const std::vector<double>& values,
+           const std::vector<int>& parameters, const Trajectory& trajectory)
+      : m_net(network), m_in(inputs), m_values(values), m_run(trajectory), m_column(network.parameters.size(), -1) {
+    for (std::size_t c = 0; c < parameters.size(); ++c) m_column[parameters[c]] = static_cast<int>(c);
+  }
+
+  PredictedChannel channel(const Observation& seen) {
+    PredictedChannel out;
+    out.channel = seen.channel;
+    out.temperature = seen.temperature;
+    out.values.assign(m_run.rows, 0.0);
+    out.derivatives.assign(m_run.rows * m_run.columns, 0.0);
+    if (seen.probe >= 0) take_probe(seen, out);
+    if (seen.lag_s >= 0) apply_lag(m_values[seen.lag_s], column(seen.lag_s), out);
+    if (seen.gain >= 0) apply_gain(seen, out);
+    for (const auto& term : seen.structure) add_structure(term, out);
+    if (seen.offset >= 0) {
+      for (double& value : out.values) value += m_values[seen.offset];
+      add_column(out, column(seen.offset), 1.0, std::vector<double>(m_run.rows, 1.0));
+    }
+    return out;
+  }
+
+ private:
+  int column(int parameter) const { return parameter < 0 ? -1 : m_column[parameter]; }
+  std::size_t rows() const { return m_run.rows; }
+
+  void add_column(PredictedChannel& out, int at, double factor, const std::vector<double>& series) const {
+    if (at < 0) return;
+    for (std::size_t k = 0; k < rows(); ++k) out.derivatives[k * m_run.columns + at] += factor * series[k];
+  }
+
+  void take_probe(const Observation& seen, PredictedChannel& out) const {
+    const std::size_t probes = m_net.probes.size();
+    const double scale = seen.scale >= 0 ? m_values[seen.scale] : 1.0;
+    const double reference = seen.temperature ? 0.0 : seen.reference;
+    std::vector<double> raw(rows());
+    for (std::size_t k = 0; k < rows(); ++k) {
+      raw[k] = m_run.probes[k * probes + seen.probe] - reference;
+      out.values[k] = scale * raw[k];
+    }
+    const double* by = m_run.derivatives.data() + seen.probe * rows() * m_run.columns;
+    for (std::size_t i = 0; i < out.derivatives.size(); ++i) out.derivatives[i] = scale * by[i];
+    if (seen.scale >= 0) add_column(out, column(seen.scale), 1.0, raw);
+  }
+
+  void apply_lag(double tau_s, int at, PredictedChannel& out) const {
+    std::vector<double> by_tau;
+    out.values = lagged(out.values, m_in.time_s, tau_s, at >= 0 ? &by_tau : nullptr);
+    lag_columns(out.derivatives, m_run.columns, m_in.time_s, tau_s);
+    if (at >= 0) add_column(out, at, 1.0, by_tau);
+  }
+
+  void apply_gain(const Observation& seen, PredictedChannel& out) const {
+    const double gain = 1.0 + m_values[seen.gain];
+    std::vector<double> rise(rows());
+    for (std::size_t k = 0; k < rows(); ++k) {
+      rise[k] = out.values[k] - seen.reference;
+      out.values[k] = seen.reference + gain * rise[k];
+    }
+    for (double& d : out.derivatives) d *= gain;
+    add_column(out, column(seen.gain), 1.0, rise);
+  }
+
+  void add_structure(const StructureTerm& term, PredictedChannel& out) const {
+    std::vector<double> driver(rows());
+    std::vector<double> by;
+    if (term.probe >= 0) {
+      const std::size_t probes = m_net.probes.size();
+      for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_run.probes[k * probes + term.probe] - term.probe_reference;
+      const auto from = m_run.derivatives.begin() + static_cast<std::ptrdiff_t>(term.probe * rows() * m_run.columns);
+      by.assign(from, from + static_cast<std::ptrdiff_t>(rows() * m_run.columns));
+    } else {
+      for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_in.signals[k][term.signal];
+    }
+    const double gain = m_values[term.gain];
+    const double tau_s = term.lag >= 0 ? std::exp(m_values[term.lag]) : 0.0;
+    std::vector<double> by_tau;
+    std::vector<double> shape = lagged(driver, m_in.time_s, tau_s, &by_tau);
+    std::vector<double> by_second;
+    std::vector<double> shape_by_tau = by_tau;
+    const bool difference = term.second_lag >= 0;
+    const double second_s = difference ? std::exp(m_values[term.second_lag]) : 0.0;
+    if (difference) {
+      const std::vector<double> slow = lagged(shape, m_in.time_s, second_s, &by_second);
+      const std::vector<double> slow_by_tau = lagged(by_tau, m_in.time_s, second_s);
+      for (std::size_t k = 0; k < rows(); ++k) {
+        shape[k] -= slow[k];
+        shape_by_tau[k] -= slow_by_tau[k];
+      }
+    }
+    for (std::size_t k = 0; k < rows(); ++k) out.values[k] += gain * shape[k];
+    add_column(out, column(term.gain), 1.0, shape);
+    if (term.lag >= 0) add_column(out, column(term.lag), gain * tau_s, shape_by_tau);
+    if (difference) add_column(out, column(term.second_lag), -gain * second_s, by_second);
+    if (by.empty() || gain == 0.0) return;
+    lag_columns(by, m_run.columns, m_in.time_s, tau_s);
+    std::vector<double> slow_by = by;
+    if (difference) lag_columns(slow_by, m_run.columns, m_in.time_s, second_s);
+    for (std::size_t i = 0; i < by.size(); ++i) {
+      out.derivatives[i] += gain * (difference ? by[i] - slow_by[i] : by[i]);
+    }
+  }
+
+  const Network& m_net;
+  const InputSet& m_in;
+  const std::vector<double>& m_values;
+  const Trajectory& m_run;
+  std::vector<int> m_column;
+};
+
+}  // namespace
+
+std::vector<double> lagged(const std::vector<double>& series, const std::vector<double>& time_s, double tau_s,
+                           std::vector<double>* by_tau) {
+  std::vector<double> y = series;
+  if (by_tau != nullptr) by_tau->assign(series.size(), 0.0);
+  for (std::size_t k = 1; k < series.size(); ++k) {
+    const LagStep s = lag_step(time_s[k] - time_s[k - 1], tau_s);
+    y[k] = s.keep * y[k - 1] + s.now * series[k] + s.before * series[k - 1];
+    if (by_tau != nullptr) {
+      (*by_tau)[k] = s.keep * (*by_tau)[k - 1] + s.d_keep * y[k - 1] + s.d_now * series[k] + s.d_before * series[k - 1];
+    }
+  }
+  return y;
+}
+
+Prediction observe(const Network& network, const InputSet& inputs, const std::vector<double>& values,
+                   const std::vector<int>& parameters, const Trajectory& trajectory) {
+  Prediction prediction;
+  prediction.rows = trajectory.rows;
+  prediction.columns = trajectory.columns;
+  Observer observer(network, inputs, values, parameters, trajectory);
+  for (const auto& seen : network.observations) prediction.channels.push_back(observer.channel(seen));
+  return prediction;
+}
+
+Prediction predict(const Network& network, const InputSet& inputs, const std::vector<double>& values,
+                   const std::vector<int>& parameters, const SimulateOptions& options) {
+  return observe(network, inputs, values, parameters, run_network(network, inputs, values, parameters, options));
+}
+
+}  // namespace zerodrift::physics

@@ -1,0 +1,96 @@
+#include "core/physics/simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/physics/builder.h"
+#include "core/physics/prediction.h"
+#include "core/physics/simulate.h"
+#include "tests/physics/machines.h"
+
+namespace zerodrift::physics {
+namespace {
+
+/// A rod coupled to a lump: the envelope is wider than a chain.
+nlohmann::json coupled_json() {
+  nlohmann::json document = test::spindle_json();
+  document["components"].push_back(
+      {{"id", "housing"}, {"kind", "lump"}, {"heat_capacity_J_K", 9000}, {"area_mm2", 200000}});
+  document["couplings"] = nlohmann::json::parse(
+      R"([{"between": [{"component": "spindle", "position_mm": 341}, {"component": "housing"}], "conductance_W_K": 4.0}])");
+  document["sensors"].push_back({{"channel", "T7_C"}, {"component", "housing"}});
+  return document;
+}
+
+}  // namespace
+
+TEST(Simulator, ConservesHeat) {
+  const Machine machine = *machine_from_json(coupled_json(), "m.json");
+  const recording::Recording run = test::stepped_run();
+  const Network network = build_network(machine, run);
+  SimulateOptions options;
+  options.keep_balance = true;
+  const Trajectory t = run_network(network, make_inputs(network, run), network.start_values(), {}, options);
+  EXPECT_GT(t.stored_J, 1e4);
+  EXPECT_NEAR(t.stored_J / t.supplied_J, 1.0, 1e-10);
+}
+
+TEST(Simulator, DerivativesAgreeWithCentralDifferences) {
+  const Machine machine = *machine_from_json(coupled_json(), "m.json");
+  const recording::Recording run = test::stepped_run();
+  const Network network = build_network(machine, run);
+  const InputSet inputs = make_inputs(network, run);
+  std::vector<double> values = network.start_values();
+  values[network.hold_parameter] = 0.4;
+  std::vector<int> all;
+  for (std::size_t p = 0; p < values.size(); ++p) all.push_back(static_cast<int>(p));
+  const Prediction exact = predict(network, inputs, values, all);
+  for (const int p : all) {
+    const double h = 1e-4 * network.parameters[p].slope_at(values[p] == 0.0 ? network.parameters[p].sigma : values[p]);
+    std::vector<double> up = values, down = values;
+    up[p] += h;
+    down[p] -= h;
+    const Prediction above = predict(network, inputs, up);
+    const Prediction below = predict(network, inputs, down);
+    for (std::size_t c = 0; c < exact.channels.size(); ++c) {
+      double largest = 1e-12;
+      double worst = 0.0;
+      for (std::size_t k = 0; k < exact.rows; ++k) {
+        const double difference = (above.channels[c].values[k] - below.channels[c].values[k]) / (2.0 * h);
+        const double derivative = exact.channels[c].derivatives[k * exact.columns + p];
+        largest = std::max(largest, std::abs(difference));
+        worst = std::max(worst, std::abs(derivative - difference));
+      }
+      EXPECT_LT(worst * network.parameters[p].sigma, 1e-6 * (1.0 + largest * network.parameters[p].sigma))
+          << network.parameters[p].key << " on " << exact.channels[c].channel;
+    }
+  }
+}
+
+TEST(Simulate, PredictsTheChannelsOfTheRecordingAndNamesTheRest) {
+  const Machine machine = test::spindle();
+  recording::Recording run = test::stepped_run(1.0);
+  run.ensure("T1_C").values.assign(run.rows(), 20.0);
+  run.ensure("T99_C").values.assign(run.rows(), 20.0);
+  const auto result = simulate(machine, run);
+  ASSERT_TRUE(result.has_value());
+  EXPECT_NE(result->prediction.find("dZ_um"), nullptr);
+  EXPECT_EQ(result->not_predicted, std::vector<std::string>{"T99_C"});
+  EXPECT_GT(result->prediction.find("dZ_um")->values.back(), 5.0);
+  const auto differences = compare(result->prediction, run);
+  ASSERT_EQ(differences.size(), 1u);
+  EXPECT_GT(differences[0].rms, 1.0);
+}
+
+TEST(Simulate, RefusesKelvinAndMissingInputs) {
+  const Machine machine = test::spindle();
+  recording::Recording run = test::stepped_run(1.0);
+  run.ensure("T1_C").values.assign(run.rows(), 293.15);
+  EXPECT_EQ(simulate(machine, run).error().code, ErrorCode::data_does_not_fit);
+  recording::Recording blind = test::stepped_run(1.0);
+  blind.channels.erase(blind.channels.begin());
+  EXPECT_EQ(simulate(machine, blind).error().context.at("channel"), "spindle_rpm");
+}
+
+}  // namespace zerodrift::physics
