@@ -58,8 +58,8 @@ Folds make_folds(const std::vector<const Prepared*>& runs, const std::vector<con
     std::size_t cycle = 0;
     std::vector<int> mine;
     std::vector<int> sizes(starts.size(), 0);
-    for (const int row : samples[r]->first_row) {
-      while (cycle + 1 < starts.size() && row >= starts[cycle + 1]) ++cycle;
+    for (const auto& rows : samples[r]->rows) {
+      while (cycle + 1 < starts.size() && rows.front() >= starts[cycle + 1]) ++cycle;
       mine.push_back(static_cast<int>(cycle));
       ++sizes[cycle];
     }

@@ -102,6 +102,7 @@ struct Model {
   std::vector<std::string> sensors;
   std::vector<FeatureSpec> features;
   std::vector<double> reference_C;  // of each feature (temperatures; 0 for inputs)
+  std::vector<double> noise_C;      // reading noise of each feature as it is used (1 sigma); 0 for filtered ones
   std::vector<ErrorModel> errors;
   std::vector<TableTerms> table;  // static models: the model; dynamic: the best static approximation
   double table_lost_percent = 0;  // rise of the held-out rms when the table runs instead of this model
@@ -115,6 +116,8 @@ struct Model {
   std::vector<Finding> findings;
 
   bool is_static() const { return method == Method::mlr || method == Method::ridge; }
+  /// Half-width of the band at each row of features: noise, uncertain coefficients, reading noise of the sensors.
+  Eigen::VectorXd half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x) const;
   const ErrorModel* find(std::string_view error) const;
   const TableTerms* table_terms(std::string_view error) const;
 };

@@ -188,6 +188,10 @@ double block_length_s(const Prepared& data) {
   return std::min(600.0, (data.time_s.back() - data.time_s.front()) / 200.0);
 }
 
+double smoothing_half_window_s(const Prepared& data) {
+  return std::min(150.0, (data.time_s.back() - data.time_s.front()) / 50.0);
+}
+
 Eigen::MatrixXd smooth(const std::vector<double>& time_s, const Eigen::MatrixXd& values, double half_window_s) {
   const int n = static_cast<int>(time_s.size());
   Eigen::MatrixXd out(values.rows(), values.cols());
@@ -213,9 +217,8 @@ Eigen::MatrixXd smooth(const std::vector<double>& time_s, const Eigen::MatrixXd&
 }
 
 Samples sample(const Prepared& data, bool only_measured) {
-  const double duration_s = data.time_s.back() - data.time_s.front();
   const double block_s = block_length_s(data);
-  const Eigen::MatrixXd smoothed = smooth(data.time_s, data.temperature_C, std::min(150.0, duration_s / 50.0));
+  const Eigen::MatrixXd smoothed = smooth(data.time_s, data.temperature_C, smoothing_half_window_s(data));
   Samples out;
   std::vector<Eigen::VectorXd> temperature;
   std::vector<Eigen::VectorXd> error;
@@ -227,8 +230,7 @@ Samples sample(const Prepared& data, bool only_measured) {
     Eigen::VectorXd e_sum = Eigen::VectorXd::Zero(errors);
     Eigen::VectorXd e_count = Eigen::VectorXd::Zero(errors);
     double time_sum = 0.0;
-    int count = 0;
-    const int first = row;
+    std::vector<int> rows;
     do {
       bool measured = !only_measured;
       for (Eigen::Index e = 0; e < errors; ++e) {
@@ -241,16 +243,16 @@ Samples sample(const Prepared& data, bool only_measured) {
       if (measured) {
         t_sum += smoothed.row(row).transpose();
         time_sum += data.time_s[row];
-        ++count;
+        rows.push_back(row);
       }
       ++row;
     } while (row < data.rows() && data.time_s[row] < end_s);
-    if (count == 0) continue;
+    if (rows.empty()) continue;
+    const auto count = static_cast<double>(rows.size());
     out.time_s.push_back(time_sum / count);
     temperature.push_back(t_sum / count);
     error.push_back((e_count.array() > 0.0).select(e_sum.array() / e_count.array().max(1.0), missing));
-    out.first_row.push_back(first);
-    out.last_row.push_back(row - 1);
+    out.rows.push_back(std::move(rows));
   }
   const auto n = static_cast<Eigen::Index>(out.time_s.size());
   out.temperature_C.resize(n, data.temperature_C.cols());

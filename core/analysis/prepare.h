@@ -43,16 +43,17 @@ Result<Prepared> prepare(const recording::Recording& recording, const PrepareOpt
 /// would bias every coefficient towards zero (errors in variables).
 struct Samples {
   std::vector<double> time_s;
-  Eigen::MatrixXd temperature_C;  // samples x sensors
-  Eigen::MatrixXd error_um;       // samples x errors; NaN where a direction was never measured in the block
-  std::vector<int> first_row;     // rows of the recording the block is made of
-  std::vector<int> last_row;
+  Eigen::MatrixXd temperature_C;       // samples x sensors
+  Eigen::MatrixXd error_um;            // samples x errors; NaN where a direction was never measured in the block
+  std::vector<std::vector<int>> rows;  // rows of the recording each sample is the mean of
 };
 
 /// Block length in s that suits the length of the run: 1/200 of it, at most ten minutes.
 double block_length_s(const Prepared& data);
 /// Rows where any error was measured, in blocks; `only_measured` false takes every row (for series without errors).
 Samples sample(const Prepared& data, bool only_measured = true);
+/// Half window in s of that straight line: 150 s, less in a short run.
+double smoothing_half_window_s(const Prepared& data);
 /// Local straight line over +-half_window_s, evaluated at each row.
 Eigen::MatrixXd smooth(const std::vector<double>& time_s, const Eigen::MatrixXd& values, double half_window_s);
 

@@ -1,0 +1,35 @@
+#pragma once
+// Judges a way of fitting on what it did not see: each cycle in turn is left out, penalties and noise model are chosen
+// inside the rest, and the left-out cycle is predicted.
+
+#include <string>
+#include <vector>
+
+#include "core/analysis/model.h"
+#include "core/analysis/training.h"
+#include "core/base/task_context.h"
+
+namespace zerodrift::analysis {
+
+struct Recipe {
+  Method method = Method::ridge;  // mlr, ridge or dynamic
+  std::vector<std::string> sensors;
+  std::vector<FeatureSpec> features;
+};
+Recipe make_recipe(Method method, const std::vector<std::string>& sensors, const TrainingSet& set);
+
+struct Evaluation {
+  std::vector<ResidualFigures> held_out;  // of each error, all left-out samples together
+  std::vector<Band> bands;                // of each error
+  Eigen::MatrixXd predicted_um;  // samples x errors, each from the fit that did not see it; NaN: never left out
+  double rms_um = 0.0;           // mean over the errors
+  double peak_um = 0.0;          // mean over the errors
+};
+
+/// One error with the given method. Fewer rows than mlr needs is not_enough_data.
+Result<RidgeFit> fit_rows(const Rows& rows, Method method, double duration_s);
+
+Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double coverage,
+                            const TaskContext& context = {});
+
+}  // namespace zerodrift::analysis

@@ -1,0 +1,336 @@
+#include "core/analysis/fit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/clustering.h"
+#include "core/analysis/evaluate.h"
+#include "core/analysis/training.h"
+
+namespace zerodrift::analysis {
+namespace {
+
+/// A simpler model wins unless its error on left-out cycles is worse by more than this.
+constexpr double margin = 1.10;
+
+struct Trial {
+  Recipe recipe;
+  Evaluation evaluation;
+  Candidate summary;
+};
+
+std::vector<std::string> sensitive_points(const std::vector<recording::Recording>& recordings, const TrainingSet& set) {
+  ClusterOptions options;
+  options.errors = set.errors;
+  options.clusters = 0;
+  options.stability = false;
+  options.suggest = false;
+  options.clusters = std::min<int>(5, static_cast<int>(set.runs.front().sensors.size()));
+  const auto clusters = cluster(recordings.front(), options);
+  if (!clusters) return set.sensors;
+  std::vector<std::string> out;
+  for (const auto& sensor : set.sensors) {
+    const auto& points = clusters->sensitive_points;
+    if (std::find(points.begin(), points.end(), sensor) != points.end()) out.push_back(sensor);
+  }
+  return out.empty() ? set.sensors : out;
+}
+
+/// From simple to complex: the order in which ties are broken.
+std::vector<Recipe> recipes(const std::vector<recording::Recording>& recordings, const FitOptions& options,
+                            const TrainingSet& set) {
+  std::vector<std::vector<std::string>> choices;
+  if (options.sensors.empty()) choices.push_back(sensitive_points(recordings, set));
+  if (choices.empty() || choices.front() != set.sensors) choices.push_back(set.sensors);
+  const bool any = options.method == Method::automatic;
+  std::vector<Recipe> out;
+  // The plain regression only on few sensors: on many it fits noise, and ridge is the same where there is none.
+  if (any || options.method == Method::mlr) out.push_back(make_recipe(Method::mlr, choices.front(), set));
+  for (const auto& sensors : choices) out.push_back(make_recipe(Method::ridge, sensors, set));
+  if (any || options.method == Method::dynamic) out.push_back(make_recipe(Method::dynamic, set.sensors, set));
+  return out;
+}
+
+Result<Trial> try_out(const TrainingSet& set, const Recipe& recipe, double coverage, const TaskContext& context) {
+  Trial trial;
+  trial.recipe = recipe;
+  ZD_TRY(trial.evaluation, evaluate(set, recipe, coverage, context));
+  Candidate& c = trial.summary;
+  c.method = recipe.method;
+  c.sensors = recipe.sensors;
+  c.label = fmt::format("{} on {} sensors{}", name_of(recipe.method), recipe.sensors.size(),
+                        recipe.method == Method::dynamic ? " and the inputs" : "");
+  c.held_out_rms_um = trial.evaluation.rms_um;
+  c.held_out_peak_um = trial.evaluation.peak_um;
+  c.runs_on_controller = recipe.method != Method::dynamic;
+  return trial;
+}
+
+const Trial* choose(const std::vector<Trial>& trials, Method method, bool static_only) {
+  const auto allowed = [&](const Trial& t) {
+    if (static_only) return t.summary.runs_on_controller;
+    return method == Method::automatic || t.recipe.method == method;
+  };
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& t : trials) {
+    if (allowed(t)) best = std::min(best, t.evaluation.rms_um);
+  }
+  for (const auto& t : trials) {
+    if (allowed(t) && t.evaluation.rms_um <= margin * best) return &t;
+  }
+  return nullptr;
+}
+
+std::string reason_for(const Trial& chosen, const std::vector<Trial>& trials, const FitOptions& options,
+                       const TrainingSet& set) {
+  const Trial* best = &trials.front();
+  for (const auto& t : trials) {
+    if (t.evaluation.rms_um < best->evaluation.rms_um) best = &t;
+  }
+  const auto left = fmt::format("leaves {:.2f} um rms with {} left out", chosen.evaluation.rms_um, set.folds.in_words);
+  if (options.method != Method::automatic) return fmt::format("{} as asked for; {}", chosen.summary.label, left);
+  if (best == &chosen) return fmt::format("{} {}, less than every other method tried", chosen.summary.label, left);
+  return fmt::format("{} {}; {} leaves {:.2f} um, which is not clearly better, so the simpler model is taken",
+                     chosen.summary.label, left, best->summary.label, best->evaluation.rms_um);
+}
+
+/// The final regression of one recipe on everything.
+struct Fitted {
+  std::vector<RidgeFit> regressions;
+  std::vector<ResidualFigures> fit;
+  std::vector<double> remembered_um;
+};
+
+Result<Fitted> fit_all(const TrainingSet& set, const Recipe& recipe) {
+  ZD_TRY(const Eigen::MatrixXd x, design(set, recipe.features));
+  Fitted out;
+  const int last_run = static_cast<int>(set.runs.size()) - 1;
+  for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
+    std::vector<int> which;
+    const Rows rows = rows_of(set, x, e, which);
+    ZD_TRY(RidgeFit regression, fit_rows(rows, recipe.method, set.duration_s()));
+    out.fit.push_back(residual_figures(rows.y, regression.predict(rows.x)));
+    out.remembered_um.push_back(recipe.method == Method::dynamic
+                                    ? remembered_um(regression, rows, set.runs.back().time_s.back(), last_run)
+                                    : 0.0);
+    out.regressions.push_back(std::move(regression));
+  }
+  return out;
+}
+
+Result<std::vector<TableTerms>> table_of(const TrainingSet& set, const Trial& trial) {
+  ZD_TRY(const Fitted fitted, fit_all(set, trial.recipe));
+  const std::vector<double> reference_C = start_references(set.runs.front(), trial.recipe.features);
+  std::vector<TableTerms> out;
+  for (std::size_t e = 0; e < set.errors.size(); ++e) {
+    TableTerms terms;
+    terms.error = set.errors[e];
+    terms.offset_um = fitted.regressions[e].raw_intercept();
+    const Eigen::VectorXd coefficients = fitted.regressions[e].raw_coefficients();
+    for (std::size_t s = 0; s < trial.recipe.sensors.size(); ++s) {
+      terms.terms.push_back({trial.recipe.sensors[s], coefficients(static_cast<Eigen::Index>(s)), reference_C[s]});
+    }
+    terms.fit = fitted.fit[e];
+    terms.held_out = trial.evaluation.held_out[e];
+    out.push_back(std::move(terms));
+  }
+  return out;
+}
+
+/// Deviation of a sensor's readings from the smooth course of its temperature.
+double reading_noise_C(const TrainingSet& set, const std::string& sensor) {
+  const Prepared& run = set.runs.front();
+  const int column = run.sensor(sensor);
+  const auto noise = run.temperature_C.col(column) - set.smoothed_C.front().col(column);
+  return std::sqrt(noise.squaredNorm() / static_cast<double>(run.rows()));
+}
+
+Domain domain_of(const TrainingSet& set, const std::vector<std::string>& sensors, bool with_inputs) {
+  Domain domain;
+  Eigen::Index total = 0;
+  for (const auto& s : set.samples) total += static_cast<Eigen::Index>(s.time_s.size());
+  Eigen::MatrixXd rise(total, static_cast<Eigen::Index>(sensors.size()));
+  const auto specs = static_features(sensors);
+  for (std::size_t c = 0; c < sensors.size(); ++c) {
+    Eigen::Index at = 0;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (std::size_t r = 0; r < set.runs.size(); ++r) {
+      const int column = set.runs[r].sensor(sensors[c]);
+      const auto& t = set.samples[r].temperature_C;
+      const double start_C = start_references(set.runs[r], {specs[c]})[0];
+      rise.block(at, static_cast<Eigen::Index>(c), t.rows(), 1) = t.col(column).array() - start_C;
+      low = std::min(low, set.smoothed_C[r].col(column).minCoeff());
+      high = std::max(high, set.smoothed_C[r].col(column).maxCoeff());
+      at += t.rows();
+    }
+    domain.channels.push_back(sensors[c]);
+    domain.low.push_back(low);
+    domain.high.push_back(high);
+  }
+  domain.mean = rise.colwise().mean().transpose();
+  const Eigen::MatrixXd centred = rise.rowwise() - domain.mean.transpose();
+  Eigen::MatrixXd covariance = centred.transpose() * centred / static_cast<double>(total);
+  constexpr double noise_floor_K = 0.3;  // directions in which sensors differ by less than that carry no alarm
+  covariance.diagonal().array() += noise_floor_K * noise_floor_K;
+  domain.inverse = covariance.inverse();
+  domain.limit = 1.2 * (centred * domain.inverse).cwiseProduct(centred).rowwise().sum().maxCoeff();
+  if (!with_inputs) return domain;
+  for (const auto& name : set.runs.front().inputs) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const auto& run : set.runs) {
+      const int column = run.input_index(name);
+      if (column < 0) continue;
+      low = std::min(low, run.input.col(column).minCoeff());
+      high = std::max(high, run.input.col(column).maxCoeff());
+    }
+    domain.channels.push_back(name);
+    domain.low.push_back(low);
+    domain.high.push_back(high);
+  }
+  return domain;
+}
+
+RunQuality quality_of(const TrainingSet& set, const std::vector<std::string>& sensors, const Domain& domain) {
+  RunQuality q;
+  q.cycles = set.folds.cycles;
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(set.samples.front().time_s.size()),
+                          static_cast<Eigen::Index>(sensors.size()));
+  for (std::size_t c = 0; c < sensors.size(); ++c) {
+    q.rise_K = std::max(q.rise_K, domain.high[c] - domain.low[c]);
+    columns.col(static_cast<Eigen::Index>(c)) =
+        set.samples.front().temperature_C.col(set.runs.front().sensor(sensors[c]));
+  }
+  q.condition_number = condition_number(columns);
+  for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const double v : set.error_um.col(e)) {
+      if (!std::isfinite(v)) continue;
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+    q.error_range_um = std::max(q.error_range_um, high - low);
+  }
+  if (q.rise_K < 3.0) {
+    q.advice.push_back(fmt::format("The warmest sensor rose by only {:.1f} K: run longer or faster.", q.rise_K));
+  }
+  if (q.cycles < 2) {
+    q.advice.push_back("One speed only: a second stretch at another speed would allow a guaranteed band.");
+  }
+  if (q.condition_number > 100.0) {
+    q.advice.push_back(fmt::format(
+        "The sensors rose nearly together (condition {:.0f}): a stretch with the spindle at rest separates them.",
+        q.condition_number));
+  }
+  return q;
+}
+
+void add_findings(Model& model, const TrainingSet& set) {
+  model.findings = set.findings;
+  if (model.quality.rise_K < 1.0) {
+    model.findings.push_back({FindingKind::weak_excitation, FindingAction::noted, "the machine",
+                              fmt::format("largest rise {:.2f} K", model.quality.rise_K)});
+  }
+  if (model.quality.condition_number > 1000.0) {
+    model.findings.push_back({FindingKind::ill_conditioned, FindingAction::noted, "the set of sensors",
+                              fmt::format("condition number {:.0f}", model.quality.condition_number)});
+  }
+  const auto rows = static_cast<std::size_t>(set.error_um.rows());
+  if (rows < 3 * model.sensors.size()) {
+    model.findings.push_back({FindingKind::few_rows, FindingAction::noted, "the fit",
+                              fmt::format("{} blocks for {} sensors", rows, model.sensors.size())});
+  }
+  if (set.folds.cycles < 2) {
+    model.findings.push_back(
+        {FindingKind::not_guaranteed, FindingAction::noted, "the coverage of the band", "one cycle only"});
+  }
+}
+
+Result<Model> assemble(const TrainingSet& set, const FitOptions& options, const Trial& chosen,
+                       const Trial& table_trial) {
+  Model model;
+  model.method = chosen.recipe.method;
+  model.asked = options.method;
+  model.held_out = set.folds.in_words;
+  for (const auto& run : set.runs) model.recordings.push_back(run.name);
+  model.sensors = chosen.recipe.sensors;
+  model.features = chosen.recipe.features;
+  model.reference_C = start_references(set.runs.front(), model.features);
+  for (const auto& spec : model.features) {
+    model.noise_C.push_back(spec.temperature && spec.time_constant_s <= 0.0 ? reading_noise_C(set, spec.channel) : 0.0);
+  }
+  ZD_TRY(Fitted fitted, fit_all(set, chosen.recipe));
+  for (std::size_t e = 0; e < set.errors.size(); ++e) {
+    ErrorModel error;
+    error.error = set.errors[e];
+    error.regression = std::move(fitted.regressions[e]);
+    error.fit = fitted.fit[e];
+    error.held_out = chosen.evaluation.held_out[e];
+    error.band = chosen.evaluation.bands[e];
+    error.remembered_um = fitted.remembered_um[e];
+    model.errors.push_back(std::move(error));
+  }
+  ZD_TRY(model.table, table_of(set, table_trial));
+  model.table_lost_percent = 100.0 * (table_trial.evaluation.rms_um / std::max(chosen.evaluation.rms_um, 1e-9) - 1.0);
+  ZD_TRY(const Eigen::MatrixXd last, features(set.runs.back(), model.features,
+                                              start_references(set.runs.back(), model.features), nullptr, &model.end));
+  model.start_time_s = set.runs.back().time_s.front();
+  const auto specs = static_features(model.sensors);
+  model.start_C = start_references(set.runs.back(), specs);
+  for (const auto& sensor : model.sensors) {
+    model.end_C.push_back(set.smoothed_C.back()(set.smoothed_C.back().rows() - 1, set.runs.back().sensor(sensor)));
+  }
+  model.domain = domain_of(set, model.sensors, model.method == Method::dynamic);
+  model.quality = quality_of(set, model.sensors, model.domain);
+  add_findings(model, set);
+  return model;
+}
+
+}  // namespace
+
+Result<Model> fit(const std::vector<recording::Recording>& recordings, const FitOptions& options,
+                  const TaskContext& context) {
+  if (options.method == Method::physics) {
+    return fail(ErrorCode::bad_argument, {{"what", "the method"},
+                                          {"found", "physics (needs a diagnosed machine description)"},
+                                          {"expected", "auto, mlr, ridge or dynamic"}});
+  }
+  PrepareOptions prepare_options;
+  prepare_options.sensors = options.sensors;
+  prepare_options.errors = options.errors;
+  ZD_TRY(const TrainingSet set, make_training(recordings, prepare_options));
+  std::vector<Trial> trials;
+  const std::vector<Recipe> list = recipes(recordings, options, set);
+  for (const auto& recipe : list) {
+    context.progress(0.9 * static_cast<double>(trials.size()) / static_cast<double>(list.size()), "fitting");
+    auto trial = try_out(set, recipe, options.coverage, context);
+    if (trial) {
+      trials.push_back(std::move(*trial));
+    } else if (options.method == recipe.method || trial.error().code != ErrorCode::not_enough_data) {
+      return fail(std::move(trial).error());
+    }
+  }
+  const Trial* chosen = choose(trials, options.method, false);
+  const Trial* table_trial = choose(trials, options.method, true);
+  if (chosen == nullptr || table_trial == nullptr) {
+    return fail(ErrorCode::not_enough_data, {{"what", "the run"},
+                                             {"found", fmt::format("{} blocks of measurements", set.error_um.rows())},
+                                             {"needed", "at least 12"}});
+  }
+  if (chosen->summary.runs_on_controller) table_trial = chosen;
+  ZD_TRY(Model model, assemble(set, options, *chosen, *table_trial));
+  model.reason = reason_for(*chosen, trials, options, set);
+  for (const auto& t : trials) {
+    model.candidates.push_back(t.summary);
+    model.candidates.back().chosen = &t == chosen;
+  }
+  context.progress(1.0, "fitting");
+  return model;
+}
+
+}  // namespace zerodrift::analysis

@@ -1,0 +1,49 @@
+#include "core/analysis/model.h"
+
+namespace zerodrift::analysis {
+
+std::string_view name_of(Method method) {
+  switch (method) {
+    case Method::automatic:
+      return "auto";
+    case Method::mlr:
+      return "mlr";
+    case Method::ridge:
+      return "ridge";
+    case Method::dynamic:
+      return "dynamic";
+    case Method::physics:
+      return "physics";
+  }
+  return "";
+}
+
+Result<Method> method_from(const std::string& name) {
+  for (const Method m : {Method::automatic, Method::mlr, Method::ridge, Method::dynamic, Method::physics}) {
+    if (name == name_of(m)) return m;
+  }
+  return fail(ErrorCode::bad_argument,
+              {{"what", "the method"}, {"found", name}, {"expected", "auto, mlr, ridge, dynamic or physics"}});
+}
+
+Eigen::VectorXd Model::half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x) const {
+  const Eigen::Map<const Eigen::VectorXd> noise(noise_C.data(), static_cast<Eigen::Index>(noise_C.size()));
+  const double reading_um = error.regression.raw_coefficients().cwiseProduct(noise).norm();
+  return error.band.factor * (error.regression.deviation(x).array().square() + reading_um * reading_um).sqrt();
+}
+
+const ErrorModel* Model::find(std::string_view error) const {
+  for (const auto& e : errors) {
+    if (e.error == error) return &e;
+  }
+  return nullptr;
+}
+
+const TableTerms* Model::table_terms(std::string_view error) const {
+  for (const auto& t : table) {
+    if (t.error == error) return &t;
+  }
+  return nullptr;
+}
+
+}  // namespace zerodrift::analysis

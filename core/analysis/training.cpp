@@ -1,0 +1,171 @@
+#include "core/analysis/training.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace zerodrift::analysis {
+namespace {
+
+using recording::Channel;
+using recording::ChannelKind;
+using recording::Recording;
+
+constexpr double longest_join_gap_s = 1800.0;
+constexpr double join_tolerance_K = 1.0;
+
+double first_present(const Channel& channel) {
+  for (const double v : channel.values) {
+    if (std::isfinite(v)) return v;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double last_present(const Channel& channel) {
+  for (std::size_t i = channel.values.size(); i-- > 0;) {
+    if (std::isfinite(channel.values[i])) return channel.values[i];
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool goes_on(const Recording& before, const Recording& after) {
+  if (before.rows() == 0 || after.rows() == 0) return false;
+  const double gap_s = after.time_s.front() - before.time_s.back();
+  if (gap_s <= 0.0 || gap_s > longest_join_gap_s) return false;
+  std::vector<double> differences;
+  for (const auto& channel : after.channels) {
+    const Channel* twin = before.find(channel.name);
+    if (twin == nullptr) return false;
+    if (channel.kind() != ChannelKind::temperature && channel.kind() != ChannelKind::ambient) continue;
+    const double difference = std::abs(first_present(channel) - last_present(*twin));
+    if (std::isfinite(difference)) differences.push_back(difference);
+  }
+  if (differences.empty() || before.channels.size() != after.channels.size()) return false;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle < join_tolerance_K;
+}
+
+void keep_common(std::vector<std::string>& names, const std::vector<std::string>& other) {
+  std::erase_if(names, [&](const std::string& n) { return std::find(other.begin(), other.end(), n) == other.end(); });
+}
+
+int column_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+}  // namespace
+
+double TrainingSet::duration_s() const {
+  double longest_s = 0.0;
+  for (const auto& r : runs) longest_s = std::max(longest_s, r.time_s.back() - r.time_s.front());
+  return longest_s;
+}
+
+std::vector<Recording> join_continuing(const std::vector<Recording>& recordings) {
+  std::vector<Recording> out;
+  for (const auto& recording : recordings) {
+    if (out.empty() || !goes_on(out.back(), recording)) {
+      out.push_back(recording);
+      continue;
+    }
+    Recording& joined = out.back();
+    joined.name += " + " + recording.name;
+    joined.time_s.insert(joined.time_s.end(), recording.time_s.begin(), recording.time_s.end());
+    for (auto& channel : joined.channels) {
+      const auto& more = recording.find(channel.name)->values;
+      channel.values.insert(channel.values.end(), more.begin(), more.end());
+    }
+  }
+  return out;
+}
+
+Result<TrainingSet> make_training(const std::vector<Recording>& recordings, const PrepareOptions& options) {
+  if (recordings.empty()) {
+    return fail(ErrorCode::not_enough_data, {{"what", "the fit"}, {"found", "no recording"}, {"needed", "one"}});
+  }
+  TrainingSet set;
+  for (const auto& recording : join_continuing(recordings)) {
+    auto run = prepare(recording, options);
+    if (!run) return fail(std::move(run).error().with("recording", recording.name));
+    set.findings.insert(set.findings.end(), run->findings.begin(), run->findings.end());
+    if (set.runs.empty()) {
+      set.sensors = run->sensors;
+      set.errors = run->errors;
+    } else {
+      keep_common(set.sensors, run->sensors);
+      keep_common(set.errors, run->errors);
+    }
+    set.runs.push_back(std::move(*run));
+  }
+  if (set.sensors.empty() || set.errors.empty()) {
+    return fail(ErrorCode::data_does_not_fit, {{"what", "the recordings"},
+                                               {"found", set.sensors.empty() ? "no common sensor" : "no common error"},
+                                               {"expected", "runs of the same machine"}});
+  }
+  std::vector<const Prepared*> runs;
+  std::vector<const Samples*> samples;
+  for (const auto& run : set.runs) {
+    set.smoothed_C.push_back(smooth(run.time_s, run.temperature_C, smoothing_half_window_s(run)));
+    set.samples.push_back(sample(run));
+  }
+  Eigen::Index total = 0;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    runs.push_back(&set.runs[r]);
+    samples.push_back(&set.samples[r]);
+    total += static_cast<Eigen::Index>(set.samples[r].time_s.size());
+  }
+  set.error_um.resize(total, static_cast<Eigen::Index>(set.errors.size()));
+  Eigen::Index at = 0;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    const auto n = static_cast<Eigen::Index>(set.samples[r].time_s.size());
+    for (std::size_t e = 0; e < set.errors.size(); ++e) {
+      set.error_um.block(at, static_cast<Eigen::Index>(e), n, 1) =
+          set.samples[r].error_um.col(column_of(set.runs[r].errors, set.errors[e]));
+    }
+    set.time_s.insert(set.time_s.end(), set.samples[r].time_s.begin(), set.samples[r].time_s.end());
+    set.run.insert(set.run.end(), static_cast<std::size_t>(n), static_cast<int>(r));
+    at += n;
+  }
+  if (total < 8) {
+    return fail(ErrorCode::not_enough_data, {{"what", "the run"},
+                                             {"found", fmt::format("errors at {} times", total)},
+                                             {"needed", "at least 8, spread over the run"}});
+  }
+  set.folds = make_folds(runs, samples);
+  return set;
+}
+
+Result<Eigen::MatrixXd> design(const TrainingSet& set, const std::vector<FeatureSpec>& specs) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(set.time_s.size()), static_cast<Eigen::Index>(specs.size()));
+  Eigen::Index at = 0;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    Prepared smoothed = set.runs[r];
+    smoothed.temperature_C = set.smoothed_C[r];
+    ZD_TRY(const Eigen::MatrixXd all, features(smoothed, specs, start_references(set.runs[r], specs)));
+    for (const auto& rows : set.samples[r].rows) {
+      out.row(at).setZero();
+      for (const int row : rows) out.row(at) += all.row(row);
+      out.row(at) /= static_cast<double>(rows.size());
+      ++at;
+    }
+  }
+  return out;
+}
+
+Rows rows_of(const TrainingSet& set, const Eigen::MatrixXd& design, Eigen::Index error, std::vector<int>& which) {
+  which.clear();
+  for (Eigen::Index i = 0; i < set.error_um.rows(); ++i) {
+    if (std::isfinite(set.error_um(i, error))) which.push_back(static_cast<int>(i));
+  }
+  Rows all;
+  all.x = design;
+  all.y = set.error_um.col(error);
+  all.time_s = set.time_s;
+  all.run = set.run;
+  return pick(all, which);
+}
+
+}  // namespace zerodrift::analysis
