@@ -28,11 +28,11 @@ constexpr std::array effects{
                       "the preload grows by k (T - start) in both bearings"},
     ConcealableEffect{"extra_heat_source", "power_at_3000_rpm_W", 10, 28, true, false,
                       "a rubbing seal or a bad winding: on with rotation, with n or with n^2"},
-    ConcealableEffect{"contact_resistance", "resistance_m2K_W", 1.5e-3, 5e-3, true, false,
+    ConcealableEffect{"contact_resistance", "resistance_m2K_W", 1e-2, 2.5e-2, true, false,
                       "a joint across shaft and housing that conducts badly"},
     ConcealableEffect{"structure_ambient", "um_per_K", 2.5, 5, false, false,
                       "the structure follows the room and moves the nose in Z"},
-    ConcealableEffect{"structure_bending", "um_per_K", 1, 2.5, false, false,
+    ConcealableEffect{"structure_bending", "um_per_K", 3, 8, false, false,
                       "dY follows the temperature difference front - rear of the housing"},
     ConcealableEffect{"sensor_lag", "time_constant_s", 150, 600, false, true, "a sensor with bad contact"},
     ConcealableEffect{"sensor_offset", "offset_C", 0.6, 1.4, false, true, "a sensor that reads wrong by a constant"},
@@ -45,8 +45,6 @@ constexpr std::array effects{
     ConcealableEffect{"bracket_slip", "step_um", 4, 10, false, false, "the bracket slips once: a step in dZ"},
     ConcealableEffect{"standing_heat", "power_W", 8, 20, true, false, "a heat that is there at rest as well"},
     ConcealableEffect{"sensor_gain", "fraction", 0.05, 0.15, false, true, "a sensor that reads its rise too large"},
-    ConcealableEffect{"conductivity_temperature", "per_K", -0.012, -0.006, false, false,
-                      "conductivity falls with temperature"},
 };
 
 const ConcealableEffect* find(const std::string& id) {
@@ -76,6 +74,7 @@ Result<HiddenEffect> draw_effect(const std::string& name, unsigned long long see
   }
   drawn.id = effect->id;
   drawn.size = noise.uniform(effect->low, effect->high);
+  if (drawn.is("contact_resistance")) drawn.position_mm = noise.uniform(200, 300);  // where heat flows along
   if (drawn.is("sensor_offset") && noise.uniform() < 0.5) drawn.size = -drawn.size;
   if (effect->has_position) drawn.position_mm = noise.uniform(60, 300);
   if (effect->has_sensor) drawn.sensor = 1 + static_cast<int>(noise.index(5));  // the five of the spindle

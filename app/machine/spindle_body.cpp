@@ -12,16 +12,18 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double stefan_boltzmann_W_m2K4 = 5.670374419e-8;
 constexpr double cell_m = nominal::spindle_length_mm / 1000.0 / 20.0;
-// Ring borders in m: bore, shaft in three, then the cartridge in two beyond an air gap of 0.4 mm.
+// Ring borders in m: bore, shaft in three, then the cartridge in two beyond the air gap.
 constexpr std::array<double, 4> shaft_radius_m{0.010, 0.0183, 0.0267, 0.035};
-constexpr std::array<double, 3> housing_radius_m{0.0354, 0.058, 0.080};
+constexpr std::array<double, 3> housing_radius_m{0.0352, 0.058, 0.080};
 constexpr double bright_metal_emissivity = 0.08;
 constexpr double bright_metal_film_W_m2K = 0.45;  // what that emissivity is worth near room temperature
-constexpr double rear_contact_W_K = 9.0;
-constexpr double front_contact_W_K = 16.0;
+constexpr double rear_contact_W_K = 22.0;
+constexpr double front_contact_W_K = 38.0;
+constexpr double shaft_share_of_friction = 0.25;  // inner ring; the outer ring sits in the bigger body
+constexpr double shaft_share_of_motor = 0.4;
 constexpr double stator_loss_W_at_top = 600.0;
-constexpr double stator_leak_W_K = 0.15;
-constexpr double seat_W_K = 0.5;  // cartridge to headstock, rear third
+constexpr double stator_leak_W_K = 0.1;
+constexpr double seat_W_K = 0.2;  // cartridge to headstock, rear third
 constexpr int seat_cells = 7;
 
 double ring_area(int ring) {
@@ -91,8 +93,7 @@ void SpindleBody::build_rings(ThermalNetwork& network) {
     for (int ring = 0; ring < rings; ++ring) {
       const double conductance = conductivity * m_ring_area_m2[ring] / cell_m;
       const int link = network.add_link(node(cell, ring), node(cell + 1, ring), conductance);
-      m_axial.push_back({link, node(cell, ring), node(cell + 1, ring), conductance, m_ring_area_m2[ring],
-                         (cell + 1) * cell_m * 1000.0});
+      m_axial.push_back({link, conductance, m_ring_area_m2[ring], (cell + 1) * cell_m * 1000.0});
     }
   }
 }
@@ -139,11 +140,14 @@ void SpindleBody::prepare(ThermalNetwork& network, const SpindleInputs& inputs, 
   const double rotor_W =
       nominal::motor_rated_power_W * (1.0 - nominal::motor_net_efficiency) * relative * m_parameters.motor_heat;
   const double stator_W = stator_loss_W_at_top * relative * m_parameters.motor_heat;
-  for (int cell = 0; cell < cells; ++cell) network.add_heat(node(cell, 1), rotor_W * m_motor[cell]);
+  for (int cell = 0; cell < cells; ++cell) {
+    network.add_heat(node(cell, 1), shaft_share_of_motor * rotor_W * m_motor[cell]);
+    network.add_heat(node(cell, shaft_rings), (1.0 - shaft_share_of_motor) * rotor_W * m_motor[cell]);
+  }
   for (const int stator : m_stator) network.add_heat(stator, stator_W / static_cast<double>(m_stator.size()));
   m_idle_load_W += rotor_W + stator_W;
   prepare_hidden_heat(network, inputs);
-  prepare_conductivity(network);
+  prepare_joint(network);
 }
 
 void SpindleBody::prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front) {
@@ -168,8 +172,8 @@ void SpindleBody::prepare_bearing(ThermalNetwork& network, Bearing& bearing, con
   for (int cell = 0; cell < cells; ++cell) {
     if (bearing.link[cell] < 0) continue;
     network.set_link(bearing.link[cell], contact * bearing.share[cell]);
-    network.add_heat(node(cell, shaft_rings - 1), 0.4 * heat_W * bearing.share[cell]);
-    network.add_heat(node(cell, shaft_rings), 0.6 * heat_W * bearing.share[cell]);
+    network.add_heat(node(cell, shaft_rings - 1), shaft_share_of_friction * heat_W * bearing.share[cell]);
+    network.add_heat(node(cell, shaft_rings), (1.0 - shaft_share_of_friction) * heat_W * bearing.share[cell]);
   }
 }
 
@@ -181,8 +185,8 @@ void SpindleBody::prepare_films(ThermalNetwork& network, const SpindleInputs& in
   if (hidden.is("convection")) film = hidden.size;
   film += hidden.size_if("speed_convection") * std::pow(relative, 0.7);
   if (hidden.is("draught") && time_s >= hidden.from_s) film += hidden.size;
-  // air gap: conduction through 0.4 mm of air, more as the flow in it turns over
-  const double gap_film = 0.027 / 0.0004 * (1.0 + 1.2 * std::sqrt(relative));
+  // air gap: conduction through 0.2 mm of air, more as the flow in it turns over
+  const double gap_film = 0.027 / 0.0002 * (1.0 + 1.2 * std::sqrt(relative));
   const double conductivity = nominal::conductivity_W_mK * m_parameters.conductivity;
   const double walls_K_W = 1.0 / radial_W_K(ring_middle(2), shaft_radius_m[3], conductivity) +
                            1.0 / radial_W_K(housing_radius_m[0], ring_middle(3), conductivity);
@@ -199,7 +203,7 @@ void SpindleBody::prepare_films(ThermalNetwork& network, const SpindleInputs& in
     network.set_boundary_link(m_film[cell], (film + radiation + washed) * outside_m2);
   }
   const double nose_m2 = pi * (shaft_radius_m[3] * shaft_radius_m[3] - shaft_radius_m[0] * shaft_radius_m[0]);
-  network.set_boundary_link(m_nose_film, (12.0 + 30.0 * std::pow(relative, 0.7)) * nose_m2);
+  network.set_boundary_link(m_nose_film, (8.0 + 15.0 * std::pow(relative, 0.7)) * nose_m2);
 }
 
 void SpindleBody::prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs) {
@@ -217,29 +221,19 @@ void SpindleBody::prepare_hidden_heat(ThermalNetwork& network, const SpindleInpu
   if (heat_W == 0.0) return;
   const CellShare share = share_of(hidden.position_mm - 8.0, hidden.position_mm + 8.0);
   for (int cell = 0; cell < cells; ++cell) {
-    network.add_heat(node(cell, shaft_rings), 0.6 * heat_W * share[cell]);
-    network.add_heat(node(cell, shaft_rings - 1), 0.4 * heat_W * share[cell]);
+    network.add_heat(node(cell, shaft_rings), 0.75 * heat_W * share[cell]);
+    network.add_heat(node(cell, shaft_rings - 1), 0.25 * heat_W * share[cell]);
   }
   m_idle_load_W += hidden.is("extra_heat_source") ? heat_W : 0.0;
 }
 
-void SpindleBody::prepare_conductivity(ThermalNetwork& network) {
+void SpindleBody::prepare_joint(ThermalNetwork& network) {
   const HiddenEffect& hidden = m_parameters.hidden;
-  const bool joint = hidden.is("contact_resistance");
-  const double per_K = hidden.size_if("conductivity_temperature");
-  if (!joint && per_K == 0.0) return;
-  const double cell_mm = cell_m * 1000.0;
+  if (!hidden.is("contact_resistance")) return;
   for (const AxialLink& axial : m_axial) {
-    double conductance = axial.conductance;
-    if (per_K != 0.0) {
-      const double mean_C = (network.temperature_C(axial.node_a) + network.temperature_C(axial.node_b)) / 2;
-      conductance *= std::max(0.3, 1.0 + per_K * (mean_C - 20.0));
-    }
-    if (joint) {
-      const double weight = std::max(0.0, 1.0 - std::abs(hidden.position_mm - axial.face_mm) / cell_mm);
-      conductance = 1.0 / (1.0 / conductance + weight * hidden.size / axial.face_area_m2);
-    }
-    network.set_link(axial.link, conductance);
+    // a joint between two faces acts on both, by its distance
+    const double weight = std::max(0.0, 1.0 - std::abs(hidden.position_mm - axial.face_mm) / (cell_m * 1000.0));
+    network.set_link(axial.link, 1.0 / (1.0 / axial.conductance + weight * hidden.size / axial.face_area_m2));
   }
 }
 
@@ -247,8 +241,11 @@ double SpindleBody::housing_C(const ThermalNetwork& network, double position_mm)
   const double at = std::clamp(position_mm / (cell_m * 1000.0) - 0.5, 0.0, cells - 1.0);
   const int low = std::min(static_cast<int>(at), cells - 2);
   const double part = at - low;
-  return (1.0 - part) * network.temperature_C(node(low, shaft_rings)) +
-         part * network.temperature_C(node(low + 1, shaft_rings));
+  // the sensors' holes end in the middle of the wall
+  const auto wall_C = [&](int cell) {
+    return (network.temperature_C(node(cell, shaft_rings)) + network.temperature_C(node(cell, shaft_rings + 1))) / 2;
+  };
+  return (1.0 - part) * wall_C(low) + part * wall_C(low + 1);
 }
 
 double SpindleBody::stator_C(const ThermalNetwork& network) const {

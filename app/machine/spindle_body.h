@@ -24,7 +24,7 @@ class SpindleBody {
 
   /// Conductances and heats of the coming step, from the temperatures now.
   void prepare(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s);
-  /// Housing temperature where sensors sit (inside of the cartridge), linear between the cells' middles.
+  /// Temperature of the cartridge's wall, linear between the cells' middles.
   double housing_C(const ThermalNetwork& network, double position_mm) const;
   /// Mean of the stator.
   double stator_C(const ThermalNetwork& network) const;
@@ -42,8 +42,6 @@ class SpindleBody {
 
   struct AxialLink {
     int link;
-    int node_a;
-    int node_b;
     double conductance;
     double face_area_m2;
     double face_mm;
@@ -61,7 +59,7 @@ class SpindleBody {
   void prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front);
   void prepare_films(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s);
   void prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs);
-  void prepare_conductivity(ThermalNetwork& network);
+  void prepare_joint(ThermalNetwork& network);
   int node(int cell, int ring) const { return m_nodes[cell * rings + ring]; }
 
   const MachineParameters& m_parameters;

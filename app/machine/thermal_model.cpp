@@ -84,7 +84,7 @@ void ThermalModel::evaluate_hidden() {
   if (hidden.is("bracket_slip") && m_time_s >= hidden.from_s) z_um += hidden.size;
   if (hidden.is("sensor_lag")) {
     double& sensor = m_sensor_C[hidden.sensor - 1];
-    m_sensor_lag_C += (sensor - m_sensor_lag_C) * (1.0 - std::exp(-step_s / hidden.time_constant_s));
+    m_sensor_lag_C += (sensor - m_sensor_lag_C) * (1.0 - std::exp(-step_s / hidden.size));
     sensor = m_sensor_lag_C;
   }
   m_errors.um[1] += y_um;

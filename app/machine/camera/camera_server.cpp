@@ -13,7 +13,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "core/vision/image_codec.h"
 
@@ -45,8 +44,8 @@ bool send(httplib::DataSink& sink, const EncodedFrame& frame) {
 }  // namespace
 
 struct CameraServer::Service {
-  Service(CameraOptions camera_options, const SceneSource& scene)
-      : options(std::move(camera_options)),
+  Service(const CameraOptions& camera_options, const SceneSource& scene)
+      : options(camera_options),
         front(View::front, options.views[0], scene),
         side(View::side, options.views[1], scene),
         period(1.0 / std::clamp(options.frames_per_s, 0.1, 100.0)) {}
@@ -120,8 +119,8 @@ CameraOptions camera_options(std::uint64_t seed) {
   return options;
 }
 
-CameraServer::CameraServer(CameraOptions options, SceneSource scene)
-    : m_service(std::make_unique<Service>(std::move(options), scene)) {}
+CameraServer::CameraServer(const CameraOptions& options, const SceneSource& scene)
+    : m_service(std::make_unique<Service>(options, scene)) {}
 
 CameraServer::~CameraServer() {
   stop();

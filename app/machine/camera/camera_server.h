@@ -23,7 +23,7 @@ CameraOptions camera_options(std::uint64_t seed);
 
 class CameraServer {
  public:
-  CameraServer(CameraOptions options, SceneSource scene);
+  CameraServer(const CameraOptions& options, const SceneSource& scene);
   ~CameraServer();
   CameraServer(const CameraServer&) = delete;
   CameraServer& operator=(const CameraServer&) = delete;

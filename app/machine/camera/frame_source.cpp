@@ -6,8 +6,8 @@
 
 namespace zerodrift::machine {
 
-FrameSource::FrameSource(View view, ViewOptions options, SceneSource scene)
-    : m_view(view), m_renderer(std::move(options)), m_scene(std::move(scene)) {}
+FrameSource::FrameSource(View view, const ViewOptions& options, SceneSource scene)
+    : m_view(view), m_renderer(options), m_scene(std::move(scene)) {}
 
 void FrameSource::set_fault(CameraFault fault) {
   const std::lock_guard lock(m_mutex);

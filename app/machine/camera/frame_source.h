@@ -35,7 +35,7 @@ struct EncodedFrame {
 
 class FrameSource {
  public:
-  FrameSource(View view, ViewOptions options, SceneSource scene);
+  FrameSource(View view, const ViewOptions& options, SceneSource scene);
 
   void set_fault(CameraFault fault);
   /// A new frame of this moment; frozen, the last one before the fault.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
 
 #include "app/machine/camera/sensor_noise.h"
 
@@ -131,8 +130,8 @@ Lamp lamp_at(const ViewOptions& view, double machine_time_s) {
 
 }  // namespace
 
-CameraRenderer::CameraRenderer(ViewOptions options)
-    : m_options(std::move(options)),
+CameraRenderer::CameraRenderer(const ViewOptions& options)
+    : m_options(options),
       m_light(static_cast<std::size_t>(m_options.width_px) * m_options.height_px),
       m_marks{object_from_pixel(m_options, m_options.reference_marks_px[0]),
               object_from_pixel(m_options, m_options.reference_marks_px[1])} {
@@ -183,7 +182,7 @@ vision::GrayImage CameraRenderer::render(const CameraScene& scene, std::uint64_t
   const std::vector<float> levels = render_levels(scene, frame, switches);
   vision::GrayImage image{m_options.width_px, m_options.height_px, std::vector<std::uint8_t>(levels.size())};
   std::transform(levels.begin(), levels.end(), image.pixels.begin(),
-                 [](float level) { return static_cast<std::uint8_t>(std::clamp(level, 0.0F, 255.0F) + 0.5F); });
+                 [](float level) { return static_cast<std::uint8_t>(std::lrintf(std::clamp(level, 0.0F, 255.0F))); });
   return image;
 }
 

@@ -21,7 +21,7 @@ struct RenderSwitches {
 
 class CameraRenderer {
  public:
-  explicit CameraRenderer(ViewOptions options);
+  explicit CameraRenderer(const ViewOptions& options);
 
   const ViewOptions& options() const { return m_options; }
   /// Grey levels before rounding and saturation, row by row; the same for the same arguments.
