@@ -1,6 +1,6 @@
 #include "ui/plots/report_plot.h"
 
-#include <qcustomplot.h>
+#include "ui/plots/custom_plot.h"
 
 #include <QBuffer>
 #include <QSvgGenerator>

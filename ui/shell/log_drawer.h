@@ -1,0 +1,38 @@
+#pragma once
+// What happened, newest at the foot, copyable. Opens with Ctrl+L.
+
+#include <QDateTime>
+#include <QFrame>
+
+#include "ui/widgets/colors.h"
+
+class QLabel;
+class QPlainTextEdit;
+class QPushButton;
+
+namespace zerodrift::ui {
+
+class LogDrawer : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit LogDrawer(QWidget* parent = nullptr);
+  void append(const QDateTime& time, Judgement judgement, const QString& text);
+  QString text() const;
+
+ Q_SIGNALS:
+  void closeRequested();
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void retranslate();
+
+  QLabel* m_title;
+  QPushButton* m_copy;
+  QPushButton* m_close;
+  QPlainTextEdit* m_lines;
+};
+
+}  // namespace zerodrift::ui

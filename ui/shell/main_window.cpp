@@ -1,0 +1,303 @@
+#include "ui/shell/main_window.h"
+
+#include "ui/pages/page.h"
+#include "ui/shell/lamp.h"
+#include "ui/shell/log_drawer.h"
+
+namespace zerodrift::ui {
+
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
+  setWindowTitle("Zerodrift");
+  setMinimumSize(1280, 720);
+  resize(1440, 900);
+  setAcceptDrops(true);
+  m_rail = new StepRail(this);
+  m_stack = new QStackedWidget(this);
+  m_log = new LogDrawer(this);
+  m_log->hide();
+
+  auto* right = new QVBoxLayout;
+  right->setContentsMargins(0, 0, 0, 0);
+  right->setSpacing(0);
+  right->addWidget(makeHead());
+  right->addWidget(m_stack, 1);
+  right->addWidget(m_log);
+  right->addWidget(makeFoot());
+  auto* centre = new QWidget(this);
+  auto* all = new QHBoxLayout(centre);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->setSpacing(0);
+  all->addWidget(m_rail);
+  all->addLayout(right, 1);
+  setCentralWidget(centre);
+  m_palette = new CommandPalette(centre);
+
+  connect(m_rail, &StepRail::stepRequested, this, &MainWindow::stepRequested);
+  connect(m_rail, &StepRail::jobClicked, this, &MainWindow::jobRequested);
+  connect(m_rail, &StepRail::languageClicked, this, &MainWindow::languageRequested);
+  connect(m_rail, &StepRail::themeClicked, this, &MainWindow::themeRequested);
+  connect(m_rail, &StepRail::helpClicked, this, [this] {
+    if (currentPage() != nullptr) Q_EMIT helpRequested(currentPage()->id());
+  });
+  connect(m_log, &LogDrawer::closeRequested, this, [this] { setLogVisible(false); });
+  connect(m_palette, &CommandPalette::chosen, this, &MainWindow::runCommand);
+  makeShortcuts();
+  retranslate();
+}
+
+MainWindow::~MainWindow() = default;
+
+QWidget* MainWindow::makeHead() {
+  auto* head = new QFrame(this);
+  head->setObjectName("header");
+  head->setFixedHeight(76);
+  m_title = new QLabel(head);
+  m_title->setObjectName("pageTitle");
+  m_title->setProperty("role", "pageTitle");
+  m_sentence = new QLabel(head);
+  m_sentence->setObjectName("pageSentence");
+  m_sentence->setProperty("role", "muted");
+  m_sentence->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  auto* words = new QVBoxLayout;
+  words->setSpacing(2);
+  words->addStretch();
+  words->addWidget(m_title);
+  words->addWidget(m_sentence);
+  words->addStretch();
+  m_actions = new QHBoxLayout;
+  m_actions->setSpacing(8);
+  auto* all = new QHBoxLayout(head);
+  all->setContentsMargins(24, 8, 24, 8);
+  all->setSpacing(16);
+  all->addLayout(words, 1);
+  all->addLayout(m_actions);
+  return head;
+}
+
+QWidget* MainWindow::makeFoot() {
+  auto* foot = new QFrame(this);
+  foot->setObjectName("footer");
+  foot->setFixedHeight(60);
+  auto* all = new QHBoxLayout(foot);
+  all->setContentsMargins(24, 8, 24, 8);
+  all->setSpacing(20);
+  const QStringList names = {"controller", "recording", "camera", "compensation"};
+  for (int i = 0; i < names.size(); ++i) {
+    auto* lamp = new Lamp(names[i], foot);
+    m_lamps.append(lamp);
+    all->addWidget(lamp);
+    connect(lamp, &Lamp::clicked, this, [this, i] { Q_EMIT lampClicked(static_cast<LampId>(i)); });
+  }
+  all->addStretch(1);
+  m_back = new QPushButton(foot);
+  m_back->setObjectName("back");
+  m_primary = new QPushButton(foot);
+  m_primary->setObjectName("primary");
+  m_primary->setProperty("primary", true);
+  for (QPushButton* button : {m_back, m_primary}) button->setProperty("big", true);
+  auto* pair = new QHBoxLayout;
+  pair->setSpacing(8);
+  pair->addWidget(m_back);
+  pair->addWidget(m_primary);
+  all->addLayout(pair);
+  connect(m_back, &QPushButton::clicked, this, &MainWindow::backRequested);
+  connect(m_primary, &QPushButton::clicked, this, [this] {
+    if (Page* now = currentPage()) Q_EMIT now->primaryTriggered();
+  });
+  return foot;
+}
+
+void MainWindow::makeShortcuts() {
+  const auto on = [this](const QKeySequence& keys, auto action) {
+    auto* shortcut = new QShortcut(keys, this);
+    connect(shortcut, &QShortcut::activated, this, action);
+  };
+  on(QKeySequence("Ctrl+L"), [this] { setLogVisible(!m_log->isVisible()); });
+  on(QKeySequence("Ctrl+K"), [this] { openPalette(); });
+  on(QKeySequence("Ctrl+Z"), [this] { Q_EMIT undoRequested(); });
+  on(QKeySequence("F1"), [this] {
+    if (currentPage() != nullptr) Q_EMIT helpRequested(currentPage()->id());
+  });
+  on(QKeySequence("Ctrl+Return"), [this] { m_primary->click(); });
+  on(QKeySequence("Alt+Left"), [this] { m_back->click(); });
+}
+
+void MainWindow::addPage(Page* page, bool branch) {
+  auto* scroll = new QScrollArea(m_stack);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidget(page);
+  m_stack->addWidget(scroll);
+  m_pages.append(page);
+  m_rail->addStep(page->id(), page->title(), branch);
+  connect(page, &Page::refreshed, this, [this, page] {
+    if (StepButton* step = m_rail->step(page->id())) step->setTitle(page->title());
+    if (page == currentPage()) showHead();
+  });
+  if (m_pages.size() == 1) setCurrentPage(page->id());
+}
+
+Page* MainWindow::page(const QString& id) const {
+  for (Page* page : m_pages) {
+    if (page->id() == id) return page;
+  }
+  return nullptr;
+}
+
+Page* MainWindow::currentPage() const {
+  return m_pages.value(m_stack->currentIndex());
+}
+
+void MainWindow::setCurrentPage(const QString& id) {
+  for (int i = 0; i < m_pages.size(); ++i) {
+    if (m_pages[i]->id() == id) m_stack->setCurrentIndex(i);
+  }
+  m_rail->setCurrent(currentPage() != nullptr ? currentPage()->id() : QString());
+  showHead();
+}
+
+void MainWindow::showHead() {
+  const Page* now = currentPage();
+  if (now == nullptr) return;
+  m_title->setText(now->title());
+  m_sentence->setText(now->sentence());
+  m_sentence->setToolTip(now->sentence());
+
+  // Buttons are kept while their ids stay, so that focus and hover survive a live page's updates.
+  QVector<PageAction> wanted;
+  for (const PageAction& action : now->secondaryActions()) {
+    if (!action.text.isEmpty()) wanted.append(action);
+  }
+  const auto buttonAt = [this](int i) { return qobject_cast<QPushButton*>(m_actions->itemAt(i)->widget()); };
+  bool same = m_actions->count() == wanted.size();
+  for (int i = 0; same && i < wanted.size(); ++i) same = buttonAt(i)->objectName() == "action-" + wanted[i].id;
+  if (!same) {
+    while (QLayoutItem* item = m_actions->takeAt(0)) {
+      item->widget()->hide();
+      item->widget()->deleteLater();
+      delete item;
+    }
+    for (const PageAction& action : wanted) {
+      auto* button = new QPushButton(this);
+      button->setObjectName("action-" + action.id);
+      m_actions->addWidget(button);
+      connect(button, &QPushButton::clicked, this, [this, id = action.id] {
+        if (Page* open = currentPage()) Q_EMIT open->secondaryTriggered(id);
+      });
+    }
+  }
+  for (int i = 0; i < wanted.size(); ++i) {
+    buttonAt(i)->setText(wanted[i].text);
+    buttonAt(i)->setEnabled(wanted[i].enabled);
+    buttonAt(i)->setToolTip(wanted[i].enabled ? QString() : wanted[i].reason);
+  }
+
+  const PageAction primary = now->primaryAction();
+  m_primary->setVisible(!primary.text.isEmpty());
+  m_primary->setText(primary.text);
+  m_primary->setEnabled(primary.enabled);
+  m_primary->setToolTip(primary.enabled ? tr("%1 (Ctrl+Enter)").arg(primary.text) : primary.reason);
+  m_primary->setAccessibleDescription(primary.enabled ? QString() : primary.reason);
+}
+
+void MainWindow::setStepState(const QString& id, StepState state, const QString& words) {
+  m_rail->setStepState(id, state, words);
+}
+
+void MainWindow::setBackEnabled(bool enabled) {
+  m_back->setEnabled(enabled);
+}
+
+void MainWindow::setLamp(LampId lamp, const QString& text, Judgement judgement, bool strong) {
+  m_lamps[static_cast<int>(lamp)]->setState(text, judgement, strong);
+}
+
+void MainWindow::setJob(const QString& job, const QString& engineer) {
+  m_rail->setJob(job, engineer);
+  setWindowTitle(job.isEmpty() ? QString("Zerodrift") : job + QStringLiteral(" - Zerodrift"));
+}
+
+void MainWindow::setLanguageName(const QString& name) {
+  m_rail->setLanguage(name);
+}
+
+void MainWindow::appendLog(const QDateTime& time, Judgement judgement, const QString& text) {
+  m_log->append(time, judgement, text);
+}
+
+void MainWindow::setLogVisible(bool visible) {
+  m_log->setVisible(visible);
+}
+
+void MainWindow::setExtraCommands(const QVector<Command>& commands) {
+  m_extraCommands = commands;
+}
+
+void MainWindow::openPalette() {
+  QVector<Command> commands;
+  if (const Page* now = currentPage()) {
+    const PageAction primary = now->primaryAction();
+    if (!primary.text.isEmpty()) {
+      commands.append(
+          {"primary", primary.text, tr("Action"), primary.enabled ? "Ctrl+Enter" : primary.reason, primary.enabled});
+    }
+    for (const PageAction& action : now->secondaryActions()) {
+      commands.append({"action:" + action.id, action.text, tr("Action"), action.reason, action.enabled});
+    }
+  }
+  for (const StepButton* step : m_rail->steps()) {
+    commands.append({"step:" + step->id(), step->text(), tr("Step"), step->words(), true});
+  }
+  commands.append({"log", tr("Show what happened"), tr("Window"), "Ctrl+L", true});
+  commands.append({"theme", tr("Switch between light and dark"), tr("Window"), {}, true});
+  commands.append({"language", tr("Change language"), tr("Window"), {}, true});
+  commands.append({"help", tr("Help for this step"), tr("Window"), "F1", true});
+  commands += m_extraCommands;
+  m_palette->open(commands);
+}
+
+void MainWindow::runCommand(const QString& id) {
+  if (id == "primary") return m_primary->click();
+  if (id.startsWith("action:")) return Q_EMIT currentPage()->secondaryTriggered(id.mid(7));
+  if (id.startsWith("step:")) return Q_EMIT stepRequested(id.mid(5));
+  if (id == "log") return setLogVisible(true);
+  if (id == "theme") return Q_EMIT themeRequested();
+  if (id == "language") return Q_EMIT languageRequested();
+  if (id == "help") return Q_EMIT helpRequested(currentPage()->id());
+  Q_EMIT commandRequested(id);
+}
+
+void MainWindow::retranslate() {
+  m_back->setText(tr("Back"));
+  m_back->setToolTip(tr("To the step before (Alt+Left). Nothing is lost by going back."));
+  m_rail->retranslate();
+  showHead();
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) m_rail->setDark(colors().dark);
+  QMainWindow::changeEvent(event);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  bool allowed = true;
+  Q_EMIT closing(&allowed);
+  event->setAccepted(allowed);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  QStringList paths;
+  for (const QUrl& url : event->mimeData()->urls()) {
+    if (url.isLocalFile()) paths.append(url.toLocalFile());
+  }
+  if (!paths.isEmpty()) Q_EMIT filesDropped(paths);
+  event->acceptProposedAction();
+}
+
+}  // namespace zerodrift::ui

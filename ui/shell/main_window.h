@@ -1,0 +1,102 @@
+#pragma once
+// The window: step rail, head with title and one sentence, the open page, footer with lamps, Back and one primary
+// button. It draws what it is told and decides nothing: which page may open, what a button does, is the presenter's.
+
+#include <QDateTime>
+#include <QMainWindow>
+#include <QString>
+#include <QVector>
+
+#include "ui/shell/command_palette.h"
+#include "ui/shell/rail.h"
+#include "ui/widgets/colors.h"
+
+class QHBoxLayout;
+class QLabel;
+class QPushButton;
+class QStackedWidget;
+
+namespace zerodrift::ui {
+
+class Lamp;
+class LogDrawer;
+class Page;
+
+enum class LampId {
+  controller,
+  recording,
+  camera,
+  compensation,
+};
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  /// Pages stand in the rail in the order they are added; the window owns them.
+  /// branch: a page beside the main line (axis errors).
+  void addPage(Page* page, bool branch = false);
+  Page* page(const QString& id) const;
+  Page* currentPage() const;
+  void setCurrentPage(const QString& id);
+  void setStepState(const QString& id, StepState state, const QString& words);
+  void setBackEnabled(bool enabled);
+
+  void setLamp(LampId lamp, const QString& text, Judgement judgement, bool strong = false);
+  void setJob(const QString& job, const QString& engineer);
+  void setLanguageName(const QString& name);
+  void appendLog(const QDateTime& time, Judgement judgement, const QString& text);
+  void setLogVisible(bool visible);
+  /// Beside steps and page actions, which the window knows itself.
+  void setExtraCommands(const QVector<Command>& commands);
+
+  StepRail* rail() const { return m_rail; }
+  QPushButton* primaryButton() const { return m_primary; }
+  QPushButton* backButton() const { return m_back; }
+
+ Q_SIGNALS:
+  void stepRequested(const QString& id);
+  void backRequested();
+  void jobRequested();
+  void languageRequested();
+  void themeRequested();
+  void helpRequested(const QString& pageId);
+  void undoRequested();
+  void filesDropped(const QStringList& paths);
+  void commandRequested(const QString& id);  // one of the extra commands
+  void lampClicked(zerodrift::ui::LampId lamp);
+  void closing(bool* allowed);  // set *allowed to false to keep the window open
+
+ protected:
+  void changeEvent(QEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  QWidget* makeHead();
+  QWidget* makeFoot();
+  void makeShortcuts();
+  void openPalette();
+  void runCommand(const QString& id);
+  void showHead();
+  void retranslate();
+
+  StepRail* m_rail;
+  QLabel* m_title;
+  QLabel* m_sentence;
+  QHBoxLayout* m_actions;
+  QStackedWidget* m_stack;
+  LogDrawer* m_log;
+  QVector<Lamp*> m_lamps;
+  QPushButton* m_back;
+  QPushButton* m_primary;
+  CommandPalette* m_palette;
+  QVector<Page*> m_pages;
+  QVector<Command> m_extraCommands;
+};
+
+}  // namespace zerodrift::ui
