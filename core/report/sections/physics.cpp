@@ -15,7 +15,8 @@ Table rmse_table(const Source& source, const nlohmann::json& body) {
   table.trace = source.trace("physics", "rmse");
   const auto rmse = body.value("rmse", nlohmann::json::object());
   const auto after = rmse.value("after", nlohmann::json::object());
-  for (const auto& [channel, value] : rmse.value("before", nlohmann::json::object()).items()) {
+  const auto before = rmse.value("before", nlohmann::json::object());
+  for (const auto& [channel, value] : before.items()) {
     if (!value.is_number()) continue;
     table.rows.push_back({channel, shown(value.get<double>(), 2), shown(number_of(after, channel), 2)});
   }

@@ -1,0 +1,91 @@
+// zerodrift-cli commission: the whole job, start to end, without a display.
+
+#include "core/flow/commission.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+
+#include "app/cli/command.h"
+#include "app/cli/report_files.h"
+#include "core/acquisition/plan.h"
+#include "core/base/json.h"
+#include "core/commissioning/job.h"
+#include "core/controller/profile.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct Options {
+  std::string profile;
+  std::string plan;
+  std::string job;
+  std::string report;
+  double limit_um = 5.0;
+  bool yes = false;
+};
+
+/// A person at a terminal is asked; a script that calls this command has confirmed by calling it.
+bool confirmed(const flow::UploadPreview& preview) {
+  std::fprintf(stderr, "\nThe table to be written to %s (serial %u) changes the compensation by up to %.1f um (%s).\n",
+               preview.record.machine.c_str(), preview.record.serial, preview.largest_change_um,
+               preview.largest_change_axis.c_str());
+  if (::isatty(STDIN_FILENO) == 0) return true;
+  std::fprintf(stderr, "Write it? [y/N] ");
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "yes";
+}
+
+nlohmann::json answer_of(const flow::CommissionResult& result) {
+  const auto& v = result.verification;
+  return {{"peak_error_before_um", v.at("peak_error_before_um")}, {"peak_error_after_um", v.at("peak_error_after_um")},
+          {"rms_error_after_um", v.at("rms_error_after_um")},     {"sensors", result.sensors.at("chosen")},
+          {"table_version", result.upload.at("version")},         {"verdict", v.at("verdict")},
+          {"verification_machine_time_s", v.at("machine_time_s")}};
+}
+
+std::string text_of(const nlohmann::json& answer) {
+  std::string text;
+  for (const auto& [direction, after] : answer.at("peak_error_after_um").items()) {
+    const auto& before = answer.at("peak_error_before_um");
+    text += fmt::format("{}: largest error {:.1f} um before, {:.1f} um after\n", direction,
+                        before.value(direction, 0.0), after.get<double>());
+  }
+  return text + "verdict: " + answer.at("verdict").get<std::string>();
+}
+
+Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+  CommandOutput output;
+  ZD_CHECK(check_report_name(options.report));
+  ZD_TRY(const auto profile, controller::read_profile(options.profile, &output.warnings));
+  ZD_TRY(const auto document, read_json_file(options.profile));
+  flow::CommissionOptions commission_options;
+  ZD_TRY(commission_options.plan, acquisition::read_plan(options.plan, &output.warnings));
+  commission_options.limit_um = options.limit_um;
+  if (!options.yes) commission_options.confirm = confirmed;
+  ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
+  ZD_TRY(const auto result, flow::commission(job, profile, document, commission_options, context));
+  context.progress(0.99, "report");
+  ZD_CHECK(write_job_report(job, options.report));
+  output.json = answer_of(result);
+  output.text = text_of(output.json) + "\nreport: " + options.report;
+  return output;
+}
+
+}  // namespace
+
+void add_commission(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  auto* command = cli.add("commission", "Everything, start to end: calibrate, record, fit, upload, verify, report",
+                          [options](const TaskContext& context) { return run(*options, context); });
+  command->add_option("--profile", options->profile, "Connection profile of the machine")->required();
+  command->add_option("--plan", options->plan, "Warm-up plan")->required();
+  command->add_option("--job", options->job, "Job file; a commissioning that was broken off goes on")->required();
+  command->add_option("--report", options->report, "Report to write: .pdf, .html or .csv")->required();
+  command->add_option("--limit-um", options->limit_um, "Largest error that may be left")->check(CLI::PositiveNumber);
+  command->add_flag("--yes", options->yes, "Do not ask before the table is written");
+}
+
+}  // namespace zerodrift::cli

@@ -1,0 +1,76 @@
+// zerodrift-cli verify: the compensated run, what is left, and the correction it asks for.
+
+#include "app/cli/command.h"
+#include "core/acquisition/plan.h"
+#include "core/commissioning/job.h"
+#include "core/controller/profile.h"
+#include "core/flow/steps/upload_step.h"
+#include "core/flow/steps/verify_step.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct Options {
+  std::string profile;
+  std::string job;
+  std::string plan;
+  double limit_um = 5.0;
+  bool correct = false;
+  bool yes = false;
+};
+
+Status apply_correction(commissioning::Job& job, flow::Devices& devices, const commissioning::Artefact& verification,
+                        const Options& options, const TaskContext& context) {
+  ZD_TRY(const auto table, flow::corrected_table(verification));
+  if (!table) return {};
+  flow::UploadStepOptions upload_options;
+  upload_options.table = table;
+  upload_options.sign_check = false;
+  upload_options.confirm = [&](const flow::UploadPreview&) { return options.yes; };
+  ZD_TRY(const auto made, flow::upload(job, devices, upload_options, context));
+  return job.put(made).map([](auto) {});
+}
+
+Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+  CommandOutput output;
+  ZD_TRY(const auto profile, controller::read_profile(options.profile, &output.warnings));
+  ZD_TRY(auto job, commissioning::Job::open(options.job));
+  flow::VerifyOptions verify_options;
+  verify_options.limit_um = options.limit_um;
+  if (!options.plan.empty()) {
+    ZD_TRY(verify_options.run.plan, acquisition::read_plan(options.plan, &output.warnings));
+  }
+  ZD_TRY(auto devices, flow::Devices::open(profile));
+  ZD_TRY(const auto made, flow::verify(job, devices, verify_options, context));
+  ZD_TRY(const auto artefact, job.put(made));
+  ZD_TRY(output.json, artefact.document());
+  output.json.erase("plan");
+  const auto peaks = output.json.value("peak_error_after_um", nlohmann::json::object());
+  for (const auto& [direction, peak] : peaks.items()) {
+    output.text += fmt::format("{}: largest error left {:.2f} um, rms {:.2f} um\n", direction, peak.get<double>(),
+                               output.json["rms_error_after_um"].value(direction, 0.0));
+  }
+  output.text += "verdict: " + output.json.at("verdict").get<std::string>();
+  for (const auto& axis : output.json.value("correction", nlohmann::json::array())) {
+    output.text += fmt::format("\n{}: kappa {:.3f}, {}", axis.value("axis", ""), axis.value("kappa", 1.0),
+                               axis.value("reason", ""));
+  }
+  if (options.correct) ZD_CHECK(apply_correction(job, devices, artefact, options, context));
+  return output;
+}
+
+}  // namespace
+
+void add_verify(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  auto* command = cli.add("verify", "Run with the compensation on and measure what is left",
+                          [options](const TaskContext& context) { return run(*options, context); });
+  command->add_option("--profile", options->profile, "Connection profile of the machine")->required();
+  command->add_option("--job", options->job, "Job file")->required();
+  command->add_option("--plan", options->plan, "Plan of the run; else the warm-up's speeds in another order");
+  command->add_option("--limit-um", options->limit_um, "Largest error that may be left")->check(CLI::PositiveNumber);
+  command->add_flag("--correct", options->correct, "Upload the corrected table when too much is left (needs --yes)");
+  command->add_flag("--yes", options->yes, "Confirm the upload of a corrected table");
+}
+
+}  // namespace zerodrift::cli

@@ -1,0 +1,16 @@
+#pragma once
+// Reports from the command line: built from the job, drawn without a display.
+
+#include <filesystem>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/commissioning/job.h"
+
+namespace zerodrift::cli {
+
+/// wrong_format when the name does not end in .pdf, .html or .csv; asked before long work, not after.
+Status check_report_name(const std::filesystem::path& path);
+Status write_job_report(const commissioning::Job& job, const std::filesystem::path& path);
+
+}  // namespace zerodrift::cli

@@ -1,0 +1,66 @@
+#include "app/desktop/demo_machine.h"
+
+#include <QCoreApplication>
+#include <QDir>
+
+namespace zerodrift::desktop {
+
+DemoMachine::DemoMachine(QObject* parent) : QObject(parent) {
+  m_process.setProcessChannelMode(QProcess::MergedChannels);
+  connect(&m_process, &QProcess::readyReadStandardOutput, this, &DemoMachine::readLines);
+  connect(&m_process, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
+    if (error == QProcess::FailedToStart) Q_EMIT failed(m_process.errorString());
+  });
+  connect(&m_process, &QProcess::finished, this, [this] {
+    readLines();
+    if (!m_ready) Q_EMIT failed(m_words.trimmed().isEmpty() ? tr("it ended at once") : m_words.trimmed());
+    m_ready = false;
+  });
+}
+
+DemoMachine::~DemoMachine() {
+  disconnect(&m_process, nullptr, this, nullptr);
+  stop();
+}
+
+void DemoMachine::start(const DemoOptions& options) {
+  stop();
+  m_words.clear();
+  QStringList arguments = {QStringLiteral("--speedup"),     QString::number(options.speedup),
+                           QStringLiteral("--seed"),        QString::number(options.seed),
+                           QStringLiteral("--port"),        QStringLiteral("0"),
+                           QStringLiteral("--camera-port"), QStringLiteral("0"),
+                           QStringLiteral("--profile"),     profilePath(),
+                           QStringLiteral("--truth"),       truthPath()};
+  if (!options.conceal.isEmpty()) arguments << QStringLiteral("--conceal") << options.conceal;
+  const QString program = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
+  m_process.start(program, arguments);
+}
+
+void DemoMachine::stop() {
+  m_ready = false;
+  if (m_process.state() == QProcess::NotRunning) return;
+  m_process.terminate();
+  if (!m_process.waitForFinished(5000)) {
+    m_process.kill();
+    m_process.waitForFinished(2000);
+  }
+}
+
+QString DemoMachine::profilePath() const {
+  return m_folder.filePath(QStringLiteral("profile.json"));
+}
+
+QString DemoMachine::truthPath() const {
+  return m_folder.filePath(QStringLiteral("truth.csv"));
+}
+
+void DemoMachine::readLines() {
+  const QString text = QString::fromUtf8(m_process.readAllStandardOutput());
+  m_words += text;
+  if (m_ready || !m_words.contains(QStringLiteral("ready modbus="))) return;
+  m_ready = true;
+  Q_EMIT ready();
+}
+
+}  // namespace zerodrift::desktop

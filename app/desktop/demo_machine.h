@@ -1,0 +1,45 @@
+#pragma once
+// The virtual machine tool beside the application (--demo, --tour): started as a process of its own on free ports,
+// ended with the application.
+
+#include <QObject>
+#include <QProcess>
+#include <QTemporaryDir>
+
+namespace zerodrift::desktop {
+
+struct DemoOptions {
+  double speedup = 240.0;
+  int seed = 1;
+  QString conceal;  // effect id or "random"; empty: nothing is hidden
+};
+
+class DemoMachine : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit DemoMachine(QObject* parent = nullptr);
+  ~DemoMachine() override;
+
+  void start(const DemoOptions& options);
+  bool running() const { return m_ready; }
+  /// Ends the process and waits for it; what it printed at its end (the opened seal) is in lastWords().
+  void stop();
+  QString profilePath() const;
+  QString truthPath() const;
+  QString lastWords() const { return m_words; }
+
+ Q_SIGNALS:
+  void ready();
+  void failed(const QString& why);
+
+ private:
+  void readLines();
+
+  QProcess m_process;
+  QTemporaryDir m_folder;
+  QString m_words;
+  bool m_ready = false;
+};
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,110 @@
+#include "app/desktop/machine_monitor.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+
+#include "core/controller/modbus_machine.h"
+
+namespace zerodrift::desktop {
+
+using std::chrono::steady_clock;
+
+namespace {
+
+bool wait(const std::stop_token& stop, std::chrono::milliseconds duration) {
+  std::mutex mutex;
+  std::condition_variable_any wake;
+  std::unique_lock lock(mutex);
+  wake.wait_for(lock, stop, duration, [] { return false; });
+  return !stop.stop_requested();
+}
+
+double seconds_between(steady_clock::time_point from, steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// One connection and what is known through it.
+class Eye {
+ public:
+  explicit Eye(const controller::Profile& profile) : m_profile(profile) {}
+
+  Result<MachineLook> look() {
+    if (!m_machine) {
+      ZD_TRY(m_machine, controller::ModbusMachine::open(m_profile));
+      m_machine->link().set_attempts(2);
+      ZD_TRY(m_identity, m_machine->identify());
+    }
+    MachineLook seen;
+    seen.identity = m_identity;
+    const auto before = steady_clock::now();
+    ZD_TRY(seen.sample, m_machine->read());
+    const auto after = steady_clock::now();
+    seen.round_trip_ms = 1000.0 * seconds_between(before, after);
+    if (!m_first) m_first = {after, seen.sample.machine_time_s};
+    const double host_s = seconds_between(m_first->host, after) * m_profile.time_factor;
+    seen.clock_difference_s = (seen.sample.machine_time_s - m_first->machine_s) - host_s;
+    return seen;
+  }
+
+  void forget() {
+    m_machine.reset();
+    m_first.reset();
+  }
+
+ private:
+  struct First {
+    steady_clock::time_point host;
+    double machine_s;
+  };
+  const controller::Profile& m_profile;
+  std::unique_ptr<controller::ModbusMachine> m_machine;
+  acquisition::MachineIdentity m_identity;
+  std::optional<First> m_first;
+};
+
+}  // namespace
+
+MachineMonitor::MachineMonitor(QObject* parent) : QObject(parent) {}
+
+MachineMonitor::~MachineMonitor() {
+  stop();
+}
+
+void MachineMonitor::start(const controller::Profile& profile) {
+  stop();
+  m_thread = std::jthread([this, profile](const std::stop_token& token) { work(token, profile); });
+}
+
+void MachineMonitor::stop() {
+  if (!m_thread.joinable()) return;
+  m_thread.request_stop();
+  m_thread.join();
+  m_thread = {};
+}
+
+void MachineMonitor::work(const std::stop_token& stop, const controller::Profile& profile) {
+  Eye eye(profile);
+  do {
+    if (m_paused) {
+      eye.forget();
+      continue;
+    }
+    const auto seen = eye.look();
+    if (!seen) eye.forget();
+    QMetaObject::invokeMethod(
+        this,
+        [this, seen] {
+          if (m_paused) return;
+          if (seen) {
+            Q_EMIT looked(std::make_shared<const MachineLook>(*seen));
+          } else {
+            Q_EMIT failed(seen.error());
+          }
+        },
+        Qt::QueuedConnection);
+  } while (wait(stop, std::chrono::milliseconds(1000)));
+}
+
+}  // namespace zerodrift::desktop

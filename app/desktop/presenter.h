@@ -1,0 +1,40 @@
+#pragma once
+// Between a page and the job: shows what the job holds, runs the step when the user asks for it, keeps what it made.
+
+#include <QObject>
+#include <functional>
+
+#include "app/desktop/workbench.h"
+#include "ui/pages/page.h"
+
+namespace zerodrift::desktop {
+
+class Presenter : public QObject {
+  Q_OBJECT
+
+ public:
+  Presenter(Workbench& bench, ui::Page* page);
+
+  ui::Page* page() const { return m_page; }
+  QString id() const { return m_page->id(); }
+  /// Draws the page from the job and the machine as they are now.
+  virtual void refresh() = 0;
+  /// The page was opened or left.
+  virtual void enter() { refresh(); }
+  virtual void leave() {}
+  /// What the tour does on this page: starts the step and calls `done` when it has ended. The default calls it at once.
+  virtual void tour(std::function<void(bool good)> done) { done(true); }
+
+ protected:
+  Workbench& bench() { return m_bench; }
+  /// Runs a step that makes an artefact: progress in the page, errors in its banner, the artefact into the job.
+  void runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
+               std::function<void(bool good)> done = {});
+  void show(const Error& error);
+
+ private:
+  Workbench& m_bench;
+  ui::Page* m_page;
+};
+
+}  // namespace zerodrift::desktop

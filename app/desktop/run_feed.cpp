@@ -1,0 +1,277 @@
+#include "app/desktop/run_feed.h"
+
+#include <cmath>
+
+#include "app/desktop/steps/calibrate_presenter.h"
+#include "ui/pages/run_view.h"
+
+namespace zerodrift::desktop {
+
+using acquisition::RunUpdate;
+
+namespace {
+
+constexpr int drains_per_s = 15;
+constexpr double trail_enlargement = 20.0;
+
+int decimals_of(recording::ChannelKind kind) {
+  switch (kind) {
+    case recording::ChannelKind::temperature:
+    case recording::ChannelKind::ambient:
+      return 2;
+    case recording::ChannelKind::error:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+ui::RunChannel channel_of(const std::string& name, const QString& label) {
+  const auto kind = recording::kind_of(name);
+  ui::RunChannel channel;
+  channel.id = QString::fromStdString(name);
+  channel.tag = channel.id.section(QLatin1Char('_'), 0, 0);
+  channel.label = label;
+  channel.unit = QString::fromUtf8(recording::unit_of(kind).data());
+  if (channel.unit == QStringLiteral("C")) channel.unit = QStringLiteral("°C");
+  if (channel.unit == QStringLiteral("um")) channel.unit = QStringLiteral("µm");
+  channel.decimals = decimals_of(kind);
+  return channel;
+}
+
+}  // namespace
+
+RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject(parent), m_bench(bench), m_view(view) {
+  m_timer.setInterval(1000 / drains_per_s);
+  connect(&m_timer, &QTimer::timeout, this, &RunFeed::drain);
+}
+
+void RunFeed::setChannels() {
+  QVector<ui::RunChannel> temperatures;
+  QVector<ui::RunChannel> errors;
+  QVector<ui::RunChannel> inputs;
+  if (const auto& profile = m_bench.profile()) {
+    for (const auto& sensor : profile->sensors) {
+      temperatures.append(channel_of(sensor.channel, QString::fromStdString(sensor.label)));
+    }
+  }
+  temperatures.append(channel_of("ambient_C", tr("Room")));
+  int axis = 0;
+  for (const char* name : {"dX_um", "dY_um", "dZ_um"}) {
+    auto channel = channel_of(name, tr("Error at the nose"));
+    channel.color = ui::axisColor(axis++);
+    errors.append(channel);
+  }
+  inputs.append(channel_of("spindle_rpm", tr("Spindle speed")));
+  m_view->setChannels(temperatures, errors, inputs);
+}
+
+void RunFeed::begin() {
+  {
+    const std::scoped_lock lock(m_shared->mutex);
+    m_shared->updates.clear();
+    m_shared->states.clear();
+  }
+  m_now = {};
+  m_speeds = {};
+  m_largest_um = 0.0;
+  m_largestAxis.clear();
+  m_received = false;
+  m_view->clear();
+  setChannels();
+  m_timer.start();
+}
+
+void RunFeed::stop() {
+  drain();
+  m_timer.stop();
+}
+
+void RunFeed::showRecording(const recording::Recording& run) {
+  m_view->clear();
+  setChannels();
+  m_largest_um = 0.0;
+  for (const auto& channel : run.channels) {
+    QVector<double> times;
+    QVector<double> values;
+    for (std::size_t r = 0; r < run.rows(); ++r) {
+      if (std::isnan(channel.values[r])) continue;
+      times.append(run.time_s[r]);
+      values.append(channel.values[r]);
+      noteErrors(channel.name, channel.values[r]);
+    }
+    m_view->append(QString::fromStdString(channel.name), times, values);
+  }
+  showRegimes(run);
+  if (run.rows() == 0) return;
+  QVector<ui::RunValue> last;
+  for (const auto& channel : run.channels) {
+    last.append({QString::fromStdString(channel.name), recording::value_at(run, channel, run.time_s.back()), {}, {}});
+  }
+  m_view->setValues(last);
+}
+
+void RunFeed::noteErrors(const std::string& channel, double value) {
+  if (recording::kind_of(channel) != recording::ChannelKind::error || channel[0] != 'd') return;
+  if (!(std::abs(value) > m_largest_um)) return;
+  m_largest_um = std::abs(value);
+  m_largestAxis = QString::fromStdString(channel.substr(1, 1));
+}
+
+void RunFeed::showRegimes(const recording::Recording& run) {
+  const auto* speed = run.find("spindle_rpm");
+  const auto* coolant = run.find("coolant_on");
+  if (speed == nullptr || run.rows() < 2) return;
+  QVector<ui::Regime> regimes;
+  double fastest = 1000.0;
+  for (std::size_t r = 0; r + 1 < run.rows(); ++r) {
+    // Rounded, so that a spindle settling does not make a hundred bands.
+    const double rpm = 100.0 * std::round((std::isnan(speed->values[r]) ? 0.0 : speed->values[r]) / 100.0);
+    const bool wet = coolant != nullptr && coolant->values[r] > 0.5;
+    fastest = std::max(fastest, rpm);
+    if (!regimes.isEmpty() && regimes.back().speed_rpm == rpm && regimes.back().coolant == wet) {
+      regimes.back().to_s = run.time_s[r + 1];
+    } else {
+      regimes.append({run.time_s[r], run.time_s[r + 1], rpm, wet});
+    }
+  }
+  m_view->setRegimes(regimes, fastest);
+}
+
+std::function<void(const RunUpdate&)> RunFeed::observer() {
+  return [shared = m_shared](const RunUpdate& update) {
+    const std::scoped_lock lock(shared->mutex);
+    shared->updates.push_back(update);
+    if (update.measured && shared->cameras != nullptr) shared->states = shared->cameras->states();
+  };
+}
+
+std::function<void(acquisition::RunControl*)> RunFeed::control() {
+  return [shared = m_shared](acquisition::RunControl* control) {
+    const std::scoped_lock lock(shared->mutex);
+    shared->control = control;
+  };
+}
+
+std::function<void(vision::CameraErrorSource*)> RunFeed::cameras() {
+  return [shared = m_shared](vision::CameraErrorSource* cameras) {
+    const std::scoped_lock lock(shared->mutex);
+    shared->cameras = cameras;
+  };
+}
+
+void RunFeed::pause() {
+  const std::scoped_lock lock(m_shared->mutex);
+  if (m_shared->control != nullptr) m_shared->control->pause();
+}
+
+void RunFeed::resume() {
+  const std::scoped_lock lock(m_shared->mutex);
+  if (m_shared->control != nullptr) m_shared->control->resume();
+}
+
+void RunFeed::finish() {
+  const std::scoped_lock lock(m_shared->mutex);
+  if (m_shared->control != nullptr) m_shared->control->finish();
+}
+
+void RunFeed::abort() {
+  const std::scoped_lock lock(m_shared->mutex);
+  if (m_shared->control != nullptr) m_shared->control->abort();
+}
+
+void RunFeed::note(const QString& text) {
+  const std::scoped_lock lock(m_shared->mutex);
+  if (m_shared->control != nullptr) m_shared->control->note(text.toStdString());
+}
+
+bool RunFeed::paused() const {
+  const std::scoped_lock lock(m_shared->mutex);
+  return m_shared->control != nullptr && m_shared->control->paused();
+}
+
+void RunFeed::appendRows(const std::vector<RunUpdate>& updates) {
+  std::vector<std::string> names;
+  QVector<double> times;
+  std::vector<QVector<double>> values;
+  for (const auto& update : updates) {
+    if (update.row.empty()) continue;
+    if (names.empty()) {
+      names = update.channels;
+      values.resize(names.size());
+    }
+    times.append(update.time_s);
+    for (std::size_t c = 0; c < names.size() && c < update.row.size(); ++c) {
+      values[c].append(update.row[c]);
+      noteErrors(names[c], update.row[c]);
+    }
+  }
+  if (times.isEmpty()) return;
+  QVector<ui::RunValue> last;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const QString id = QString::fromStdString(names[c]);
+    if (recording::kind_of(names[c]) != recording::ChannelKind::error) {
+      m_view->append(id, times, values[c]);
+      last.append({id, values[c].back(), {}, ui::Judgement::none});
+      continue;
+    }
+    for (qsizetype r = 0; r < times.size(); ++r) {  // errors are sparse: only what was measured makes the curve
+      if (std::isnan(values[c][r])) continue;
+      m_view->append(id, {times[r]}, {values[c][r]});
+      last.append({id, values[c][r], {}, ui::Judgement::none});
+    }
+  }
+  m_view->setValues(last);
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (names[c] != "spindle_rpm" && names[c] != "coolant_on") continue;
+    auto& channel = m_speeds.ensure(names[c]);
+    channel.values.insert(channel.values.end(), values[c].begin(), values[c].end());
+  }
+  m_speeds.time_s.insert(m_speeds.time_s.end(), times.begin(), times.end());
+  showRegimes(m_speeds);
+}
+
+void RunFeed::showPicture() {
+  std::vector<vision::ViewState> states;
+  {
+    const std::scoped_lock lock(m_shared->mutex);
+    states = m_shared->states;
+  }
+  if (states.empty() || states.front().frame == nullptr) return;
+  const auto& view = states.front();
+  ui::CameraMarks marks;
+  if (view.location.ok) {
+    marks.target = QPointF(view.location.point.x_px, view.location.point.y_px);
+    marks.sigmaMajor_px = std::max(view.location.sigma_x_px, view.location.sigma_y_px);
+    marks.sigmaMinor_px = std::min(view.location.sigma_x_px, view.location.sigma_y_px);
+    marks.enlargement = 5000.0;
+    marks.trailEnlargement = trail_enlargement;
+    for (const auto& point : view.trail) {
+      marks.trail.append(QPointF(view.location.point.x_px - view.location.x_px + point.x_px,
+                                 view.location.point.y_px - view.location.y_px + point.y_px));
+    }
+    marks.judgement = ui::Judgement::ok;
+  } else {
+    marks.message = QString::fromStdString(view.problem);
+    marks.judgement = ui::Judgement::warn;
+  }
+  m_view->setFrame(image_of(view.frame->image), marks);
+}
+
+void RunFeed::drain() {
+  std::vector<RunUpdate> updates;
+  {
+    const std::scoped_lock lock(m_shared->mutex);
+    updates.swap(m_shared->updates);
+  }
+  if (updates.empty()) return;
+  m_received = true;
+  appendRows(updates);
+  bool measured = false;
+  for (const auto& update : updates) measured = measured || update.measured.has_value();
+  if (measured) showPicture();
+  m_now = std::move(updates.back());
+  Q_EMIT updated();
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,84 @@
+#pragma once
+// From the recorder's thread to the page: updates are collected behind a lock and drained 15 times a second, one redraw
+// for all of them. Also the picture of the first camera with the drift trail.
+
+#include <QObject>
+#include <QTimer>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "app/desktop/workbench.h"
+#include "core/acquisition/recorder.h"
+#include "core/recording/recording.h"
+#include "core/vision/camera_error_source.h"
+
+namespace zerodrift::ui {
+class RunView;
+}
+
+namespace zerodrift::desktop {
+
+class RunFeed : public QObject {
+  Q_OBJECT
+
+ public:
+  RunFeed(Workbench& bench, ui::RunView* view, QObject* parent);
+
+  /// Channels of the profile's machine, and an empty run.
+  void begin();
+  /// A run that is in the job already.
+  void showRecording(const recording::Recording& run);
+  void stop();
+
+  // For the step's options; they may be called from the worker thread.
+  std::function<void(const acquisition::RunUpdate&)> observer();
+  std::function<void(acquisition::RunControl*)> control();
+  std::function<void(vision::CameraErrorSource*)> cameras();
+
+  // What a person asks; nothing when no run is on.
+  void pause();
+  void resume();
+  void finish();
+  void abort();
+  void note(const QString& text);
+  bool paused() const;
+
+  /// The newest update, with the fields a page shows; rows are emptied already.
+  const acquisition::RunUpdate& now() const { return m_now; }
+  double largestError_um() const { return m_largest_um; }
+  QString largestErrorAxis() const { return m_largestAxis; }
+  bool receiving() const { return m_received; }
+
+ Q_SIGNALS:
+  void updated();
+
+ private:
+  struct Shared {
+    std::mutex mutex;
+    std::vector<acquisition::RunUpdate> updates;
+    acquisition::RunControl* control = nullptr;
+    vision::CameraErrorSource* cameras = nullptr;
+    std::vector<vision::ViewState> states;
+  };
+
+  void drain();
+  void setChannels();
+  void appendRows(const std::vector<acquisition::RunUpdate>& updates);
+  void showPicture();
+  void noteErrors(const std::string& channel, double value);
+  void showRegimes(const recording::Recording& run);
+
+  Workbench& m_bench;
+  ui::RunView* m_view;
+  QTimer m_timer;
+  std::shared_ptr<Shared> m_shared = std::make_shared<Shared>();
+  acquisition::RunUpdate m_now;
+  recording::Recording m_speeds;  // time, speed, coolant: for the bands
+  double m_largest_um = 0.0;
+  QString m_largestAxis;
+  bool m_received = false;
+};
+
+}  // namespace zerodrift::desktop

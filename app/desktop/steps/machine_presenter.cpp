@@ -1,0 +1,281 @@
+#include "app/desktop/steps/machine_presenter.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSettings>
+#include <QStandardPaths>
+#include <cmath>
+#include <limits>
+
+#include "core/flow/devices.h"
+#include "core/flow/steps/machine_step.h"
+#include "ui/pages/machine_page.h"
+
+namespace zerodrift::desktop {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t readings_kept = 30;
+constexpr int jobs_remembered = 8;
+
+double noise_of(const std::deque<std::vector<double>>& readings, std::size_t sensor) {
+  // From differences of neighbours, so that a slow drift is no noise.
+  double squares = 0.0;
+  int count = 0;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    const double step = readings[i][sensor] - readings[i - 1][sensor];
+    if (std::isnan(step)) continue;
+    squares += step * step;
+    ++count;
+  }
+  return count < 3 ? unknown : std::sqrt(squares / (2.0 * count));
+}
+
+}  // namespace
+
+MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, DemoMachine& demo)
+    : Presenter(bench, page), m_page(page), m_demo(demo) {
+  connect(page, &ui::MachinePage::newJobRequested, this, &MachinePresenter::chooseNewJob);
+  connect(page, &ui::MachinePage::openJobRequested, this, [this](const QString& path) {
+    if (path.isEmpty()) {
+      chooseJob();
+    } else {
+      openJob(path);
+    }
+  });
+  connect(page, &ui::MachinePage::virtualMachineRequested, this, [this] { useVirtualMachine({}); });
+  connect(page, &ui::MachinePage::profileImportRequested, this, &MachinePresenter::importProfile);
+  connect(page, &ui::Page::primaryTriggered, this, &MachinePresenter::primary);
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
+    if (action == QStringLiteral("import")) importProfile();
+    if (action == QStringLiteral("job")) {
+      this->bench().closeJob();
+      refresh();
+    }
+    if (action == QStringLiteral("test")) this->bench().connectMachine();
+    if (action == QStringLiteral("disconnect")) this->bench().disconnectMachine();
+  });
+  connect(&bench, &Workbench::machineSeen, this, &MachinePresenter::looked);
+  connect(&bench, &Workbench::machineLost, this, [this](const Error& error) {
+    m_connecting = false;
+    m_readings.clear();
+    show(error);
+    refresh();
+  });
+  connect(&bench, &Workbench::profileChanged, this, &MachinePresenter::refresh);
+  connect(&m_demo, &DemoMachine::ready, this, [this] {
+    if (const Status loaded = this->bench().loadProfile(m_demo.profilePath().toStdString()); !loaded) {
+      show(loaded.error());
+      return;
+    }
+    m_connecting = true;
+    this->bench().connectMachine();
+    refresh();
+  });
+  connect(&m_demo, &DemoMachine::failed, this, [this](const QString& why) {
+    m_connecting = false;
+    m_page->setProblem({ui::ProblemKind::failure,
+                        tr("The virtual machine could not be started: %1.").arg(why),
+                        tr("Check that zerodrift-machine stands beside this program."),
+                        {}});
+  });
+}
+
+QString MachinePresenter::jobsFolder() {
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  const QString folder = (documents.isEmpty() ? QDir::homePath() : documents) + QStringLiteral("/Zerodrift");
+  QDir().mkpath(folder);
+  return folder;
+}
+
+void MachinePresenter::useVirtualMachine(const DemoOptions& options) {
+  if (bench().job() == nullptr) {
+    newJob(jobsFolder() + QStringLiteral("/virtual-") +
+           QDateTime::currentDateTime().toString(QStringLiteral("yyyyMMdd-HHmmss")) + QStringLiteral(".zdj"));
+  }
+  m_connecting = true;
+  m_demo.start(options);
+  refresh();
+}
+
+void MachinePresenter::newJob(const QString& path) {
+  if (const Status made = bench().createJob(path.toStdString()); !made) {
+    show(made.error());
+    return;
+  }
+  m_page->clearProblem();
+  remember(path);
+}
+
+void MachinePresenter::openJob(const QString& path) {
+  if (const Status opened = bench().openJob(path.toStdString()); !opened) {
+    show(opened.error());
+    return;
+  }
+  m_page->clearProblem();
+  remember(path);
+}
+
+void MachinePresenter::chooseNewJob() {
+  const QString proposal = jobsFolder() + QStringLiteral("/") +
+                           QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd")) + QStringLiteral(".zdj");
+  QString path = QFileDialog::getSaveFileName(m_page, tr("New job"), proposal, tr("Zerodrift jobs (*.zdj)"));
+  if (path.isEmpty()) return;
+  if (!path.endsWith(QStringLiteral(".zdj"))) path += QStringLiteral(".zdj");
+  newJob(path);
+}
+
+void MachinePresenter::chooseJob() {
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Open job"), jobsFolder(), tr("Zerodrift jobs (*.zdj)"));
+  if (!path.isEmpty()) openJob(path);
+}
+
+void MachinePresenter::importProfile() {
+  const QString path =
+      QFileDialog::getOpenFileName(m_page, tr("Connection profile"), QDir::homePath(), tr("Profiles (*.json)"));
+  if (path.isEmpty()) return;
+  if (const Status loaded = bench().loadProfile(path.toStdString()); !loaded) {
+    show(loaded.error());
+    return;
+  }
+  m_page->clearProblem();
+  refresh();
+}
+
+void MachinePresenter::remember(const QString& path) {
+  QSettings settings;
+  QStringList recent = settings.value(QStringLiteral("recentJobs")).toStringList();
+  recent.removeAll(path);
+  recent.prepend(path);
+  settings.setValue(QStringLiteral("recentJobs"), QStringList(recent.mid(0, jobs_remembered)));
+}
+
+void MachinePresenter::primary() {
+  if (!bench().connected()) {
+    m_connecting = true;
+    m_page->clearProblem();
+    bench().connectMachine();
+    refresh();
+    return;
+  }
+  startCommissioning({});
+}
+
+void MachinePresenter::startCommissioning(std::function<void(bool good)> done) {
+  const auto profile = bench().profile();
+  if (!profile) return;
+  const auto document = bench().profileDocument();
+  runStep(
+      tr("Checking the machine"),
+      [profile = *profile, document](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+        ZD_TRY(auto devices, flow::Devices::open(profile, false));
+        return flow::check_machine(devices, document, context);
+      },
+      [this, done = std::move(done)](bool good) {
+        if (good && bench().job() != nullptr && bench().look()) {
+          auto header = bench().job()->header().value_or(commissioning::JobHeader{});
+          if (header.machine.empty()) header.machine = bench().look()->identity.name;
+          if (header.serial.empty()) header.serial = std::to_string(bench().look()->identity.serial);
+          if (const Status named = bench().job()->set_header(header); !named) show(named.error());
+          Q_EMIT bench().artefactsChanged();
+        }
+        if (done) done(good);
+      });
+}
+
+void MachinePresenter::looked() {
+  m_connecting = false;
+  const auto& look = bench().look();
+  if (!look) return;
+  if (!m_readings.empty() && m_readings.back().size() != look->sample.temperature_C.size()) m_readings.clear();
+  m_readings.push_back(look->sample.temperature_C);
+  if (m_readings.size() > readings_kept) m_readings.pop_front();
+  refresh();
+  if (m_whenReady && m_readings.size() >= 4) std::exchange(m_whenReady, nullptr)();
+}
+
+QString MachinePresenter::connectionText() const {
+  const auto& profile = const_cast<MachinePresenter*>(this)->bench().profile();
+  if (!profile) return {};
+  const auto& link = profile->controller;
+  if (link.kind == controller::LinkKind::rtu) {
+    return tr("Modbus RTU %1, unit %2").arg(QString::fromStdString(link.device)).arg(link.unit);
+  }
+  return tr("Modbus TCP %1:%2, unit %3").arg(QString::fromStdString(link.host)).arg(link.port).arg(link.unit);
+}
+
+void MachinePresenter::refresh() {
+  ui::MachineState state;
+  state.jobOpen = bench().job() != nullptr;
+  state.connected = bench().connected();
+  state.connecting = m_connecting;
+  state.compensationOn = bench().compensationOn();
+  state.sampleAvailable = false;
+  state.address = connectionText();
+  const QStringList recent = QSettings().value(QStringLiteral("recentJobs")).toStringList();
+  for (const QString& path : recent) {
+    const QFileInfo file(path);
+    if (!file.exists()) continue;
+    state.recent.append(
+        {path, file.completeBaseName(), file.lastModified().toString(QStringLiteral("d MMM yyyy, HH:mm"))});
+  }
+  if (const auto& profile = bench().profile()) {
+    state.profiles = {QString::fromStdString(profile->name)};
+    state.profile = 0;
+    state.machineName = QString::fromStdString(profile->name);
+  }
+  if (const auto& look = bench().look()) {
+    double low = unknown;
+    double high = unknown;
+    const auto& sensors = look->identity.sensors;
+    for (std::size_t i = 0; i < look->sample.temperature_C.size(); ++i) {
+      ui::SensorHealth health;
+      const bool known = i < sensors.size();
+      health.id = known ? QString::fromStdString(sensors[i].channel) : QStringLiteral("T%1_C").arg(i + 1);
+      health.tag = QString(health.id).remove(QStringLiteral("_C"));
+      health.label = known ? QString::fromStdString(sensors[i].label) : QString();
+      health.place = known ? QString::fromStdString(sensors[i].place) : QString();
+      health.value_C = look->sample.temperature_C[i];
+      health.age_s = 0.0;
+      health.noise_K = noise_of(m_readings, i);
+      const bool dead = std::isnan(health.value_C);
+      const bool stuck = !dead && m_readings.size() >= 20 && health.noise_K == 0.0;
+      health.judgement = dead ? ui::Judgement::bad : stuck ? ui::Judgement::warn : ui::Judgement::ok;
+      health.state = dead ? tr("No signal") : stuck ? tr("Stuck") : tr("OK");
+      if (!dead) {
+        low = std::isnan(low) ? health.value_C : std::min(low, health.value_C);
+        high = std::isnan(high) ? health.value_C : std::max(high, health.value_C);
+      }
+      state.sensors.append(health);
+    }
+    state.spread_K = high - low;
+    state.roundTrip_ms = look->round_trip_ms;
+    state.clockDifference_s = look->clock_difference_s;
+    for (const auto& [axis, position] : look->sample.axes) {
+      const bool turns = axis == "A" || axis == "B" || axis == "C";
+      state.parts.append(
+          {QString::fromStdString(axis), tr("%1 axis").arg(QString::fromStdString(axis)),
+           QStringLiteral("%1 %2").arg(position, 0, 'f', 3).arg(turns ? QStringLiteral("°") : QStringLiteral("mm")),
+           look->sample.referenced ? ui::Judgement::ok : ui::Judgement::warn});
+    }
+    state.parts.append({QStringLiteral("spindle"), tr("Spindle"), tr("%1 rpm").arg(look->sample.spindle_rpm, 0, 'f', 0),
+                        ui::Judgement::ok});
+    state.parts.append({QStringLiteral("switch"), tr("Compensation"),
+                        look->sample.compensation_on ? tr("ON") : tr("OFF"),
+                        look->sample.compensation_on ? ui::Judgement::warn : ui::Judgement::ok});
+  }
+  m_page->setState(state);
+}
+
+void MachinePresenter::tour(std::function<void(bool good)> done) {
+  const auto start = [this, done = std::move(done)] { startCommissioning(done); };
+  if (m_readings.size() >= 4) {
+    start();
+  } else {
+    m_whenReady = start;
+  }
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,218 @@
+#include "app/desktop/steps/warmup_presenter.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QStorageInfo>
+#include <cmath>
+
+#include "core/acquisition/job_sink.h"
+#include "core/base/json.h"
+#include "core/flow/steps/warmup_step.h"
+#include "ui/pages/warmup_page.h"
+
+namespace zerodrift::desktop {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t undo_depth = 100;
+
+QVector<ui::PlanStepRow> rows_of(const acquisition::Plan& plan) {
+  QVector<ui::PlanStepRow> rows;
+  for (const auto& step : plan.steps)
+    rows.append({step.duration_s, step.spindle_rpm, step.coolant_on, step.path_cycle});
+  return rows;
+}
+
+}  // namespace
+
+WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
+    : Presenter(bench, page), m_page(page), m_feed(new RunFeed(bench, page->run(), this)) {
+  m_presets = acquisition::preset_plans();
+  if (!m_presets.empty()) m_plan = m_presets.front();
+  connect(page, &ui::WarmupPage::presetChosen, this, [this](int index) {
+    if (index < 0 || index >= static_cast<int>(m_presets.size())) return;
+    m_preset = index;
+    setPlan(m_presets[static_cast<std::size_t>(index)]);
+  });
+  connect(page, &ui::WarmupPage::planEdited, this, [this](const QVector<ui::PlanStepRow>& rows) {
+    acquisition::Plan plan = m_plan;
+    plan.steps.clear();
+    for (const auto& row : rows) plan.steps.push_back({row.duration_s, row.speed_rpm, row.coolant, row.cycle});
+    m_preset = -1;
+    setPlan(plan);
+  });
+  connect(page, &ui::WarmupPage::periodsEdited, this, [this](double sample_s, double measure_s) {
+    acquisition::Plan plan = m_plan;
+    plan.sample_period_s = sample_s;
+    plan.measure_period_s = measure_s;
+    setPlan(plan);
+  });
+  connect(page, &ui::WarmupPage::noteRequested, this, [this](double) { secondary(QStringLiteral("note")); });
+  connect(page, &ui::Page::primaryTriggered, this, &WarmupPresenter::primary);
+  connect(page, &ui::Page::secondaryTriggered, this, &WarmupPresenter::secondary);
+  connect(m_feed, &RunFeed::updated, this, &WarmupPresenter::refresh);
+}
+
+void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
+  m_undo.push_back(m_plan);
+  if (m_undo.size() > undo_depth) m_undo.erase(m_undo.begin());
+  m_plan = plan;
+  refresh();
+}
+
+void WarmupPresenter::undo() {
+  if (m_running || m_undo.empty()) return;
+  m_plan = m_undo.back();
+  m_undo.pop_back();
+  refresh();
+}
+
+void WarmupPresenter::primary() {
+  if (!m_running) {
+    start({});
+  } else if (m_feed->paused()) {
+    m_feed->resume();
+  } else {
+    m_feed->pause();
+  }
+  refresh();
+}
+
+void WarmupPresenter::secondary(const QString& action) {
+  if (action == QStringLiteral("finish")) m_feed->finish();
+  if (action == QStringLiteral("abort")) m_feed->abort();
+  if (action == QStringLiteral("load")) loadPlan();
+  if (action == QStringLiteral("save")) savePlan();
+  if (action == QStringLiteral("again")) {
+    m_again = true;
+    refresh();
+  }
+  if (action == QStringLiteral("note")) {
+    const QString text = QInputDialog::getText(m_page, tr("Note"), tr("What happened?"));
+    if (!text.isEmpty()) m_feed->note(text);
+  }
+}
+
+void WarmupPresenter::loadPlan() {
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Warm-up plan"), QDir::homePath(), tr("Plans (*.json)"));
+  if (path.isEmpty()) return;
+  const auto plan = acquisition::read_plan(path.toStdString());
+  if (!plan) {
+    show(plan.error());
+    return;
+  }
+  m_preset = -1;
+  setPlan(*plan);
+}
+
+void WarmupPresenter::savePlan() {
+  const QString path = QFileDialog::getSaveFileName(
+      m_page, tr("Save plan"), QDir::homePath() + QStringLiteral("/plan.json"), tr("Plans (*.json)"));
+  if (path.isEmpty()) return;
+  if (const Status written = write_json_file(path.toStdString(), acquisition::to_json(m_plan)); !written) {
+    show(written.error());
+  }
+}
+
+void WarmupPresenter::start(std::function<void(bool good)> done) {
+  const auto profile = bench().profile();
+  auto* job = bench().job();
+  if (!profile || job == nullptr || m_running) return;
+  m_running = true;
+  m_again = false;
+  m_feed->begin();
+  flow::RunOptions options;
+  options.plan = m_plan;
+  for (const auto& [axis, position] : profile->measure_position_mm) {
+    options.plan.measure_position_mm.try_emplace(axis, position);
+  }
+  options.observer = m_feed->observer();
+  options.control = m_feed->control();
+  options.cameras = m_feed->cameras();
+  refresh();
+  runStep(
+      tr("Warm-up run"),
+      [profile = *profile, job, options](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+        ZD_TRY(auto devices, flow::Devices::open(profile));
+        return flow::record_warmup(*job, devices, options, context);
+      },
+      [this, done = std::move(done)](bool good) {
+        m_feed->stop();
+        m_running = false;
+        m_shown = 0;
+        refresh();
+        if (done) done(good);
+      });
+}
+
+void WarmupPresenter::fillRun(ui::WarmupState& state) {
+  const auto& now = m_feed->now();
+  state.phase = m_feed->paused() ? ui::RunPhase::paused : ui::RunPhase::running;
+  state.elapsed_s = now.time_s;
+  if (m_feed->receiving()) state.timeLeft_s = now.seconds_left;
+  state.largestError_um = m_feed->largestError_um();
+  state.largestErrorAxis = m_feed->largestErrorAxis();
+  state.slope_um_per_h = now.trend.slope_um_per_h.value_or(std::nan(""));
+  state.slope_K_per_h = now.trend.slope_K_per_h.value_or(std::nan(""));
+  state.steady = now.trend.steady;
+  state.samplesLost = now.lost_samples;
+  state.samples = now.rows;
+}
+
+void WarmupPresenter::showKept() {
+  const json body = bench().body("warmup");
+  if (!body.is_object()) return;
+  const auto series = body.at("series").get<long long>();
+  if (series == m_shown) return;
+  if (const auto run = bench().job()->read_series(series)) {
+    m_shown = series;
+    m_feed->showRecording(*run);
+  }
+}
+
+void WarmupPresenter::refresh() {
+  ui::WarmupState state;
+  const auto* job = bench().job();
+  if (job == nullptr || !bench().has("calibration")) {
+    state.blocked = tr("Calibrate the camera first: without it no error can be measured.");
+    m_page->setState(state);
+    return;
+  }
+  for (const auto& preset : m_presets) state.presets << QString::fromStdString(preset.name);
+  state.preset = m_preset;
+  state.plan = rows_of(m_plan);
+  state.samplePeriod_s = m_plan.sample_period_s;
+  state.measurePeriod_s = m_plan.measure_period_s;
+  state.compensationOn = bench().compensationOn();
+  state.diskFree_GB =
+      static_cast<double>(
+          QStorageInfo(QFileInfo(QString::fromStdString(job->path().string())).path()).bytesAvailable()) /
+      1e9;
+  const json body = bench().body("warmup");
+  if (m_running) {
+    fillRun(state);
+  } else if (body.is_object() && !m_again) {
+    state.phase = ui::RunPhase::finished;
+    showKept();
+    state.elapsed_s = body.value("duration_s", 0.0);
+    state.timeLeft_s = 0.0;
+    state.largestError_um = m_feed->largestError_um();
+    state.largestErrorAxis = m_feed->largestErrorAxis();
+    state.samplesLost = body.value("lost_samples", 0LL);
+    state.samples = body.value("rows", 0LL);
+  } else if (const auto interrupted = acquisition::interrupted_run(*job, "warm-up"); interrupted && *interrupted) {
+    state.phase = ui::RunPhase::interrupted;
+    state.elapsed_s = (*interrupted)->run.last_time_s;
+  }
+  m_page->setState(state);
+}
+
+void WarmupPresenter::tour(std::function<void(bool good)> done) {
+  start(std::move(done));
+}
+
+}  // namespace zerodrift::desktop

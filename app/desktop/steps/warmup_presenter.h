@@ -1,0 +1,47 @@
+#pragma once
+// The warm-up page: plan, live run, what was recorded.
+
+#include <QUndoStack>
+
+#include "app/desktop/presenter.h"
+#include "app/desktop/run_feed.h"
+#include "core/acquisition/plan.h"
+
+namespace zerodrift::ui {
+class WarmupPage;
+struct WarmupState;
+}  // namespace zerodrift::ui
+
+namespace zerodrift::desktop {
+
+class WarmupPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  WarmupPresenter(Workbench& bench, ui::WarmupPage* page);
+  void refresh() override;
+  void tour(std::function<void(bool good)> done) override;
+  void undo();
+  void setPlan(const acquisition::Plan& plan);
+
+ private:
+  void primary();
+  void secondary(const QString& action);
+  void start(std::function<void(bool good)> done);
+  void fillRun(ui::WarmupState& state);
+  void showKept();
+  void loadPlan();
+  void savePlan();
+
+  ui::WarmupPage* m_page;
+  RunFeed* m_feed;
+  std::vector<acquisition::Plan> m_presets;
+  acquisition::Plan m_plan;
+  std::vector<acquisition::Plan> m_undo;
+  int m_preset = 0;
+  bool m_running = false;
+  bool m_again = false;   // plan a new run although one is there
+  long long m_shown = 0;  // series drawn now
+};
+
+}  // namespace zerodrift::desktop

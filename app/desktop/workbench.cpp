@@ -1,0 +1,124 @@
+#include "app/desktop/workbench.h"
+
+#include "app/text/error_text.h"
+#include "core/base/json.h"
+
+namespace zerodrift::desktop {
+
+Workbench::Workbench(QObject* parent) : QObject(parent) {
+  connect(&m_monitor, &MachineMonitor::looked, this, [this](const std::shared_ptr<const MachineLook>& look) {
+    if (!m_look) log(LogKind::good, tr("Connected to %1").arg(QString::fromStdString(look->identity.name)));
+    m_look = look;
+    m_lastProblem.clear();
+    Q_EMIT machineSeen();
+  });
+  connect(&m_monitor, &MachineMonitor::failed, this, [this](const Error& error) {
+    m_look.reset();
+    const QString line = lineOf(error);
+    if (line != m_lastProblem) log(LogKind::bad, line);
+    m_lastProblem = line;
+    Q_EMIT machineLost(error);
+  });
+  connect(&m_tasks, &TaskRunner::started, this, [this](const QString& name) {
+    m_monitor.pause(true);
+    log(LogKind::note, name);
+  });
+  connect(&m_tasks, &TaskRunner::finished, this, [this] { m_monitor.pause(false); });
+}
+
+Workbench::~Workbench() {
+  m_monitor.stop();
+}
+
+Status Workbench::useJob(Result<commissioning::Job> job) {
+  if (!job) return fail(std::move(job).error());
+  m_job = std::make_unique<commissioning::Job>(std::move(*job));
+  log(LogKind::note, tr("Job %1").arg(QString::fromStdString(m_job->path().string())));
+  // A job brings its machine: the profile it was made with.
+  if (const auto machine = body("machine"); machine.is_object() && machine.contains("profile") && !m_profile) {
+    if (auto profile = controller::profile_from_json(machine["profile"], "the job's profile")) {
+      m_profileDocument = machine["profile"];
+      m_profile = std::move(*profile);
+      Q_EMIT profileChanged();
+    }
+  }
+  Q_EMIT jobChanged();
+  return {};
+}
+
+Status Workbench::createJob(const std::filesystem::path& path) {
+  return useJob(commissioning::Job::create(path));
+}
+
+Status Workbench::openJob(const std::filesystem::path& path) {
+  return useJob(commissioning::Job::open(path));
+}
+
+void Workbench::closeJob() {
+  m_job.reset();
+  Q_EMIT jobChanged();
+}
+
+Status Workbench::keep(const commissioning::NewArtefact& made) {
+  if (!m_job) return fail(ErrorCode::step_blocked, {{"step", made.kind}, {"needs", "a job"}});
+  ZD_TRY(const auto kept, m_job->put(made));
+  log(LogKind::good, tr("Kept %1 #%2").arg(QString::fromStdString(kept.kind)).arg(kept.id));
+  Q_EMIT artefactsChanged();
+  return {};
+}
+
+bool Workbench::has(const std::string& kind) const {
+  if (!m_job) return false;
+  const auto latest = m_job->latest(kind);
+  return latest && latest->has_value();
+}
+
+nlohmann::json Workbench::body(const std::string& kind) const {
+  if (!m_job) return nullptr;
+  const auto latest = m_job->latest(kind);
+  if (!latest || !*latest) return nullptr;
+  return (*latest)->document().value_or(nlohmann::json());
+}
+
+Status Workbench::loadProfile(const std::filesystem::path& path) {
+  std::vector<std::string> warnings;
+  ZD_TRY(auto profile, controller::read_profile(path, &warnings));
+  ZD_TRY(m_profileDocument, read_json_file(path));
+  for (const auto& warning : warnings) log(LogKind::warning, QString::fromStdString(warning));
+  m_profile = std::move(profile);
+  m_cameras.clear();
+  m_look.reset();
+  Q_EMIT profileChanged();
+  return {};
+}
+
+void Workbench::connectMachine() {
+  if (m_profile) m_monitor.start(*m_profile);
+}
+
+void Workbench::disconnectMachine() {
+  m_monitor.stop();
+  m_look.reset();
+  m_cameras.clear();
+  Q_EMIT profileChanged();
+}
+
+const std::vector<std::shared_ptr<vision::Camera>>& Workbench::cameras() {
+  if (m_cameras.empty() && m_profile && m_profile->error_source == controller::ErrorSourceKind::camera) {
+    for (const auto& camera : m_profile->cameras) m_cameras.push_back(std::make_shared<vision::Camera>(camera.url));
+  }
+  return m_cameras;
+}
+
+void Workbench::tellSample(const acquisition::MachineSample& sample) {
+  auto look = m_look ? std::make_shared<MachineLook>(*m_look) : std::make_shared<MachineLook>();
+  look->sample = sample;
+  m_look = look;
+  Q_EMIT machineSeen();
+}
+
+void Workbench::log(LogKind kind, const QString& text) {
+  Q_EMIT logged(QDateTime::currentDateTime(), kind, text);
+}
+
+}  // namespace zerodrift::desktop

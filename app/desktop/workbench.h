@@ -1,0 +1,85 @@
+#pragma once
+// What the presenters share: the open job, the profile, the machine as last seen, the one running task, and the log.
+// Everything that changes says so by a signal; presenters read again from here and from the job.
+
+#include <QDateTime>
+#include <QObject>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/desktop/machine_monitor.h"
+#include "app/tasks/task_runner.h"
+#include "core/commissioning/job.h"
+#include "core/controller/profile.h"
+#include "core/vision/camera.h"
+
+namespace zerodrift::desktop {
+
+enum class LogKind {
+  note,
+  good,
+  warning,
+  bad,
+};
+
+class Workbench : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Workbench(QObject* parent = nullptr);
+  ~Workbench() override;
+
+  // The job
+  Status createJob(const std::filesystem::path& path);
+  Status openJob(const std::filesystem::path& path);
+  void closeJob();
+  commissioning::Job* job() { return m_job ? m_job.get() : nullptr; }
+  const commissioning::Job* job() const { return m_job ? m_job.get() : nullptr; }
+  /// Keeps what a step made and tells everybody.
+  Status keep(const commissioning::NewArtefact& made);
+  bool has(const std::string& kind) const;
+  /// Body of the latest artefact of this kind; null when there is none.
+  nlohmann::json body(const std::string& kind) const;
+
+  // The machine
+  Status loadProfile(const std::filesystem::path& path);
+  const std::optional<controller::Profile>& profile() const { return m_profile; }
+  const nlohmann::json& profileDocument() const { return m_profileDocument; }
+  void connectMachine();
+  void disconnectMachine();
+  bool connected() const { return m_look != nullptr; }
+  const std::shared_ptr<const MachineLook>& look() const { return m_look; }
+  bool compensationOn() const { return m_look && m_look->sample.compensation_on; }
+  /// Live cameras of the profile, for the pictures; opened at the first call.
+  const std::vector<std::shared_ptr<vision::Camera>>& cameras();
+  /// A step reads the machine itself: the sample it got serves the lamps.
+  void tellSample(const acquisition::MachineSample& sample);
+
+  // Work: one task at a time; the monitor is paused meanwhile.
+  TaskRunner& tasks() { return m_tasks; }
+
+  void log(LogKind kind, const QString& text);
+
+ Q_SIGNALS:
+  void jobChanged();
+  void artefactsChanged();
+  void profileChanged();
+  void machineSeen();
+  void machineLost(const zerodrift::Error& error);
+  void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);
+
+ private:
+  Status useJob(Result<commissioning::Job> job);
+
+  std::unique_ptr<commissioning::Job> m_job;
+  std::optional<controller::Profile> m_profile;
+  nlohmann::json m_profileDocument;
+  std::shared_ptr<const MachineLook> m_look;
+  std::vector<std::shared_ptr<vision::Camera>> m_cameras;
+  MachineMonitor m_monitor;
+  TaskRunner m_tasks;
+  QString m_lastProblem;
+};
+
+}  // namespace zerodrift::desktop

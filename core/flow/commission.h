@@ -1,0 +1,36 @@
+#pragma once
+// The whole job without a person: machine, calibrate, warm-up, sensors, fit, physics, upload, verify; a correction and
+// a second verification when the first leaves too much. What the job already holds and is current is not done again, so
+// a commissioning that was broken off goes on where it stopped.
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "core/acquisition/plan.h"
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+#include "core/controller/profile.h"
+#include "core/flow/steps/upload_step.h"
+
+namespace zerodrift::flow {
+
+struct CommissionOptions {
+  acquisition::Plan plan;
+  double limit_um = 5.0;
+  std::function<bool(const UploadPreview&)> confirm;     // absent: confirmed
+  std::function<void(const std::string&)> step_started;  // "machine", "calibrate", ...
+};
+
+struct CommissionResult {
+  nlohmann::json verification;  // body of the artefact
+  nlohmann::json upload;
+  nlohmann::json sensors;
+};
+
+/// `profile_document` is what `profile` was read from; it is kept in the job.
+Result<CommissionResult> commission(commissioning::Job& job, const controller::Profile& profile,
+                                    const nlohmann::json& profile_document, const CommissionOptions& options,
+                                    const TaskContext& context);
+
+}  // namespace zerodrift::flow

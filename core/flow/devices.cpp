@@ -1,0 +1,32 @@
+#include "core/flow/devices.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/controller/probe_source.h"
+#include "core/flow/steps/calibrate_step.h"
+
+namespace zerodrift::flow {
+
+Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras) {
+  Devices devices;
+  devices.profile = profile;
+  ZD_TRY(devices.machine, controller::ModbusMachine::open(profile));
+  if (!with_cameras || profile.error_source != controller::ErrorSourceKind::camera) return devices;
+  for (const auto& camera : profile.cameras) {
+    devices.cameras.push_back({camera, std::make_shared<vision::Camera>(camera.url)});
+  }
+  return devices;
+}
+
+Result<std::unique_ptr<acquisition::ErrorSource>> open_error_source(const commissioning::Job& job, Devices& devices,
+                                                                    vision::CameraErrorSource** cameras) {
+  if (devices.profile.error_source == controller::ErrorSourceKind::probes) {
+    return std::make_unique<controller::ProbeErrorSource>(*devices.machine);
+  }
+  ZD_TRY(auto views, calibrated_views(job, devices));
+  auto source = std::make_unique<vision::CameraErrorSource>(std::move(views));
+  if (cameras != nullptr) *cameras = source.get();
+  return source;
+}
+
+}  // namespace zerodrift::flow

@@ -1,0 +1,36 @@
+#pragma once
+// Opens what a profile names: the controller, the cameras, and the source of errors that goes with a calibration.
+
+#include <memory>
+#include <vector>
+
+#include "core/acquisition/error_source.h"
+#include "core/base/result.h"
+#include "core/commissioning/job.h"
+#include "core/controller/modbus_machine.h"
+#include "core/controller/profile.h"
+#include "core/vision/camera.h"
+#include "core/vision/camera_error_source.h"
+
+namespace zerodrift::flow {
+
+struct CameraDevice {
+  controller::CameraProfile profile;
+  std::shared_ptr<vision::Camera> camera;
+};
+
+struct Devices {
+  controller::Profile profile;
+  std::unique_ptr<controller::ModbusMachine> machine;
+  std::vector<CameraDevice> cameras;  // reading already; empty when the errors come from probes
+
+  /// The machine connects at its first request, the cameras by themselves; `with_cameras` false opens none.
+  static Result<Devices> open(const controller::Profile& profile, bool with_cameras = true);
+};
+
+/// The error source of a run. From cameras it needs the job's calibration; from probes nothing.
+/// For the drawing, `cameras` receives the camera source when there is one.
+Result<std::unique_ptr<acquisition::ErrorSource>> open_error_source(const commissioning::Job& job, Devices& devices,
+                                                                    vision::CameraErrorSource** cameras = nullptr);
+
+}  // namespace zerodrift::flow

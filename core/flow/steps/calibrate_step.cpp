@@ -1,0 +1,160 @@
+#include "core/flow/steps/calibrate_step.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/compensation/interlock.h"
+#include "core/vision/image_codec.h"
+
+namespace zerodrift::flow {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int template_frames = 8;  // averaged: the template's noise enters every measurement
+constexpr std::chrono::milliseconds frame_timeout{6000};
+
+vision::Region region_of(const std::array<int, 4>& box) {
+  return vision::Region{box[0], box[1], box[2], box[3]};
+}
+
+Result<int> axis_index(const std::string& axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (axis == std::string(1, "XYZ"[i])) return i;
+  }
+  return fail(ErrorCode::bad_argument, {{"what", "axis of a camera"}, {"found", axis}, {"expected", "X, Y or Z"}});
+}
+
+/// Pictures are kept without loss; one that cannot be encoded would be lost silently.
+Result<commissioning::Blob> picture(const std::string& name, const vision::GrayImage& image) {
+  ZD_TRY(const auto png, vision::encode_png(image));
+  return commissioning::Blob{name, std::string(png.begin(), png.end())};
+}
+
+Result<vision::GrayImage> picture_of(const commissioning::Job& job, commissioning::ArtefactId id,
+                                     const std::string& name) {
+  ZD_TRY(const std::string bytes, job.blob(id, name));
+  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  ZD_TRY(auto decoded, vision::decode({first, bytes.size()}, name));
+  return std::move(decoded.image);
+}
+
+struct CameraCalibration {
+  json body;
+  std::vector<commissioning::Blob> blobs;
+};
+
+Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice& device,
+                                           const CalibrateOptions& options, const TaskContext& context) {
+  const auto& profile = device.profile;
+  ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
+  ZD_TRY(const vision::GrayImage image, vision::mean_of_fresh_frames(*device.camera, std::chrono::steady_clock::now(),
+                                                                     template_frames, frame_timeout, context.stop));
+  ZD_TRY(const auto target, vision::Target::create(image, region_of(profile.target_roi_px), std::nullopt, profile.url));
+  if (profile.reference_roi_px) {  // refuse now what could not be measured later
+    ZD_TRY([[maybe_unused]] const auto reference,
+           vision::Target::create(image, region_of(*profile.reference_roi_px), std::nullopt, profile.url));
+  }
+  vision::CalibrationPlan plan;
+  plan.axes = profile.axes;
+  plan.centre_mm = devices.profile.measure_position_mm;
+  plan.span_mm = devices.profile.calibration_span_mm;
+  plan.per_side = options.per_side;
+  ZD_TRY(auto outcome, vision::run_calibration(
+                           *devices.machine, *device.camera, target, plan, context,
+                           [&](int done, int of, const vision::GrayImage& frame, const vision::Location& location) {
+                             context.progress(double(done) / of, "calibrating");
+                             if (options.watcher) {
+                               options.watcher({profile.id, done, of, &frame, &location});
+                             }
+                           }));
+  CameraCalibration made;
+  made.body = {{"id", profile.id},
+               {"axes", profile.axes},
+               {"roi", profile.target_roi_px},
+               {"um_per_px", outcome.calibration.scale_um_per_px},
+               {"rotation_deg", outcome.calibration.rotation_deg},
+               {"rms_um", outcome.calibration.rms_um},
+               {"positions", outcome.calibration.views.size()},
+               {"calibration", vision::to_json(outcome.calibration)}};
+  if (profile.reference_roi_px) made.body["reference_roi"] = *profile.reference_roi_px;
+  ZD_TRY(made.blobs.emplace_back(), picture(profile.id + "-template.png", image));
+  for (std::size_t i = 0; i < outcome.frames.size(); ++i) {
+    ZD_TRY(made.blobs.emplace_back(), picture(fmt::format("{}-view-{}.png", profile.id, i + 1), outcome.frames[i]));
+  }
+  return made;
+}
+
+Result<vision::ErrorView> view_of(const commissioning::Job& job, const commissioning::Artefact& artefact,
+                                  const json& body, const CameraDevice& device) {
+  const std::string id = device.profile.id;
+  ZD_TRY(const vision::GrayImage image, picture_of(job, artefact.id, id + "-template.png"));
+  std::vector<vision::GrayImage> frames;
+  for (const auto& name : artefact.blob_names) {
+    if (!name.starts_with(id + "-view-")) continue;
+    ZD_TRY(frames.emplace_back(), picture_of(job, artefact.id, name));
+  }
+  vision::ErrorView view;
+  view.id = id;
+  view.camera = device.camera;
+  ZD_TRY(const auto plain, vision::Target::create(image, region_of(body.at("roi").get<std::array<int, 4>>()),
+                                                  std::nullopt, id + "-template.png"));
+  view.target = std::make_shared<const vision::Target>(plain.with_mask_from(frames));
+  if (body.contains("reference_roi")) {
+    ZD_TRY(auto reference, vision::Target::create(image, region_of(body.at("reference_roi").get<std::array<int, 4>>()),
+                                                  std::nullopt, id + "-template.png"));
+    view.references.push_back(std::move(reference));
+  }
+  ZD_TRY(view.calibration, vision::calibration_from_json(body.at("calibration"), "calibration of " + id));
+  for (int i = 0; i < 2; ++i) {
+    ZD_TRY(view.axes[static_cast<std::size_t>(i)], axis_index(device.profile.axes[static_cast<std::size_t>(i)]));
+  }
+  return view;
+}
+
+}  // namespace
+
+Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,
+                                             const CalibrateOptions& options, const TaskContext& context) {
+  ZD_TRY(const auto machine, job.latest("machine"));
+  if (!machine) return fail(ErrorCode::step_blocked, {{"step", "calibrate"}, {"needs", "machine"}});
+  ZD_TRY(const bool compensating, devices.machine->compensation_on());
+  ZD_CHECK(compensation::allow_model_measurement(compensating));
+  json body = {{"source", "camera"}, {"reference_target", !devices.cameras.empty()}, {"cameras", json::array()}};
+  std::vector<commissioning::Blob> blobs;
+  if (devices.profile.error_source == controller::ErrorSourceKind::probes) {
+    body["source"] = "probes";
+    return commissioning::NewArtefact::of("calibration", body, {machine->id});
+  }
+  ZD_CHECK(devices.machine->command(0.0, false, false));
+  for (const auto& device : devices.cameras) {
+    ZD_TRY(auto made, calibrate_camera(devices, device, options, context));
+    if (!device.profile.reference_roi_px) body["reference_target"] = false;
+    body["cameras"].push_back(std::move(made.body));
+    for (auto& blob : made.blobs) blobs.push_back(std::move(blob));
+  }
+  return commissioning::NewArtefact::of("calibration", body, {machine->id}, std::move(blobs));
+}
+
+Result<std::vector<vision::ErrorView>> calibrated_views(const commissioning::Job& job, Devices& devices) {
+  ZD_TRY(const auto artefact, job.latest("calibration"));
+  if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "warm-up"}, {"needs", "calibration"}});
+  ZD_TRY(const json body, artefact->document());
+  std::vector<vision::ErrorView> views;
+  for (const auto& device : devices.cameras) {
+    bool found = false;
+    for (const auto& camera : body.at("cameras")) {
+      if (camera.at("id") != device.profile.id) continue;
+      ZD_TRY(views.emplace_back(), view_of(job, *artefact, camera, device));
+      found = true;
+    }
+    if (!found) {
+      return fail(ErrorCode::step_blocked,
+                  {{"step", "warm-up"}, {"needs", "calibration of camera " + device.profile.id}});
+    }
+  }
+  return views;
+}
+
+}  // namespace zerodrift::flow

@@ -1,0 +1,40 @@
+#pragma once
+// Step "calibrate" (V1, V2): at rest, for each camera the template of the target and of the fixed reference, then the
+// moves that give um per px. Makes the artefact "calibration":
+//   {"source": "camera", "reference_target": true,
+//    "cameras": [{"id", "axes", "roi", "reference_roi", "um_per_px", "rotation_deg", "rms_um", "positions",
+//                 "calibration": {...contract...}}]}
+// with the blobs "<camera>-template.png" and "<camera>-view-<n>.png" (the views teach the target's mask).
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+#include "core/flow/devices.h"
+#include "core/vision/calibration_run.h"
+
+namespace zerodrift::flow {
+
+struct CalibrationProgress {
+  std::string camera;
+  int done = 0;
+  int of = 0;
+  const vision::GrayImage* frame = nullptr;
+  const vision::Location* location = nullptr;
+};
+
+struct CalibrateOptions {
+  int per_side = 3;
+  std::function<void(const CalibrationProgress&)> watcher;
+};
+
+/// Moves the machine. Refused while it is compensating: the moves would be falsified.
+Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,
+                                             const CalibrateOptions& options, const TaskContext& context);
+
+/// The views of the job's latest calibration on the open cameras.
+Result<std::vector<vision::ErrorView>> calibrated_views(const commissioning::Job& job, Devices& devices);
+
+}  // namespace zerodrift::flow

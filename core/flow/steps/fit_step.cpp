@@ -1,0 +1,106 @@
+#include "core/flow/steps/fit_step.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/analysis/fit.h"
+#include "core/flow/steps/inputs.h"
+
+namespace zerodrift::flow {
+
+using nlohmann::json;
+
+namespace {
+
+std::string summary_of(const analysis::Model& model) {
+  double rms = 0.0;
+  double peak = 0.0;
+  for (const auto& error : model.errors) {
+    rms = std::max(rms, error.held_out.rms_um);
+    peak = std::max(peak, error.held_out.peak_um);
+  }
+  std::string text =
+      fmt::format("Method {} on {} sensors: leaves at most {:.1f} um (rms {:.1f} um) on data it has not seen ({}).",
+                  analysis::name_of(model.method), model.sensors.size(), peak, rms, model.held_out);
+  if (!model.reason.empty()) text += " " + model.reason;
+  return text;
+}
+
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+}  // namespace
+
+Result<analysis::Model> model_of(const commissioning::Artefact& artefact) {
+  ZD_TRY(const json body, artefact.document());
+  return analysis::model_from_json(body.at("model"), "the job's model");
+}
+
+Result<compensation::Table> table_from_model(const analysis::Model& model, const controller::Profile& profile) {
+  compensation::Table table;
+  table.machine = profile.name;
+  for (const auto& terms : model.table) {
+    for (const char* axis : {"X", "Y", "Z"}) {
+      if (terms.error != "d" + std::string(axis) + "_um") continue;
+      auto& record = table.axes[axis];
+      record.offset_um = terms.offset_um;
+      record.max_um = profile.max_um;
+      record.max_um_per_s = profile.max_um_per_s;
+      for (const auto& term : terms.terms) record.terms.push_back({term.sensor, term.um_per_K, term.reference_C, 0.0});
+    }
+  }
+  for (std::size_t i = 0; i < model.domain.channels.size(); ++i) {
+    const auto& channel = model.domain.channels[i];
+    if (recording::kind_of(channel) != recording::ChannelKind::temperature &&
+        recording::kind_of(channel) != recording::ChannelKind::ambient) {
+      continue;
+    }
+    table.valid[channel] = {model.domain.low[i], model.domain.high[i]};
+  }
+  ZD_CHECK(compensation::check(table));
+  if (table.axes.empty()) {
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", "the model"}, {"found", "no error of an axis"}, {"expected", "dX_um, dY_um or dZ_um"}});
+  }
+  return table;
+}
+
+Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, const FitStepOptions& options,
+                                             const TaskContext& context) {
+  ZD_TRY(const Input warmup, need(job, "fit", "warmup"));
+  ZD_TRY(const Input sensors, need(job, "fit", "sensors"));
+  ZD_TRY(const auto run, run_of(job, warmup));
+  ZD_TRY(const auto profile, profile_of(job, "fit"));
+  analysis::FitOptions fit_options;
+  fit_options.sensors = sensors.body.at("chosen").get<std::vector<std::string>>();
+  ZD_TRY(fit_options.method, analysis::method_from(options.method));
+  ZD_TRY(const auto model, analysis::fit({run}, fit_options, context));
+  ZD_TRY(const auto table, table_from_model(model, profile));
+  json figures = json::array();
+  for (const auto& error : model.errors) {
+    figures.push_back({{"channel", error.error},
+                       {"rms_fit_um", number(error.fit.rms_um)},
+                       {"rms_held_out_um", number(error.held_out.rms_um)},
+                       {"peak_held_out_um", number(error.held_out.peak_um)},
+                       {"band_um", number(error.band.half_width_um)}});
+  }
+  json rows = json::array();
+  json offsets = json::object();
+  for (const auto& [axis, record] : table.axes) {
+    offsets[axis] = record.offset_um;
+    for (const auto& term : record.terms) {
+      rows.push_back(
+          {{"axis", axis}, {"sensor", term.sensor}, {"um_per_K", term.um_per_K}, {"reference_C", term.reference_C}});
+    }
+  }
+  const json body = {{"model", analysis::to_json(model)},
+                     {"summary", summary_of(model)},
+                     {"runs_on_controller", model.is_static()},
+                     {"figures", figures},
+                     {"table", rows},
+                     {"offset_um", offsets}};
+  return commissioning::NewArtefact::of("model", body, {warmup.id, sensors.id});
+}
+
+}  // namespace zerodrift::flow

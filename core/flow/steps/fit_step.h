@@ -1,0 +1,32 @@
+#pragma once
+// Step "fit" (S4): regression from the sensors kept to the errors of the warm-up run, with figures on data left out.
+// Makes the artefact "model": {"model": {...zerodrift-model/1...}, "summary", "runs_on_controller",
+//   "figures": [{channel, rms_fit_um, rms_held_out_um, peak_held_out_um}],
+//   "table": [{axis, sensor, um_per_K, reference_C}], "offset_um": {"X": ...}, "candidates": [...]}
+
+#include <string>
+#include <vector>
+
+#include "core/analysis/model.h"
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+#include "core/compensation/table.h"
+#include "core/controller/profile.h"
+
+namespace zerodrift::flow {
+
+struct FitStepOptions {
+  std::string method = "auto";
+};
+
+Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, const FitStepOptions& options,
+                                             const TaskContext& context);
+
+/// The model of an artefact "model".
+Result<analysis::Model> model_of(const commissioning::Artefact& artefact);
+
+/// The table a controller runs, from the model's static part: axis X from dX_um and so on. Version 0: the upload
+/// numbers it. Errors without an axis (tilts) are left out.
+Result<compensation::Table> table_from_model(const analysis::Model& model, const controller::Profile& profile);
+
+}  // namespace zerodrift::flow

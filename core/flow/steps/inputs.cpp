@@ -1,0 +1,46 @@
+#include "core/flow/steps/inputs.h"
+
+#include <cmath>
+
+namespace zerodrift::flow {
+
+Result<Input> need(const commissioning::Job& job, const std::string& step, const std::string& kind) {
+  ZD_TRY(const auto artefact, job.latest(kind));
+  if (!artefact) return fail(ErrorCode::step_blocked, {{"step", step}, {"needs", kind}});
+  ZD_TRY(auto body, artefact->document());
+  return Input{artefact->id, std::move(body)};
+}
+
+Result<recording::Recording> run_of(const commissioning::Job& job, const Input& input) {
+  return job.read_series(input.body.at("series").get<commissioning::SeriesId>());
+}
+
+Result<controller::Profile> profile_of(const commissioning::Job& job, const std::string& step) {
+  ZD_TRY(const Input machine, need(job, step, "machine"));
+  return controller::profile_from_json(machine.body.at("profile"), "the job's profile");
+}
+
+std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {
+  std::map<std::string, ErrorSize> sizes;
+  for (const auto& channel : run.channels) {
+    if (channel.kind() != recording::ChannelKind::error || channel.name.size() < 2 || channel.name[0] != 'd') continue;
+    ErrorSize size;
+    double squares = 0.0;
+    double count = 0.0;
+    for (std::size_t r = 0; r < run.rows(); ++r) {
+      const double value = channel.values[r];
+      if (std::isnan(value)) continue;
+      squares += value * value;
+      count += 1.0;
+      if (std::abs(value) <= size.peak_um && size.row >= 0) continue;
+      size.peak_um = std::abs(value);
+      size.row = static_cast<long long>(r);
+    }
+    if (count == 0.0) continue;
+    size.rms_um = std::sqrt(squares / count);
+    sizes[channel.name.substr(1, channel.name.find('_') - 1)] = size;
+  }
+  return sizes;
+}
+
+}  // namespace zerodrift::flow

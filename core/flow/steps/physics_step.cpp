@@ -1,0 +1,94 @@
+#include "core/flow/steps/physics_step.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/flow/steps/inputs.h"
+#include "core/physics/placement.h"
+#include "core/physics/simulate.h"
+#include "core/recording/csv.h"
+
+namespace zerodrift::flow {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_points = 400;  // of a curve kept for drawing; the whole prediction is in the blob
+
+json curve_of(const recording::Recording& prediction, const std::string& channel, bool temperature) {
+  json curve = {
+      {"channel", channel}, {"unit", temperature ? "C" : "um"}, {"time_h", json::array()}, {"values", json::array()}};
+  const auto* values = prediction.find(channel);
+  const std::size_t stride = prediction.rows() / most_points + 1;
+  for (std::size_t r = 0; values != nullptr && r < prediction.rows(); r += stride) {
+    curve["time_h"].push_back((prediction.time_s[r] - prediction.time_s.front()) / 3600.0);
+    curve["values"].push_back(values->values[r]);
+  }
+  return curve;
+}
+
+json placement_json(const physics::Placement& placement) {
+  json along = json::array();
+  for (const auto& place : placement.along) {
+    along.push_back({{"position_mm", place.position_mm},
+                     {"correlation", place.correlation},
+                     {"residual_um", place.residual_um},
+                     {"lag_s", place.lag_s}});
+  }
+  return {{"component", placement.component},
+          {"length_mm", placement.length_mm},
+          {"from_mm", placement.from_mm},
+          {"to_mm", placement.to_mm},
+          {"along", along}};
+}
+
+std::string sentence_of(const physics::ChannelDifference& worst) {
+  return fmt::format(
+      "The simulation differs most from the recording at {}: {:.2f} {} rms, {:.2f} {} at the most after "
+      "{:.0f} min.",
+      worst.channel, worst.rms, worst.temperature ? "K" : "um", worst.largest, worst.temperature ? "K" : "um",
+      worst.largest_at_s / 60.0);
+}
+
+}  // namespace
+
+Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context) {
+  ZD_TRY(const Input machine_artefact, need(job, "physics", "machine"));
+  ZD_TRY(const Input warmup, need(job, "physics", "warmup"));
+  ZD_TRY(const auto run, run_of(job, warmup));
+  ZD_TRY(const auto profile, profile_of(job, "physics"));
+  json body = {{"rmse", {{"before", json::object()}}},
+               {"largest", json::object()},
+               {"curves", json::array()},
+               {"placement", nullptr},
+               {"notes", json::array()},
+               {"sentences", json::array()}};
+  if (profile.machine == nullptr) {
+    body["sentences"].push_back("The profile holds no machine description, so there is nothing to simulate.");
+    return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id});
+  }
+  ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
+  ZD_TRY(const auto simulation, physics::simulate(machine, run, context));
+  const auto differences = physics::compare(simulation.prediction, run);
+  const physics::ChannelDifference* worst = nullptr;
+  for (const auto& difference : differences) {
+    body["rmse"]["before"][difference.channel] = difference.rms;
+    body["largest"][difference.channel] = difference.largest;
+    body["curves"].push_back(curve_of(simulation.prediction, difference.channel, difference.temperature));
+    if (difference.temperature && (worst == nullptr || difference.rms > worst->rms)) worst = &difference;
+  }
+  if (worst != nullptr) body["sentences"].push_back(sentence_of(*worst));
+  for (const auto& note : simulation.notes) body["notes"].push_back(note);
+  if (const auto placement = physics::place_sensor(machine, run, {}, context)) {
+    body["placement"] = placement_json(*placement);
+    body["sentences"].push_back(fmt::format(
+        "The temperature of {} between {:.1f} and {:.1f} mm from its fixed end follows the elongation best: a sensor "
+        "belongs there.",
+        placement->component, placement->from_mm, placement->to_mm));
+  }
+  return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id},
+                                        {{"prediction.csv", recording::to_csv(simulation.prediction)}});
+}
+
+}  // namespace zerodrift::flow

@@ -1,0 +1,16 @@
+#pragma once
+// Step "physics" (P1, S3): simulates the warm-up run from the machine description and compares it with the recording;
+// recommends a sensor region. Makes the artefact "physics":
+//   {"rmse": {"before": {...}}, "largest": {...}, "curves": [{channel, unit, time_h, values}], "placement": {...} |
+//   null,
+//    "notes": [...], "sentences": [...]}
+// with the blob "prediction.csv".
+
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+
+namespace zerodrift::flow {
+
+Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context);
+
+}  // namespace zerodrift::flow

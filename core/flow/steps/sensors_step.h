@@ -1,0 +1,22 @@
+#pragma once
+// Step "sensors" (S1, S2): clusters the temperature series of the warm-up run and keeps the sensitive points. Makes the
+// artefact "sensors": the clustering's own JSON (core/analysis/clustering.h) and
+//   "chosen": [...], "chosen_by": "clustering"|"hand", "table": [{channel, label, cluster, correlation_sum, kept}]
+
+#include <string>
+#include <vector>
+
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+
+namespace zerodrift::flow {
+
+struct SensorsOptions {
+  int clusters = 5;                 // 0: as suggested
+  std::vector<std::string> chosen;  // by hand; empty: one for each cluster
+};
+
+Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job, const SensorsOptions& options,
+                                                  const TaskContext& context);
+
+}  // namespace zerodrift::flow

@@ -1,0 +1,161 @@
+#include "core/flow/steps/upload_step.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/time_text.h"
+#include "core/controller/table_history.h"
+#include "core/controller/table_words.h"
+#include "core/flow/steps/fit_step.h"
+#include "core/flow/steps/inputs.h"
+
+namespace zerodrift::flow {
+
+using nlohmann::json;
+
+namespace {
+
+std::string machine_name(const controller::UploadRecord& record) {
+  return fmt::format("{} (serial {})", record.machine, record.serial);
+}
+
+/// Writes an entry before the machine is touched and one after; the second tells how it ended.
+Status audited(commissioning::Job& job, commissioning::AuditEntry entry, const std::function<Status()>& work) {
+  entry.result = "started";
+  ZD_CHECK(job.audit(entry).map([](auto) {}));
+  const Status done = work();
+  entry.result = done ? "done" : std::string(name_of(done.error().code));
+  ZD_CHECK(job.audit(entry).map([](auto) {}));
+  return done;
+}
+
+std::map<std::string, std::pair<std::string, std::string>> entries_of(const compensation::Table& old_table,
+                                                                      const compensation::Table& new_table) {
+  std::map<std::string, std::pair<std::string, std::string>> entries;
+  const auto add = [&](const compensation::Table& table, bool is_new) {
+    const auto set = [&](const std::string& what, const std::string& value) {
+      auto& entry = entries[what];
+      (is_new ? entry.second : entry.first) = value;
+    };
+    for (const auto& [axis, record] : table.axes) {
+      set(axis + " offset", fmt::format("{:.2f} um", record.offset_um));
+      for (const auto& term : record.terms) {
+        set(axis + " " + term.sensor, fmt::format("{:.3f} um/K from {:.2f} C", term.um_per_K, term.reference_C));
+      }
+      if (!record.points.empty()) set(axis + " points", std::to_string(record.points.size()));
+    }
+  };
+  add(old_table, false);
+  add(new_table, true);
+  return entries;
+}
+
+json body_of(const UploadPreview& preview, const controller::UploadRecord& record, const json& signs) {
+  json difference = json::array();
+  for (const auto& [what, values] : entries_of(record.old_table, preview.table)) {
+    difference.push_back({{"what", what},
+                          {"old", values.first.empty() ? "-" : values.first},
+                          {"new", values.second.empty() ? "-" : values.second}});
+  }
+  json states = json::array();
+  for (const auto& step : record.steps) {
+    const auto since = std::chrono::duration<double>(step.time - record.started).count();
+    states.push_back({{"state", controller::name_of(step.state)}, {"at_s", since}, {"detail", step.detail}});
+  }
+  compensation::Table table = preview.table;
+  table.version = record.sequence;
+  return {{"table", compensation::to_json(table)},
+          {"version", record.sequence},
+          {"crc32", fmt::format("{:08x}", record.crc)},
+          {"registers", record.new_words.size()},
+          {"largest_change_um", preview.largest_change_um},
+          {"difference", difference},
+          {"states", states},
+          {"sign_check", signs},
+          {"record", controller::to_json(record)},
+          {"problems", record.warnings}};
+}
+
+Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
+                  const UploadPreview& preview, const TaskContext& context, json& out) {
+  ZD_TRY(const auto identity, devices.machine->identify());
+  if (!options.sign_check || !identity.accepts_host_offset) {
+    out = nullptr;
+    return {};
+  }
+  context.progress(0.1, "checking the sign");
+  ZD_TRY(const auto source, open_error_source(job, devices));
+  ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
+  commissioning::AuditEntry entry;
+  entry.machine = machine_name(preview.record);
+  entry.action = "test offset";
+  entry.subject = "host offset of X, Y, Z, one after the other";
+  entry.old_value = "0 um";
+  entry.new_value = "10 um, then 0 um";
+  return audited(job, entry, [&]() -> Status {
+    ZD_CHECK(source->take_zero(context));
+    const auto record = controller::check_signs(*devices.machine, *source, {}, context);
+    out = controller::to_json(record);
+    if (options.sign_observer) options.sign_observer(record);
+    return record.result;
+  });
+}
+
+}  // namespace
+
+Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
+                                     const std::optional<compensation::Table>& table, const TaskContext& context) {
+  UploadPreview preview;
+  if (table) {
+    preview.table = *table;
+  } else {
+    ZD_TRY(const auto artefact, job.latest("model"));
+    if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
+    ZD_TRY(const auto model, model_of(*artefact));
+    ZD_TRY(preview.table, table_from_model(model, devices.profile));
+  }
+  controller::UploadOptions options;
+  options.dry_run = true;
+  preview.record = controller::upload_table(*devices.machine, preview.table, options, context);
+  if (!preview.record.result) return fail(preview.record.result.error());
+  for (const auto& axis : preview.record.difference) {
+    if (axis.largest_um < preview.largest_change_um) continue;
+    preview.largest_change_um = axis.largest_um;
+    preview.largest_change_axis = axis.axis;
+  }
+  return preview;
+}
+
+Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
+                                          const TaskContext& context) {
+  ZD_TRY(const Input machine, need(job, "upload", "machine"));
+  ZD_TRY(const Input model, need(job, "upload", "model"));
+  ZD_TRY(const auto preview, preview_upload(job, devices, options.table, context));
+  if (options.confirm && !options.confirm(preview)) {
+    return fail(ErrorCode::not_confirmed, {{"operation", "Writing the table"}});
+  }
+  json signs;
+  ZD_CHECK(sign_check(job, devices, options, preview, context, signs));
+  controller::UploadRecord record;
+  controller::UploadOptions upload_options;
+  upload_options.observer = options.observer;
+  upload_options.keep_old = [](const controller::UploadRecord& before) {
+    return controller::TableHistory().push(before.serial,
+                                           {to_text(SystemClock().utc()), before.old_sequence, before.old_words});
+  };
+  commissioning::AuditEntry entry;
+  entry.machine = machine_name(preview.record);
+  entry.action = "upload table";
+  entry.subject = "compensation table";
+  entry.old_value =
+      fmt::format("version {}, {} registers", preview.record.old_sequence, preview.record.old_words.size());
+  entry.new_value = compensation::to_json(preview.table).dump();
+  context.progress(0.4, "uploading");
+  ZD_CHECK(audited(job, entry, [&]() -> Status {
+    record = controller::upload_table(*devices.machine, preview.table, upload_options, context);
+    return record.result;
+  }));
+  return commissioning::NewArtefact::of("upload", body_of(preview, record, signs), {machine.id, model.id});
+}
+
+}  // namespace zerodrift::flow

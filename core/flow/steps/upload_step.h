@@ -1,0 +1,41 @@
+#pragma once
+// Step "upload" (C5): the model's table into the controller as a transaction, after the sign check, with everything
+// that is written put into the audit trail before and after. Makes the artefact "upload":
+//   {"table": {...zerodrift-table/1...}, "version", "crc32", "registers", "largest_change_um",
+//    "difference": [{what, old, new}], "states": [{state, at_s, detail}], "sign_check": {...} | null, "record": {...}}
+
+#include <functional>
+#include <optional>
+
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+#include "core/controller/sign_check.h"
+#include "core/controller/upload.h"
+#include "core/flow/devices.h"
+
+namespace zerodrift::flow {
+
+struct UploadPreview {
+  compensation::Table table;
+  controller::UploadRecord record;  // a dry run: old table, difference, warnings
+  double largest_change_um = 0.0;
+  std::string largest_change_axis;
+};
+
+struct UploadStepOptions {
+  /// Asked with the difference before anything is written; false ends with not_confirmed.
+  std::function<bool(const UploadPreview&)> confirm;
+  std::function<void(const controller::UploadStep&)> observer;
+  std::function<void(const controller::SignCheckRecord&)> sign_observer;
+  bool sign_check = true;
+  std::optional<compensation::Table> table;  // instead of the model's, for a correction
+};
+
+/// What would be written, against what is there; writes nothing.
+Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
+                                     const std::optional<compensation::Table>& table, const TaskContext& context);
+
+Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
+                                          const TaskContext& context);
+
+}  // namespace zerodrift::flow

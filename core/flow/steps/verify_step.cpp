@@ -1,0 +1,131 @@
+#include "core/flow/steps/verify_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/compensation/residual.h"
+#include "core/flow/steps/inputs.h"
+
+namespace zerodrift::flow {
+
+using nlohmann::json;
+
+namespace {
+
+std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(const recording::Recording& run,
+                                                                              const compensation::Table& table) {
+  std::map<std::string, std::vector<compensation::ResidualSample>> samples;
+  const auto sensors = compensation::sensors_of(table);
+  for (const auto& [axis, record] : table.axes) {
+    const auto* error = run.find("d" + axis + "_um");
+    if (error == nullptr) continue;
+    for (std::size_t r = 0; r < run.rows(); ++r) {
+      if (std::isnan(error->values[r])) continue;
+      compensation::ResidualSample sample;
+      sample.residual_um = error->values[r];
+      for (const auto& sensor : sensors) {
+        const auto* channel = run.find(sensor);
+        if (channel != nullptr) sample.temperatures[sensor] = recording::value_at(run, *channel, run.time_s[r]);
+      }
+      samples[axis].push_back(std::move(sample));
+    }
+  }
+  return samples;
+}
+
+/// kappa and the corrected table, when the residual calls for one; a correction that cannot be made is no failure of
+/// the verification, its reason is kept.
+void propose_correction(const recording::Recording& run, const compensation::Table& table, double limit_um,
+                        json& body) {
+  compensation::ResidualOptions options;
+  options.threshold_um = limit_um;
+  body["kappa"] = json::object();
+  body["correction"] = json::array();
+  body["corrected_table"] = nullptr;
+  const auto correction = compensation::correct_residual(table, residuals_of(run, table), options);
+  if (!correction) {
+    body["problems"].push_back("no correction: " + describe(correction.error()));
+    return;
+  }
+  bool any = false;
+  for (const auto& axis : correction->axes) {
+    any = any || axis.kind != compensation::CorrectionKind::none;
+    body["kappa"][axis.axis] = axis.kappa;
+    body["correction"].push_back({{"axis", axis.axis},
+                                  {"kappa", axis.kappa},
+                                  {"offset_um", axis.offset_um},
+                                  {"largest_before_um", axis.largest_before_um},
+                                  {"largest_after_um", axis.largest_after_um},
+                                  {"reason", axis.reason}});
+  }
+  if (any) body["corrected_table"] = compensation::to_json(correction->table);
+}
+
+void add_figures(const recording::Recording& before, const recording::Recording& after, double limit_um, json& body) {
+  const auto sizes_before = error_sizes(before);
+  bool passed = true;
+  for (const auto& [direction, size] : error_sizes(after)) {
+    body["peak_error_after_um"][direction] = size.peak_um;
+    body["rms_error_after_um"][direction] = size.rms_um;
+    passed = passed && size.peak_um <= limit_um;
+    const auto at = sizes_before.find(direction);
+    if (at == sizes_before.end()) continue;
+    body["peak_error_before_um"][direction] = at->second.peak_um;
+    if (at->second.peak_um > 0) {
+      body["removed_percent"][direction] = 100.0 * (1.0 - size.peak_um / at->second.peak_um);
+    }
+  }
+  body["limit_um"] = limit_um;
+  body["verdict"] = passed && body.contains("peak_error_after_um") ? "passed" : "failed";
+}
+
+}  // namespace
+
+acquisition::Plan verification_plan(const acquisition::Plan& warmup) {
+  acquisition::Plan plan = warmup;
+  plan.name = "verification";
+  std::reverse(plan.steps.begin(), plan.steps.end());
+  for (auto& step : plan.steps) step.duration_s *= 0.75;
+  return plan;
+}
+
+Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devices, const VerifyOptions& options,
+                                          const TaskContext& context) {
+  ZD_TRY(const Input warmup, need(job, "verify", "warmup"));
+  ZD_TRY(const Input calibration, need(job, "verify", "calibration"));
+  ZD_TRY(const Input upload, need(job, "verify", "upload"));
+  ZD_TRY(const auto table, compensation::table_from_json(upload.body.at("table"), "the uploaded table"));
+  RunOptions run_options = options.run;
+  if (run_options.plan.steps.empty()) {
+    ZD_TRY(const auto plan, acquisition::plan_from_json(warmup.body.at("plan"), "the warm-up's plan"));
+    run_options.plan = verification_plan(plan);
+  }
+  acquisition::RecorderOptions recorder_options;
+  recorder_options.name = "verification";
+  recorder_options.with_compensation = true;
+  recorder_options.guard = acquisition::compensation_must_be_on("verification");
+  if (warmup.body.contains("zero_um") && warmup.body["zero_um"].is_array()) {
+    recorder_options.zero_um = warmup.body["zero_um"].get<std::array<double, 3>>();
+  }
+  ZD_TRY(const auto start, devices.machine->read());
+  ZD_TRY(const RecordedRun run, record_run(job, devices, run_options, recorder_options, context));
+  if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
+  ZD_TRY(const auto after, job.read_series(run.series));
+  ZD_TRY(const auto before, run_of(job, warmup));
+  json body = run.body();
+  body["machine_time_s"] = {start.machine_time_s, start.machine_time_s + run.summary.duration_s};
+  add_figures(before, after, options.limit_um, body);
+  propose_correction(after, table, options.limit_um, body);
+  return commissioning::NewArtefact::of("verification", body, {warmup.id, calibration.id, upload.id});
+}
+
+Result<std::optional<compensation::Table>> corrected_table(const commissioning::Artefact& artefact) {
+  ZD_TRY(const json body, artefact.document());
+  const auto at = body.find("corrected_table");
+  if (at == body.end() || at->is_null()) return std::nullopt;
+  ZD_TRY(auto table, compensation::table_from_json(*at, "the corrected table"));
+  return table;
+}
+
+}  // namespace zerodrift::flow

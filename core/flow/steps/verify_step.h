@@ -1,0 +1,33 @@
+#pragma once
+// Step "verify" (C1, C2): a second run with the compensation on, measured against the zero of the warm-up run, so that
+// what is measured is what is left. Proposes a correction of the coefficients when too much is left. Makes the artefact
+// "verification":
+//   {...as warm-up..., "peak_error_before_um": {"X", ...}, "peak_error_after_um", "rms_error_after_um",
+//    "removed_percent", "limit_um", "verdict": "passed"|"failed", "kappa": {...}, "correction": [...],
+//    "corrected_table": {...} | null, "machine_time_s": [from, to]}
+
+#include <optional>
+
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+#include "core/compensation/table.h"
+#include "core/flow/devices.h"
+#include "core/flow/steps/warmup_step.h"
+
+namespace zerodrift::flow {
+
+struct VerifyOptions {
+  RunOptions run;         // an empty plan: verification_plan of the warm-up's
+  double limit_um = 5.0;  // largest error that may be left, each direction
+};
+
+/// The warm-up's speeds in another order with a rest between, three quarters as long.
+acquisition::Plan verification_plan(const acquisition::Plan& warmup);
+
+Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devices, const VerifyOptions& options,
+                                          const TaskContext& context);
+
+/// The corrected table an artefact "verification" proposes, if any.
+Result<std::optional<compensation::Table>> corrected_table(const commissioning::Artefact& artefact);
+
+}  // namespace zerodrift::flow

@@ -1,0 +1,42 @@
+#pragma once
+// Step "warm-up" (R2, R3): records the uncompensated run, or goes on with one that was broken off. Makes the artefact
+// "warmup":
+//   {"series", "plan", "source", "zero_um", "rows", "lost_samples", "measurements", "refused", "gaps", "duration_s",
+//    "peak_um": {"X", ...}, "problems": [...]}
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/acquisition/recorder.h"
+#include "core/base/task_context.h"
+#include "core/commissioning/job.h"
+#include "core/flow/devices.h"
+
+namespace zerodrift::flow {
+
+struct RunOptions {
+  acquisition::Plan plan;
+  std::function<void(const acquisition::RunUpdate&)> observer;
+  /// Told the control of the run when it starts, and null when it has ended.
+  std::function<void(acquisition::RunControl*)> control;
+  /// Told the camera source, for the picture; null at the end.
+  std::function<void(vision::CameraErrorSource*)> cameras;
+};
+
+Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Devices& devices, const RunOptions& options,
+                                                 const TaskContext& context);
+
+/// What warm-up and verification share: runs the recorder into the job and describes what was recorded.
+struct RecordedRun {
+  commissioning::SeriesId series = 0;
+  acquisition::RunSummary summary;
+  nlohmann::json body() const;
+  std::string source;
+  std::optional<std::array<double, 3>> zero_um;
+  acquisition::Plan plan;
+  std::vector<std::string> problems;
+};
+Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& options,
+                               acquisition::RecorderOptions recorder_options, const TaskContext& context);
+
+}  // namespace zerodrift::flow
