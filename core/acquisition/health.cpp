@@ -1,0 +1,138 @@
+#include "core/acquisition/health.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace zerodrift::acquisition {
+namespace {
+
+// Outside of this no workshop sensor can be right.
+constexpr double lowest_C = -20.0;
+constexpr double highest_C = 120.0;
+// The share of sensors that must move before one that does not is called stuck, and how many readings that takes.
+constexpr int readings_for_stuck = 15;
+
+struct Readings {
+  std::vector<std::vector<double>> by_sensor;
+  std::vector<double> round_trips_ms;
+};
+
+SensorHealth judge(const SensorInfo& info, const std::vector<double>& values) {
+  SensorHealth health;
+  health.info = info;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    sum += v;
+    ++count;
+  }
+  if (values.empty() || std::isnan(values.back())) {
+    health.state = SensorState::dead;
+    return health;
+  }
+  const double mean = sum / count;
+  double squares = 0.0;
+  for (const double v : values) {
+    if (!std::isnan(v)) squares += (v - mean) * (v - mean);
+  }
+  health.value_C = mean;
+  if (count > 1) health.noise_C = std::sqrt(squares / (count - 1));
+  if (mean < lowest_C || mean > highest_C) health.state = SensorState::out_of_range;
+  return health;
+}
+
+// Without any change where most others change: stuck. On a machine whose sensors are all quiet nothing can be said.
+void find_stuck(std::vector<SensorHealth>& sensors, int readings) {
+  if (readings < readings_for_stuck) return;
+  const auto moving =
+      std::count_if(sensors.begin(), sensors.end(), [](const SensorHealth& s) { return s.noise_C > 0.0; });
+  if (2 * moving <= static_cast<std::ptrdiff_t>(sensors.size())) return;
+  for (SensorHealth& sensor : sensors) {
+    if (sensor.state == SensorState::ok && sensor.noise_C == 0.0) sensor.state = SensorState::stuck;
+  }
+}
+
+void summarize(MachineHealth& health) {
+  double low = 1e9;
+  double high = -1e9;
+  for (const SensorHealth& sensor : health.sensors) {
+    if (sensor.state != SensorState::ok) continue;
+    ++health.sensors_alive;
+    low = std::min(low, *sensor.value_C);
+    high = std::max(high, *sensor.value_C);
+  }
+  if (health.sensors_alive > 0) health.spread_K = high - low;
+  const auto obstacle = [&](ErrorCode code, std::map<std::string, std::string> context) {
+    health.obstacles.push_back({code, std::move(context)});
+  };
+  const std::string& name = health.identity.name;
+  if (health.last.compensation_on) obstacle(ErrorCode::interlock_compensation_on, {{"operation", "commissioning"}});
+  if (health.last.alarm) obstacle(ErrorCode::machine_not_ready, {{"what", name}, {"reason", "alarm"}});
+  if (!health.last.referenced) {
+    obstacle(ErrorCode::machine_not_ready, {{"what", name}, {"reason", "axes are not referenced"}});
+  }
+  if (health.sensors_alive == 0) {
+    obstacle(ErrorCode::not_enough_data, {{"what", "temperature sensors"}, {"found", "0"}, {"needed", "1"}});
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(SensorState state) {
+  switch (state) {
+    case SensorState::ok:
+      return "ok";
+    case SensorState::dead:
+      return "dead";
+    case SensorState::stuck:
+      return "stuck";
+    case SensorState::out_of_range:
+      return "out_of_range";
+  }
+  return "";
+}
+
+Result<MachineHealth> machine_health(MachineIo& machine, Clock& clock, const HealthOptions& options,
+                                     const TaskContext& context) {
+  MachineHealth health;
+  ZD_TRY(health.identity, machine.identify());
+  Readings readings;
+  readings.by_sensor.resize(health.identity.sensors.size());
+  double first_machine_s = 0.0;
+  Seconds first_host{0.0};
+  Seconds last_host{0.0};
+  for (int i = 0; i < options.readings; ++i) {
+    if (i > 0 && !clock.wait_for(Seconds(options.interval_s * options.time_factor), context.stop)) {
+      return fail(ErrorCode::cancelled);
+    }
+    const auto sent = std::chrono::steady_clock::now();
+    ZD_TRY(health.last, machine.read());
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - sent;
+    readings.round_trips_ms.push_back(took.count());
+    last_host = clock.steady();
+    if (i == 0) {
+      first_machine_s = health.last.machine_time_s;
+      first_host = last_host;
+    }
+    for (std::size_t s = 0; s < readings.by_sensor.size(); ++s) {
+      const bool there = s < health.last.temperature_C.size();
+      readings.by_sensor[s].push_back(there ? health.last.temperature_C[s] : std::nan(""));
+    }
+    context.progress((i + 1.0) / options.readings, "health");
+  }
+  for (std::size_t s = 0; s < readings.by_sensor.size(); ++s) {
+    health.sensors.push_back(judge(health.identity.sensors[s], readings.by_sensor[s]));
+  }
+  find_stuck(health.sensors, options.readings);
+  std::sort(readings.round_trips_ms.begin(), readings.round_trips_ms.end());
+  health.round_trip_ms = readings.round_trips_ms[readings.round_trips_ms.size() / 2];
+  health.slowest_round_trip_ms = readings.round_trips_ms.back();
+  health.observed_s = health.last.machine_time_s - first_machine_s;
+  health.clock_difference_s = health.observed_s - (last_host - first_host).count();
+  summarize(health);
+  return health;
+}
+
+}  // namespace zerodrift::acquisition

@@ -1,0 +1,95 @@
+#pragma once
+// One run of a recorder, from its first command to its end. Inside core/acquisition only.
+
+#include "core/acquisition/problem_list.h"
+#include "core/acquisition/recorder.h"
+#include "core/acquisition/run_log.h"
+#include "core/acquisition/run_row.h"
+#include "core/acquisition/sensor_watch.h"
+
+namespace zerodrift::acquisition {
+
+class Run {
+ public:
+  Run(MachineIo& machine, ErrorSource& errors, Clock& clock, RunSink& sink, const RecorderOptions& options,
+      RunControl& control, const TaskContext& context);
+
+  Result<RunSummary> start(const Plan& plan);
+  Result<RunSummary> go_on(const InterruptedRun& interrupted);
+
+ private:
+  // starting, in run_start.cpp
+  Status connect();
+  Status take_zero();
+  Status rejoin(const InterruptedRun& interrupted, const MachineSample& now);
+
+  // the loop, in run.cpp
+  Result<RunSummary> record(bool from_rest);
+  Result<RunEnd> loop(bool from_rest);
+  Status obey_controls();
+  Status command_step();
+  Status take_sample();
+  Status measure();
+  Status measure_here();
+  void publish(RunPhase phase, const std::vector<double>* row = nullptr, const ErrorSample* measured = nullptr);
+  void wait_for_next();
+  Status keep(const MachineSample& sample, const ErrorSample* error, bool expected_late);
+  void watch_sensors(const MachineSample& sample);
+  void note_measurement(const Result<ErrorSample>& measured);
+  bool stop_machine();
+
+  // the machine, in run_machine.cpp
+  Result<MachineSample> read();
+  Status accept(const MachineSample& sample);
+  Status command(double spindle_rpm, bool coolant_on, bool path_cycle);
+  Status move_to_measuring_position();
+  /// Calls again, with growing pauses, while the link is broken.
+  template <class Call>
+  auto patiently(Call call) -> decltype(call());
+  Status wait_for_link(const Error& error, double& waited_s, int attempt);
+  void clock_restarted(double machine_time_s, double gap_s);
+
+  void raise(const std::string& key, const Error& error);
+  void clear(const std::string& key);
+  void event(std::string kind, std::string text, std::string details = "{}");
+  double time_now_s() const;  // of the series, estimated from the last reading
+  double plan_time_s(double time_s) const;
+  bool stopped() const { return m_control.stop().stop_requested(); }
+  tl::unexpected<Error> cancelled() const { return fail(ErrorCode::cancelled); }
+
+  MachineIo& m_machine;
+  ErrorSource& m_errors;
+  Clock& m_clock;
+  const RecorderOptions& m_options;
+  RunControl& m_control;
+  TaskContext m_context;  // its token also stops on abort
+  RunLog m_log;
+  RunStart m_start;
+  MachineIdentity m_identity;
+  std::optional<RowLayout> m_layout;
+  std::optional<SensorWatch> m_watch;
+  Trend m_trend{60.0};
+  ProblemList m_problems;
+  RunSummary m_summary;
+
+  bool m_has_reading = false;
+  double m_time_s = 0.0;       // of the last reading
+  Seconds m_read_at{0.0};      // when it was taken, by m_clock
+  double m_last_row_s = -1.0;  // of the last row
+  double m_next_sample_s = 0.0;
+  double m_next_measure_s = 0.0;  // of plan time
+  double m_paused_s = 0.0;
+  std::optional<double> m_paused_since_s;
+  std::optional<std::size_t> m_commanded_step;  // nothing: must be commanded (again)
+  std::optional<std::size_t> m_known_step;      // the conditions the trend counts from
+  int m_failed_measurements = 0;
+  int m_stale_readings = 0;
+  bool m_link_was_lost = false;
+};
+
+/// Errors of the link to the machine, which may heal: the run waits for them to pass.
+bool is_link_failure(const Error& error);
+/// {"code": ..., "context": {...}} for a problem's event.
+std::string details_of(const Error& error);
+
+}  // namespace zerodrift::acquisition

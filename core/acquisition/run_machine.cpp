@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/acquisition/run.h"
+
+namespace zerodrift::acquisition {
+namespace {
+
+constexpr double first_pause_s = 0.2;  // wall
+constexpr double longest_pause_s = 5.0;
+constexpr int stale_readings_shown = 5;
+// A controller's clock may be read a little before another part of the same sample.
+constexpr double clock_slack_s = 0.5;
+
+}  // namespace
+
+bool is_link_failure(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::machine_unreachable:
+    case ErrorCode::machine_silent:
+    case ErrorCode::machine_link_lost:
+    case ErrorCode::machine_bad_reply:
+    case ErrorCode::machine_busy:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::string details_of(const Error& error) {
+  const nlohmann::json details = {{"code", name_of(error.code)}, {"context", error.context}};
+  return details.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Status Run::wait_for_link(const Error& error, double& waited_s, int attempt) {
+  raise("link", error);
+  m_link_was_lost = true;
+  m_commanded_step.reset();  // the machine may have stopped by itself
+  publish(RunPhase::link_lost);
+  if (waited_s >= m_options.link_patience_s) return fail(error);
+  const double pause_s = std::min(longest_pause_s, first_pause_s * static_cast<double>(1 << std::min(attempt, 10)));
+  m_log.commit_before_waiting(pause_s);
+  if (!m_clock.wait_for(Seconds(pause_s * m_options.time_factor), m_context.stop)) return cancelled();
+  waited_s += pause_s;
+  return {};
+}
+
+template <class Call>
+auto Run::patiently(Call call) -> decltype(call()) {
+  double waited_s = 0.0;
+  for (int attempt = 0;; ++attempt) {
+    auto result = call();
+    if (result) {
+      clear("link");
+      return result;
+    }
+    if (!is_link_failure(result.error())) return result;
+    ZD_CHECK(wait_for_link(result.error(), waited_s, attempt));
+  }
+}
+
+Status Run::command(double spindle_rpm, bool coolant_on, bool path_cycle) {
+  return patiently([&] { return m_machine.command(spindle_rpm, coolant_on, path_cycle); });
+}
+
+Status Run::move_to_measuring_position() {
+  if (m_start.plan.measure_position_mm.empty()) return {};
+  return patiently([&] { return m_machine.move_to(m_start.plan.measure_position_mm); });
+}
+
+Result<MachineSample> Run::read() {
+  ZD_TRY(const MachineSample sample, patiently([&] { return m_machine.read(); }));
+  ZD_CHECK(accept(sample));
+  return sample;
+}
+
+Status Run::accept(const MachineSample& sample) {
+  ZD_CHECK(m_options.guard(sample));
+  if (sample.alarm) return fail(ErrorCode::machine_not_ready, {{"what", m_identity.name}, {"reason", "alarm"}});
+  if (!sample.referenced) {
+    return fail(ErrorCode::machine_not_ready, {{"what", m_identity.name}, {"reason", "axes are not referenced"}});
+  }
+  const Seconds now = m_clock.steady();
+  if (m_has_reading) {
+    const double time_s = sample.machine_time_s - m_start.origin_s;
+    if (time_s < m_time_s - clock_slack_s) {
+      clock_restarted(sample.machine_time_s, std::max(0.0, (now - m_read_at).count()));
+    } else if (time_s <= m_time_s) {
+      // The next row would not be after the last one: it is left out until the clock goes on.
+      if (++m_stale_readings == stale_readings_shown) {
+        raise("clock", {ErrorCode::machine_bad_reply, {{"what", "machine clock"}, {"detail", "stands still"}}});
+      }
+    } else {
+      m_stale_readings = 0;
+      clear("clock");
+    }
+    m_time_s = std::max(m_time_s, sample.machine_time_s - m_start.origin_s);
+  }
+  m_read_at = now;
+  if (m_options.each_sample) ZD_CHECK(m_options.each_sample(sample));
+  return {};
+}
+
+// The machine was switched off and on: its clock began again, and while it was off the plan stood still.
+void Run::clock_restarted(double machine_time_s, double gap_s) {
+  m_start.origin_s = machine_time_s - (m_time_s + gap_s);
+  m_paused_s += gap_s;
+  m_commanded_step.reset();
+  const nlohmann::json details = {{"origin_s", m_start.origin_s}, {"gap_s", gap_s}, {"paused_s", m_paused_s}};
+  event("clock", "restarted", details.dump());
+}
+
+}  // namespace zerodrift::acquisition
