@@ -65,21 +65,30 @@ void cover(const Camera& camera, const Chip& chip, std::vector<double>& levels) 
 
 }  // namespace
 
+ObjectFromPixel::ObjectFromPixel(const Camera& camera, const CameraShift& shift)
+    : m_camera(camera),
+      m_shift(shift),
+      m_cos(std::cos(camera.rotation_rad + shift.roll_rad)),
+      m_sin(std::sin(camera.rotation_rad + shift.roll_rad)) {}
+
+Vector2 ObjectFromPixel::operator()(double x_px, double y_px) const {
+  double x = x_px - (m_camera.width_px - 1) / 2.0;
+  double y = y_px - (m_camera.height_px - 1) / 2.0;
+  // The lens is defined from the picture outwards: exact for every pixel without iteration.
+  const double stretch = 1.0 + m_camera.distortion_per_px2 * (x * x + y * y);
+  x = (x * stretch - m_shift.shift_px.x) / m_shift.scale * m_camera.um_per_px;
+  y = (m_shift.shift_px.y - y * stretch) / m_shift.scale * m_camera.um_per_px;  // now up
+  const double up = -m_sin * x + m_cos * y;
+  const double right = m_cos * x + m_sin * y - m_camera.shear * up;
+  return {m_camera.mirrored ? -right : right, up * m_camera.aspect};
+}
+
 FrameRenderer::FrameRenderer(Camera camera, Stage stage) : m_camera(camera), m_stage(std::move(stage)) {
   m_background = background({});
 }
 
 Vector2 FrameRenderer::object_from_pixel(Vector2 pixel, const CameraShift& shift) const {
-  double x = pixel.x - (m_camera.width_px - 1) / 2.0;
-  double y = pixel.y - (m_camera.height_px - 1) / 2.0;
-  // The lens is defined from the picture outwards: exact for every pixel without iteration.
-  const double stretch = 1.0 + m_camera.distortion_per_px2 * (x * x + y * y);
-  x = (x * stretch - shift.shift_px.x) / shift.scale;
-  y = (y * stretch - shift.shift_px.y) / shift.scale;
-  const Vector2 right_up =
-      turned({x * m_camera.um_per_px, -y * m_camera.um_per_px}, -m_camera.rotation_rad - shift.roll_rad);
-  const double right = right_up.x - m_camera.shear * right_up.y;
-  return {m_camera.mirrored ? -right : right, right_up.y * m_camera.aspect};
+  return ObjectFromPixel(m_camera, shift)(pixel.x, pixel.y);
 }
 
 Vector2 FrameRenderer::pixel_from_object(Vector2 object_um, const CameraShift& shift) const {
@@ -121,10 +130,11 @@ std::vector<double> FrameRenderer::background(const CameraShift& shift) const {
             noise.uniform(-0.09, 0.12)};
   }
   std::vector<double> out(static_cast<std::size_t>(m_camera.width_px) * m_camera.height_px);
+  const ObjectFromPixel seen_at(m_camera, shift);
   std::size_t index = 0;
   for (int row = 0; row < m_camera.height_px; ++row) {
     for (int column = 0; column < m_camera.width_px; ++column, ++index) {
-      const Vector2 seen = object_from_pixel({static_cast<double>(column), static_cast<double>(row)}, shift);
+      const Vector2 seen = seen_at(column, row);
       double sum = 0.42;
       for (const Spot& spot : spots) {
         const double x = seen.x - spot.place_um.x;
@@ -146,12 +156,17 @@ void FrameRenderer::paint(const Pattern& pattern, Vector2 centre_um, double rota
   const Vector2 middle = pixel_from_object(centre_um, spec.camera);
   const double reach_px = 1.5 * limit_um / m_camera.um_per_px + 2.0;
   const auto bounded = [](double value, int size) { return std::clamp(static_cast<int>(value), 0, size); };
+  const ObjectFromPixel seen_at(m_camera, spec.camera);
+  const double c = std::cos(rotation_rad);
+  const double s = std::sin(rotation_rad);
   const int x1 = bounded(middle.x + reach_px, m_camera.width_px);
   const int y1 = bounded(middle.y + reach_px, m_camera.height_px);
   for (int row = bounded(middle.y - reach_px, m_camera.height_px); row < y1; ++row) {
     for (int column = bounded(middle.x - reach_px, m_camera.width_px); column < x1; ++column) {
-      const Vector2 seen = object_from_pixel({static_cast<double>(column), static_cast<double>(row)}, spec.camera);
-      const Vector2 on = turned({seen.x - centre_um.x, seen.y - centre_um.y}, -rotation_rad);
+      const Vector2 seen = seen_at(column, row);
+      const double right = seen.x - centre_um.x;
+      const double up = seen.y - centre_um.y;
+      const Vector2 on{c * right + s * up, -s * right + c * up};
       if (std::abs(on.x) > limit_um || std::abs(on.y) > limit_um) continue;
       const std::size_t index = static_cast<std::size_t>(row) * m_camera.width_px + column;
       const Paint paint = pattern.at(on.x, on.y, sigma_um, spec.light.lamp);

@@ -108,6 +108,19 @@ struct Frame {
   std::vector<std::uint8_t> pixels;
 };
 
+/// From the picture to the machine, for one position of the camera.
+class ObjectFromPixel {
+ public:
+  explicit ObjectFromPixel(const Camera& camera, const CameraShift& shift = {});
+  Vector2 operator()(double x_px, double y_px) const;
+
+ private:
+  const Camera& m_camera;
+  CameraShift m_shift;
+  double m_cos;
+  double m_sin;
+};
+
 class FrameRenderer {
  public:
   FrameRenderer(Camera camera, Stage stage);

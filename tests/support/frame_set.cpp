@@ -49,12 +49,12 @@ Scene draw_scene(PatternKind kind, Disturbance disturbance, std::uint64_t seed, 
   const double half_px = noise.uniform(80.0, 98.0);
   const Vector2 centre_px{319.5 + noise.uniform(-18.0, 18.0), (with_marks ? 214.5 : 239.5) + noise.uniform(-8.0, 8.0)};
   Stage stage{Pattern(kind, half_px * camera.um_per_px, seed), {}, {}};
-  const FrameRenderer bare(camera, stage);
-  stage.home_um = bare.object_from_pixel(centre_px);
+  const ObjectFromPixel seen_at(camera);
+  stage.home_um = seen_at(centre_px.x, centre_px.y);
   std::vector<PixelRegion> mark_rois;
   if (with_marks) {
     for (const Vector2 place : {Vector2{82.3, 392.6}, Vector2{557.8, 391.2}}) {
-      stage.marks.push_back({bare.object_from_pixel(place), Pattern(PatternKind::mark, 36.0 * camera.um_per_px, seed)});
+      stage.marks.push_back({seen_at(place.x, place.y), Pattern(PatternKind::mark, 36.0 * camera.um_per_px, seed)});
       mark_rois.push_back({static_cast<int>(place.x) - 43, static_cast<int>(place.y) - 43, 88, 88});
     }
   }
@@ -208,7 +208,9 @@ Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t se
   const double span_um = scene.renderer.camera().um_per_px * (disturbance == Disturbance::large_motion ? 45.0 : 10.0);
   std::vector<CalibrationView> grid;
   for (int i = 0; i < 9; ++i) {
-    const Vector2 place{span_um * (i % 3 - 1), span_um * (i / 3 - 1)};
+    const int column = i % 3 - 1;
+    const int row = i / 3 - 1;
+    const Vector2 place{span_um * column, span_um * row};
     grid.push_back(draw_view(disturbance, place, own_seed * 1000 + 10 + static_cast<std::uint64_t>(i), noise));
   }
   std::vector<CalibrationView> moves;
