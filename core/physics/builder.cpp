@@ -90,8 +90,9 @@ int NetworkBuilder::effect_parameter(const EffectSpec& spec, int index, std::str
   const double sigma = spec.number_or(p.key + "_prior_sigma", known.sigma);
   if (spec.candidate) {
     p.amplitude = known.amplitude;
-    p.mean = known.amplitude ? 0.0 : given;
+    p.mean = known.amplitude ? 0.0 : known.mean != 0.0 ? known.mean : given;
     p.sigma = sigma;
+    p.logarithmic = known.logarithmic;
   } else if (known.amplitude && given > 0.0) {
     p.mean = given;
     p.logarithmic = true;
@@ -245,6 +246,10 @@ void NetworkBuilder::modify_bearing(const std::string& source, BearingModifier m
   m_modifiers[source].push_back(modifier);
 }
 
+void NetworkBuilder::put_body_before(const std::string& source, Term contact) {
+  m_bodies[source] = std::move(contact);
+}
+
 Term* NetworkBuilder::term(const std::string& label) {
   for (auto& one : m_network.terms) {
     if (one.label == label) return &one;
@@ -378,6 +383,15 @@ void NetworkBuilder::add_initial_state() {
 void NetworkBuilder::add_source(const Component& component, const HeatSource& source) {
   if (component.prescribed) return;
   Term term = source_over(component.id, source.from_mm, source.to_mm);
+  if (const auto body = m_bodies.find(source.id); body != m_bodies.end()) {
+    // The heat enters the source's own body; the body's contact spreads it over the same place.
+    for (std::size_t i = 0; i < term.weights.size(); ++i) {
+      body->second.links.push_back({body->second.first_node, term.first_node + static_cast<int>(i), term.weights[i]});
+    }
+    term.first_node = body->second.first_node;
+    term.weights = {1.0};
+    add(body->second);
+  }
   term.label = component.id + "/" + source.id;
   Parameter scale;
   scale.key = "scale:" + source.id;

@@ -58,6 +58,8 @@ class NetworkBuilder {
   Probe mean_probe(const std::string& component) const;
   Term& add(Term term);
   void modify_bearing(const std::string& source, BearingModifier modifier);
+  /// The source heats a node of its own (contact.first_node) that a link with this law joins to the component.
+  void put_body_before(const std::string& source, Term contact);
   /// The listed source's term, null if it has none yet.
   Term* term(const std::string& label);
   int held_speed() { return held("spindle_rpm"); }
@@ -85,6 +87,7 @@ class NetworkBuilder {
   std::map<std::string, int> m_capacity;
   std::map<std::string, double> m_initial_C;
   std::map<std::string, std::vector<BearingModifier>> m_modifiers;
+  std::map<std::string, Term> m_bodies;
   double m_mean_initial_C = 20.0;
   int m_room = -1;
 };

@@ -18,7 +18,7 @@
 
 namespace zerodrift::physics {
 
-inline constexpr int max_law_parameters = 12;
+inline constexpr int max_law_parameters = 16;
 
 /// Where a law is evaluated.
 struct LawPoint {
@@ -88,11 +88,12 @@ struct Signal {
 /// g * lag(u) or g * (lag1(u) - lag2(lag1(u))) added to a displacement; u is a signal or a probe minus its reference.
 struct StructureTerm {
   int gain = -1;  // parameter, um per unit of the driver
-  int lag = -1;   // parameter ln(tau / s), -1: none
+  int lag = -1;   // parameter tau in s, -1: none
   int second_lag = -1;
   int signal = -1;
   int probe = -1;
   double probe_reference = 0.0;
+  double factor = 1.0;
 };
 
 struct Observation {

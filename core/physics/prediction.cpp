@@ -112,14 +112,14 @@ class Observer {
     } else {
       for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_in.signals[k][term.signal];
     }
-    const double gain = m_values[term.gain];
-    const double tau_s = term.lag >= 0 ? std::exp(m_values[term.lag]) : 0.0;
+    const double gain = term.factor * m_values[term.gain];
+    const double tau_s = term.lag >= 0 ? m_values[term.lag] : 0.0;
     std::vector<double> by_tau;
     std::vector<double> shape = lagged(driver, m_in.time_s, tau_s, &by_tau);
     std::vector<double> by_second;
     std::vector<double> shape_by_tau = by_tau;
     const bool difference = term.second_lag >= 0;
-    const double second_s = difference ? std::exp(m_values[term.second_lag]) : 0.0;
+    const double second_s = difference ? m_values[term.second_lag] : 0.0;
     if (difference) {
       const std::vector<double> slow = lagged(shape, m_in.time_s, second_s, &by_second);
       const std::vector<double> slow_by_tau = lagged(by_tau, m_in.time_s, second_s);
@@ -129,9 +129,9 @@ class Observer {
       }
     }
     for (std::size_t k = 0; k < rows(); ++k) out.values[k] += gain * shape[k];
-    add_column(out, column(term.gain), 1.0, shape);
-    if (term.lag >= 0) add_column(out, column(term.lag), gain * tau_s, shape_by_tau);
-    if (difference) add_column(out, column(term.second_lag), -gain * second_s, by_second);
+    add_column(out, column(term.gain), term.factor, shape);
+    if (term.lag >= 0) add_column(out, column(term.lag), gain, shape_by_tau);
+    if (difference) add_column(out, column(term.second_lag), -gain, by_second);
     if (by.empty() || gain == 0.0) return;
     lag_columns(by, m_run.columns, m_in.time_s, tau_s);
     std::vector<double> slow_by = by;

@@ -3,6 +3,7 @@
 // equation, its source, the plausible range of its parameters and its fingerprint in words; list.cpp is the list of
 // them all.
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ struct EffectParameter {
   double low = 0.0;
   double high = 1e300;
   bool amplitude = false;
+  double mean = 0.0;  // not for amplitudes; 0: the candidate's own start
+  bool logarithmic = false;
 };
 
 struct Effect {
@@ -51,7 +54,8 @@ struct RunFacts {
   double typical_heat_W = 0.0;      // all known sources at full inputs
   double temperature_rise_K = 0.0;  // largest in the recording
   double displacement_range_um = 0.0;
-  std::vector<std::string> channels;  // of the machine that the recording has
+  std::map<std::string, std::vector<double>> jump_times_s;  // displacement channel -> where it jumps most
+  std::vector<std::string> channels;                        // of the machine that the recording has
 };
 
 const std::vector<const Effect*>& all_effects();

@@ -1,0 +1,84 @@
+#include "core/diagnosis/apart.h"
+
+#include <algorithm>
+
+#include "core/diagnosis/explain.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+using physics::Machine;
+
+/// The part of the description that concerns one component; displacements of unknown origin stay out.
+Machine part_of(const Machine& whole, const std::string& id) {
+  Machine part = whole;
+  std::erase_if(part.components, [&](const auto& component) { return component.id != id; });
+  std::erase_if(part.sensors,
+                [&](const auto& sensor) { return sensor.component != id && sensor.component != "ambient"; });
+  std::erase_if(part.displacements, [&](const auto& displacement) { return displacement.component != id; });
+  std::erase_if(part.effects, [&](const auto& spec) { return spec.word_or("component", id) != id; });
+  return part;
+}
+
+void merge(Diagnosis& all, Diagnosis part, std::size_t described) {
+  for (std::size_t i = described; i < part.refined.effects.size(); ++i)
+    all.refined.effects.push_back(part.refined.effects[i]);
+  for (auto& component : all.refined.components) {
+    for (const auto& fitted : part.refined.components) {
+      if (fitted.id == component.id) component = fitted;
+    }
+  }
+  if (part.verdict == Verdict::unexplained) {
+    for (const auto& channel : part.mismatch.channels) all.notes.push_back("unexplained:" + channel);
+  }
+  const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(all.effects, part.effects);
+  append(all.ambiguous_with, part.ambiguous_with);
+  append(all.channels, part.channels);
+  append(all.mismatch.channels, part.mismatch.channels);
+  all.time_s = part.time_s;
+  if (all.held_out.empty()) all.held_out.resize(part.held_out.size());
+  for (std::size_t i = 0; i < part.held_out.size(); ++i) {
+    all.held_out[i].recording = part.held_out[i].recording;
+    all.held_out[i].nominal.merge(part.held_out[i].nominal);
+    all.held_out[i].refitted.merge(part.held_out[i].refitted);
+    all.held_out[i].explained.merge(part.held_out[i].explained);
+  }
+  all.excess_before = std::max(all.excess_before, part.excess_before);
+  all.excess_after = std::max(all.excess_after, part.excess_after);
+  all.seconds += part.seconds;
+}
+
+}  // namespace
+
+bool falls_apart(const Machine& machine) {
+  return machine.components.size() > 6 && machine.couplings.empty() &&
+         std::all_of(machine.components.begin(), machine.components.end(), [](const auto& c) { return c.lump; });
+}
+
+Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recording::Recording>& recordings,
+                                 const DiagnoseOptions& options, const TaskContext& context) {
+  Diagnosis all;
+  all.refined = machine;
+  int unexplained = 0;
+  for (std::size_t i = 0; i < machine.components.size(); ++i) {
+    const Machine part = part_of(machine, machine.components[i].id);
+    if (part.sensors.empty()) continue;
+    TaskContext quiet = context;
+    quiet.report = nullptr;
+    DiagnoseOptions brief = options;
+    brief.details = false;
+    ZD_TRY(Diagnosis result, diagnose(part, recordings, brief, quiet));
+    unexplained += result.verdict == Verdict::unexplained ? 1 : 0;
+    merge(all, std::move(result), part.effects.size());
+    context.progress(static_cast<double>(i + 1) / static_cast<double>(machine.components.size()), "parts");
+    if (context.cancelled()) return fail(ErrorCode::cancelled);
+  }
+  all.verdict = !all.effects.empty() ? Verdict::missing_effect
+                : unexplained > 0    ? Verdict::unexplained
+                                     : Verdict::consistent;
+  all.sentences.push_back(explain_verdict(all));
+  return all;
+}
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,159 @@
+#include "core/diagnosis/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerodrift::diagnosis {
+namespace {
+
+constexpr double drift_time_s = 1500.0;
+
+double range_of(const MeasuredChannel& channel) {
+  std::vector<double> sorted;
+  for (std::size_t k = 0; k < channel.values.size(); ++k) {
+    if (channel.present[k]) sorted.push_back(channel.values[k]);
+  }
+  if (sorted.size() < 3) return 0.0;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[sorted.size() * 98 / 100] - sorted[sorted.size() * 2 / 100];
+}
+
+MeasuredChannel make_channel(const recording::Channel* source, const physics::Observation& seen, std::size_t rows) {
+  MeasuredChannel channel;
+  channel.name = seen.channel;
+  channel.temperature = seen.temperature;
+  channel.values.assign(rows, 0.0);
+  channel.present.assign(rows, false);
+  channel.timing.assign(rows, 0.0);
+  if (source == nullptr) return channel;
+  channel.white = physics::noise_width(source->values, seen.temperature ? 0.01 : 0.05);
+  const std::vector<bool> spike = physics::spikes(source->values, channel.white);
+  for (std::size_t k = 0; k < rows; ++k) {
+    if (!std::isfinite(source->values[k]) || spike[k]) continue;
+    channel.values[k] = source->values[k];
+    channel.present[k] = true;
+    ++channel.samples;
+  }
+  const double range = range_of(channel);
+  channel.drift = seen.temperature ? std::hypot(0.02, 0.0015 * range) : std::hypot(0.2, 0.0015 * range);
+  return channel;
+}
+
+/// One step of the scalar Kalman filter's gains (the same for residual and columns).
+struct Gain {
+  double fade = 1.0;     // of the mean since the sample before
+  double inverse = 0.0;  // 1 / sqrt(S)
+  double update = 0.0;   // Kalman gain
+  bool present = false;
+};
+
+double gains_of(const MeasuredChannel& channel, const std::vector<double>& time_s, std::vector<Gain>& gains) {
+  gains.resize(time_s.size());
+  const double drift2 = channel.drift * channel.drift;
+  const double white2 = channel.white * channel.white;
+  double variance = drift2;
+  double log_determinant = 0.0;
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    Gain& g = gains[k];
+    g = Gain{};
+    if (k > 0) {
+      g.fade = std::exp(-(time_s[k] - time_s[k - 1]) / drift_time_s);
+      variance = g.fade * g.fade * variance + (1.0 - g.fade * g.fade) * drift2 + channel.timing[k];
+    }
+    g.present = channel.present[k];
+    if (!g.present) continue;
+    const double total = variance + white2;
+    log_determinant += std::log(total);
+    g.inverse = 1.0 / std::sqrt(total);
+    g.update = variance / total;
+    variance *= 1.0 - g.update;
+  }
+  return log_determinant;
+}
+
+}  // namespace
+
+int Dataset::samples() const {
+  int count = 0;
+  for (const auto& channel : channels) count += channel.samples;
+  return count;
+}
+
+Dataset make_dataset(const recording::Recording& recording, const physics::Network& network) {
+  Dataset data;
+  data.recording = &recording;
+  data.time_s = recording.time_s;
+  for (const auto& seen : network.observations) {
+    data.channels.push_back(make_channel(recording.find(seen.channel), seen, data.rows()));
+  }
+  return data;
+}
+
+Dataset with_drift(Dataset data, double factor) {
+  for (auto& channel : data.channels) channel.drift *= factor;
+  return data;
+}
+
+void set_timing_noise(Dataset& data, const physics::Network& network, const physics::InputSet& inputs) {
+  std::vector<double> values = network.start_values();
+  values[network.hold_parameter] = 0.0;
+  const physics::Prediction early = predict(network, inputs, values);
+  values[network.hold_parameter] = 1.0;
+  const physics::Prediction late = predict(network, inputs, values);
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    double before = 0.0;
+    for (std::size_t k = 0; k < data.rows(); ++k) {
+      const double moved = std::abs(late.channels[c].values[k] - early.channels[c].values[k]);
+      const double rise = 0.3 * std::max(0.0, moved - before);
+      data.channels[c].timing[k] = rise * rise;
+      before = moved;
+    }
+  }
+}
+
+double whiten(const Dataset& data, const physics::Prediction& prediction, Eigen::VectorXd* residual) {
+  residual->setZero(static_cast<Eigen::Index>(data.stacked()));
+  std::vector<Gain> gains;
+  double log_determinant = 0.0;
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    const MeasuredChannel& channel = data.channels[c];
+    if (channel.samples == 0) continue;
+    log_determinant += gains_of(channel, data.time_s, gains);
+    double mean = 0.0;
+    for (std::size_t k = 0; k < data.rows(); ++k) {
+      mean *= gains[k].fade;
+      if (!gains[k].present) continue;
+      const double innovation = channel.values[k] - prediction.channels[c].values[k] - mean;
+      (*residual)[static_cast<Eigen::Index>(c * data.rows() + k)] = innovation * gains[k].inverse;
+      mean += gains[k].update * innovation;
+    }
+  }
+  return log_determinant;
+}
+
+void whiten_columns(const Dataset& data, const physics::Prediction& prediction, const std::vector<double>& slopes,
+                    RowMatrix& jacobian, const std::vector<int>& target_columns) {
+  const std::size_t count = prediction.columns;
+  std::vector<Gain> gains;
+  std::vector<double> mean(count);
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    const MeasuredChannel& channel = data.channels[c];
+    if (channel.samples == 0) continue;
+    gains_of(channel, data.time_s, gains);
+    std::fill(mean.begin(), mean.end(), 0.0);
+    for (std::size_t k = 0; k < data.rows(); ++k) {
+      const Gain& g = gains[k];
+      for (std::size_t p = 0; p < count; ++p) mean[p] *= g.fade;
+      if (!g.present) continue;
+      const double* by = prediction.channels[c].derivatives.data() + k * count;
+      double* out = jacobian.row(static_cast<Eigen::Index>(c * data.rows() + k)).data();
+      for (std::size_t p = 0; p < count; ++p) {
+        const double innovation = by[p] - mean[p];
+        out[target_columns[p]] = innovation * g.inverse * slopes[p];
+        mean[p] += g.update * innovation;
+      }
+    }
+  }
+}
+
+}  // namespace zerodrift::diagnosis

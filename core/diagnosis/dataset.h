@@ -1,0 +1,53 @@
+#pragma once
+// A recording prepared for comparison with a simulation: the channels both have, cleaned of spikes, with the noise each
+// is expected to show. The difference between a right simulation and a recording is not white: it is a slow drift (what
+// a one-dimensional model cannot know; Ornstein-Uhlenbeck, 1500 s) plus white sensor noise plus, where inputs switch
+// between samples, timing noise (physics: Schisler 1979 finds ARMA(1,1) in heat conduction residuals). Residuals and
+// Jacobian columns are whitened by the same Kalman filter, whose gains do not depend on the data; then least squares is
+// exact.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/physics/prediction.h"
+#include "core/recording/recording.h"
+
+namespace zerodrift::diagnosis {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct MeasuredChannel {
+  std::string name;
+  bool temperature = true;
+  std::vector<double> values;  // 0 where absent
+  std::vector<bool> present;
+  double white = 0.0;          // sigma of the sensor noise
+  double drift = 0.0;          // sigma of the slow drift
+  std::vector<double> timing;  // variance added at each sample by unknown switching times
+  int samples = 0;
+};
+
+struct Dataset {
+  const recording::Recording* recording = nullptr;
+  std::vector<double> time_s;
+  std::vector<MeasuredChannel> channels;  // in the order of the network's observations; no samples: not measured
+
+  std::size_t rows() const { return time_s.size(); }
+  std::size_t stacked() const { return rows() * channels.size(); }
+  int samples() const;
+};
+
+Dataset make_dataset(const recording::Recording& recording, const physics::Network& network);
+/// The same with the slow drift of every channel times a factor.
+Dataset with_drift(Dataset data, double factor);
+/// Sets the timing noise from how much the switching time moves the nominal prediction.
+void set_timing_noise(Dataset& data, const physics::Network& network, const physics::InputSet& inputs);
+
+/// Whitens measured - predicted and, if wanted, the prediction's derivatives (times `slopes`) as columns starting at
+/// `first_column` of `jacobian`. Row = channel * rows + sample. Returns the log determinant sum(ln S).
+double whiten(const Dataset& data, const physics::Prediction& prediction, Eigen::VectorXd* residual);
+void whiten_columns(const Dataset& data, const physics::Prediction& prediction, const std::vector<double>& slopes,
+                    RowMatrix& jacobian, const std::vector<int>& target_columns);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,132 @@
+#pragma once
+// What did the simulation leave out? From a machine description and a recording: where and when they differ (mismatch),
+// which effect explains it (effects, rivals, confidence), the description with it (refined), and how much better it
+// fits, on data used for the fit and on recordings that were not. "Nothing is missing" and "unexplained" are answers
+// too. Everything the Physics page draws is here as data; sentences are made from `Sentence` in app/text.
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/task_context.h"
+#include "core/physics/machine.h"
+#include "core/recording/recording.h"
+
+namespace zerodrift::diagnosis {
+
+enum class Verdict { consistent, missing_effect, unexplained };
+std::string_view name_of(Verdict verdict);
+
+/// One fact in words: an id of the text catalogue and its numbers. `english` is the sentence in English.
+struct Sentence {
+  std::string id;
+  std::map<std::string, std::string> facts;
+  std::string english;
+};
+
+struct FoundEffect {
+  std::string id;
+  std::string component;
+  std::optional<double> position_mm;
+  double position_sigma_mm = 0.0;
+  std::string channel;
+  std::map<std::string, double> parameters;
+  std::map<std::string, double> sigma;
+  std::map<std::string, std::string> words;  // law, region, driver ...
+  double confidence = 0.0;
+  double log_evidence_gain = 0.0;
+  std::vector<std::string> bounds_reached;
+  std::map<std::string, double> contribution;  // channel -> rms of what the effect changes, K or um
+  Sentence explanation;
+};
+
+struct Rival {
+  std::string id;
+  std::string component;
+  std::optional<double> position_mm;
+  std::string channel;
+  double behind = 0.0;  // log evidence behind the best
+  Sentence why;
+};
+
+/// Everything about one channel that is drawn or told.
+struct ChannelReport {
+  std::string channel;
+  bool temperature = true;
+  std::vector<double> measured, nominal, refitted, explained;
+  double rms_nominal = 0.0, rms_refitted = 0.0, rms_explained = 0.0, noise = 0.0;
+  double excess_refitted = 0.0, excess_explained = 0.0;  // block excess, about 1 when nothing is missing
+  double score = 0.0;                                    // for naming the channel with the largest mismatch
+};
+
+/// Heat that the nominal simulation lacks, W per column, for the eye.
+struct HeatMap {
+  std::string component;
+  std::vector<double> position_mm;
+  std::vector<double> time_s;
+  std::vector<std::vector<double>> watts;  // [position][time]
+};
+
+struct Mismatch {
+  std::vector<std::string> channels;  // worst first
+  std::string component;
+  std::optional<std::pair<double, double>> position_mm;
+  double best_position_mm = 0.0;
+  std::vector<std::pair<double, double>> time_s;
+  std::string regime;
+  double missing_heat_W = 0.0;
+  std::vector<double> scan_position_mm, scan_evidence;  // one point source with a free history, along the rod
+};
+
+struct HeldOut {
+  std::string recording;
+  std::map<std::string, double> nominal, refitted, explained;  // rms by channel
+};
+
+/// The smallest size of an effect that this recording would have shown.
+struct Detectable {
+  std::string id;
+  std::string key;
+  double value = 0.0;
+};
+
+struct SuggestedExperiment {
+  Sentence text;
+  std::string id;
+  double distance = 0.0;  // expected evidence between the two rivals
+  std::string plan_json;  // a warm-up plan
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::consistent;
+  Mismatch mismatch;
+  std::vector<FoundEffect> effects;
+  std::vector<Rival> ambiguous_with;
+  std::optional<SuggestedExperiment> suggested;
+  std::vector<ChannelReport> channels;
+  std::vector<double> time_s;
+  std::vector<HeldOut> held_out;
+  std::vector<Detectable> detectable;
+  std::optional<HeatMap> heat;
+  std::vector<Sentence> sentences;
+  std::vector<std::string> notes;
+  double drift_factor = 1.0;  // slow discrepancy chosen by evidence, relative to the default
+  double excess_before = 0.0, excess_after = 0.0;
+  double seconds = 0.0;
+  physics::Machine refined;
+};
+
+struct DiagnoseOptions {
+  bool details = true;  // heat map, experiment, detectable limits
+};
+
+/// The first recording is fitted; the others are held out.
+Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
+                           const DiagnoseOptions& options = {}, const TaskContext& context = {});
+
+/// diagnosis.json.
+nlohmann::json to_json(const Diagnosis& diagnosis);
+
+}  // namespace zerodrift::diagnosis

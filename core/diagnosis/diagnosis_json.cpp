@@ -1,0 +1,109 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/diagnosis/diagnosis.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+using nlohmann::json;
+
+json text_or_null(const std::string& text) {
+  return text.empty() ? json() : json(text);
+}
+
+json json_of(const FoundEffect& effect) {
+  json out = {{"id", effect.id},
+              {"component", text_or_null(effect.component)},
+              {"position_mm", effect.position_mm ? json(*effect.position_mm) : json()},
+              {"channel", text_or_null(effect.channel)},
+              {"parameters", effect.parameters},
+              {"sigma", effect.sigma},
+              {"confidence", effect.confidence},
+              {"explanation", effect.explanation.english},
+              {"log_evidence_gain", effect.log_evidence_gain},
+              {"contribution", effect.contribution}};
+  for (const auto& [key, value] : effect.words) {
+    if (key != "component" && key != "channel") out["parameters"][key] = value;
+  }
+  if (!effect.bounds_reached.empty()) out["bounds_reached"] = effect.bounds_reached;
+  return out;
+}
+
+json json_of(const Mismatch& m) {
+  json out = {{"channels", m.channels}, {"component", text_or_null(m.component)},
+              {"regime", m.regime},     {"missing_heat_W", m.missing_heat_W},
+              {"position_mm", json()},  {"time_s", json::array()}};
+  if (m.position_mm) {
+    out["position_mm"] = {m.position_mm->first, m.position_mm->second};
+    out["best_position_mm"] = m.best_position_mm;
+  }
+  for (const auto& [from, to] : m.time_s) out["time_s"].push_back({from, to});
+  return out;
+}
+
+}  // namespace
+
+json to_json(const Diagnosis& diagnosis) {
+  json out = {{"verdict", std::string(name_of(diagnosis.verdict))},
+              {"mismatch", json_of(diagnosis.mismatch)},
+              {"effects", json::array()},
+              {"ambiguous_with", json::array()},
+              {"suggested_experiment", json()},
+              {"notes", diagnosis.notes},
+              {"excess", {{"before", diagnosis.excess_before}, {"after", diagnosis.excess_after}}},
+              {"drift_factor", diagnosis.drift_factor},
+              {"seconds", diagnosis.seconds}};
+  for (const auto& effect : diagnosis.effects) out["effects"].push_back(json_of(effect));
+  for (const auto& rival : diagnosis.ambiguous_with) {
+    out["ambiguous_with"].push_back({{"id", rival.id},
+                                     {"why", rival.why.english},
+                                     {"component", text_or_null(rival.component)},
+                                     {"channel", text_or_null(rival.channel)},
+                                     {"position_mm", rival.position_mm ? json(*rival.position_mm) : json()},
+                                     {"behind", rival.behind}});
+  }
+  if (diagnosis.suggested && !diagnosis.suggested->plan_json.empty()) {
+    out["suggested_experiment"] = {{"text", diagnosis.suggested->text.english},
+                                   {"plan", json::parse(diagnosis.suggested->plan_json)}};
+  }
+  json rmse = {{"before", json::object()},          {"refitted", json::object()},
+               {"after", json::object()},           {"noise", json::object()},
+               {"held_out_before", json::object()}, {"held_out_refitted", json::object()},
+               {"held_out_after", json::object()}};
+  for (const auto& channel : diagnosis.channels) {
+    rmse["before"][channel.channel] = channel.rms_nominal;
+    rmse["refitted"][channel.channel] = channel.rms_refitted;
+    rmse["after"][channel.channel] = channel.rms_explained;
+    rmse["noise"][channel.channel] = channel.noise;
+  }
+  // Several held-out recordings: the root of the mean square, and each on its own beside it.
+  const auto pooled = [&](auto member) {
+    std::map<std::string, std::pair<double, int>> sum;
+    for (const auto& other : diagnosis.held_out) {
+      for (const auto& [channel, rms] : other.*member) {
+        sum[channel].first += rms * rms;
+        ++sum[channel].second;
+      }
+    }
+    json values = json::object();
+    for (const auto& [channel, s] : sum) values[channel] = std::sqrt(s.first / s.second);
+    return values;
+  };
+  rmse["held_out_before"] = pooled(&HeldOut::nominal);
+  rmse["held_out_refitted"] = pooled(&HeldOut::refitted);
+  rmse["held_out_after"] = pooled(&HeldOut::explained);
+  out["rmse"] = rmse;
+  for (const auto& other : diagnosis.held_out) {
+    out["held_out"].push_back({{"recording", other.recording},
+                               {"before", other.nominal},
+                               {"refitted", other.refitted},
+                               {"after", other.explained}});
+  }
+  for (const auto& one : diagnosis.detectable)
+    out["could_have_detected"][one.id] = {{"key", one.key}, {"value", one.value}};
+  for (const auto& sentence : diagnosis.sentences) out["sentences"].push_back(sentence.english);
+  return out;
+}
+
+}  // namespace zerodrift::diagnosis

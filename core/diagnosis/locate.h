@@ -1,0 +1,27 @@
+#pragma once
+// Where, when and in which regime simulation and recording differ, before any effect is named. The place comes from a
+// point source with a free heat history, scanned along the rod: the evidence over x peaks where heat is missing.
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/model.h"
+
+namespace zerodrift::diagnosis {
+
+struct SourceScan {
+  std::string component;
+  std::vector<double> position_mm;
+  std::vector<double> evidence;
+  double best_mm = 0.0;
+  double from_mm = 0.0;
+  double to_mm = 0.0;
+  std::vector<double> time_s;  // of the heat history at the best place
+  std::vector<double> watts;
+  std::vector<std::vector<double>> watts_by_position;
+};
+
+/// Linearised at the base's nominal values (every unknown at its mean): at the fitted values they absorb the place.
+SourceScan scan_sources(const Model& nominal, const std::string& component);
+/// "while the spindle turns", "while the coolant runs" ... the input that the missing heat follows best.
+std::string regime_of(const SourceScan& scan, const recording::Recording& recording);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,82 @@
+#pragma once
+// A hypothesis: the machine with some effects added, fitted to one recording with all its parameters free inside their
+// priors. Levenberg-Marquardt on the whitened residual and the standardised unknowns (prior rows are identity rows),
+// bounds by projection. Its evidence (Laplace) says how much the data prefer it, many parameters or few.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/base/task_context.h"
+#include "core/diagnosis/dataset.h"
+#include "core/physics/builder.h"
+
+namespace zerodrift::diagnosis {
+
+struct FitOptions {
+  int iterations = 12;
+  double tolerance = 0.05;  // of the cost, when all columns are fresh
+  bool final_refresh = true;
+};
+
+class Model {
+ public:
+  /// The machine's effects with `candidate` set are the hypothesis.
+  Model(physics::Machine machine, std::shared_ptr<const Dataset> data);
+
+  const physics::Machine& machine() const { return m_machine; }
+  const physics::Network& network() const { return m_network; }
+  const physics::InputSet& inputs() const { return m_inputs; }
+  const Dataset& data() const { return *m_data; }
+  std::shared_ptr<const Dataset> shared_data() const { return m_data; }
+
+  std::size_t unknowns() const { return m_free.size(); }
+  const physics::Parameter& unknown(std::size_t i) const { return m_network.parameters[m_free[i]]; }
+  int free_index(int parameter) const;  // position of a network parameter among the unknowns, -1: fixed
+  const Eigen::VectorXd& z() const { return m_z; }
+  double value(std::size_t i) const { return unknown(i).value_of(m_z[static_cast<Eigen::Index>(i)]); }
+  /// Standard deviation of unknown i in its own unit.
+  double sigma(std::size_t i) const;
+  std::vector<double> values() const { return values_at(m_z); }
+  std::vector<double> values_at(const Eigen::VectorXd& z) const;
+  /// Takes over the unknowns that a parent model has too, and its Jacobian columns where `columns` is set.
+  void start_from(const Model& parent, bool columns);
+  void set_z(std::size_t i, double z);
+
+  void fit(const FitOptions& options);
+
+  double cost() const { return m_cost; }
+  double log_evidence() const;        // -cost/2 - ln det(J'J + I)/2
+  double log_evidence_total() const;  // with the noise's own determinant: comparable between noise levels
+  const Eigen::VectorXd& residual() const { return m_residual; }
+  const RowMatrix& jacobian() const { return m_jacobian; }
+  Eigen::MatrixXd hessian() const;  // J'J + I
+  physics::Prediction prediction() const { return physics::predict(m_network, m_inputs, values()); }
+  /// The same model on another recording of the machine; per-recording unknowns at their means.
+  std::vector<std::string> bounds_reached() const;
+  double gain = 0.0;  // of the score test that suggested it
+
+ private:
+  void residual_at(const Eigen::VectorXd& z, Eigen::VectorXd& residual);
+  void refresh(const std::vector<int>& unknowns);
+  std::vector<int> all_unknowns() const;
+  std::vector<int> effect_unknowns() const;
+
+  physics::Machine m_machine;
+  std::shared_ptr<const Dataset> m_data;
+  physics::Network m_network;
+  physics::InputSet m_inputs;
+  std::vector<int> m_free;
+  Eigen::VectorXd m_z, m_low, m_high, m_residual;
+  RowMatrix m_jacobian;
+  bool m_borrowed = false;  // some columns come from the parent
+  bool m_have_columns = false;
+  double m_cost = 0.0;
+  double m_log_determinant = 0.0;
+};
+
+/// Excess of slow variation per channel: mean square of sums of the whitened residual over blocks of 15 minutes; about
+/// 1 when nothing is missing.
+std::vector<double> block_excess(const Dataset& data, const Eigen::VectorXd& residual);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,98 @@
+#include "core/diagnosis/refined.h"
+
+#include <cmath>
+
+namespace zerodrift::diagnosis {
+namespace {
+
+using physics::Component;
+using physics::Machine;
+
+bool is_width(const std::string& key) {
+  return key.size() > 12 && key.compare(key.size() - 12, 12, "_prior_sigma") == 0;
+}
+
+void take(Machine& machine, const physics::Parameter& p, double value) {
+  for (auto& component : machine.components) {
+    if (component.id != p.component) continue;
+    if (p.key == "conductivity_W_mK") component.material.conductivity_W_mK = value;
+    if (p.key == "heat_capacity_J_kgK") component.material.heat_capacity_J_kgK = value;
+    if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value;
+    if (p.key == "expansion_1_K") component.material.expansion_1_K = value;
+    for (auto& source : component.sources) {
+      if (p.key == "scale:" + source.id) source.scale = value;
+      for (const auto& law : source.law) {
+        if (p.key == "watts_" + law + ":" + source.id) source.law_watts[law] = value;
+      }
+    }
+  }
+  for (auto& coupling : machine.couplings) {
+    if (p.key == "conductance_W_K" && p.effect < 0 &&
+        p.component == coupling.first.component + "-" + coupling.second.component) {
+      coupling.conductance_W_K = value;
+    }
+  }
+}
+
+}  // namespace
+
+physics::EffectSpec fitted_effect(const Model& model, std::size_t index, std::map<std::string, double>* sigma) {
+  physics::EffectSpec spec = model.machine().effects[index];
+  for (auto it = spec.numbers.begin(); it != spec.numbers.end();) {
+    it = is_width(it->first) ? spec.numbers.erase(it) : std::next(it);
+  }
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    const auto& p = model.unknown(i);
+    if (p.effect != static_cast<int>(index)) continue;
+    spec.numbers[p.key] = model.value(i);
+    if (sigma != nullptr) (*sigma)[p.key] = model.sigma(i);
+  }
+  return spec;
+}
+
+Machine refined_machine(const Model& model) {
+  Machine machine = model.machine();
+  for (std::size_t i = 0; i < model.unknowns(); ++i) take(machine, model.unknown(i), model.value(i));
+  for (std::size_t e = 0; e < machine.effects.size(); ++e) {
+    machine.effects[e] = fitted_effect(model, e);
+    machine.effects[e].candidate = false;
+  }
+  for (auto& component : machine.components) {
+    for (auto& source : component.sources) {
+      if (source.kind == physics::SourceKind::speed) source.full_speed_rpm = model.network().full_speed_rpm;
+      if (!source.law_watts.empty()) source.power_unknown = false;
+    }
+  }
+  return machine;
+}
+
+/// The start of the run tells the sensors' offsets and the start temperature of this recording: least squares on the
+/// first samples only, with the priors of the description. Nothing later is looked at.
+physics::Prediction predict_other(const Machine& refined, const recording::Recording& recording) {
+  const physics::Network network = physics::build_network(refined, recording);
+  const physics::InputSet inputs = physics::make_inputs(network, recording);
+  std::vector<double> values = network.start_values();
+  values[network.hold_parameter] = network.parameters[network.hold_parameter].mean;
+  physics::Prediction prediction = predict(network, inputs, values);
+  for (std::size_t c = 0; c < prediction.channels.size(); ++c) {
+    auto& channel = prediction.channels[c];
+    const recording::Channel* seen = recording.find(channel.channel);
+    const physics::Observation& observation = network.observations[c];
+    if (seen == nullptr || observation.offset < 0) continue;
+    const double noise = physics::noise_width(seen->values, channel.temperature ? 0.01 : 0.05);
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t k = 0; k < seen->values.size() && count < 5; ++k) {
+      if (!std::isfinite(seen->values[k])) continue;
+      sum += seen->values[k] - channel.values[k];
+      ++count;
+    }
+    if (count == 0) continue;
+    const double prior = network.parameters[observation.offset].sigma;
+    const double share = prior * prior / (prior * prior + noise * noise / count);
+    for (double& value : channel.values) value += share * sum / count;
+  }
+  return prediction;
+}
+
+}  // namespace zerodrift::diagnosis

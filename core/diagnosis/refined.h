@@ -1,0 +1,16 @@
+#pragma once
+// Between a fitted model and a machine description: the description with the fitted values, the effects with theirs.
+
+#include "core/diagnosis/model.h"
+
+namespace zerodrift::diagnosis {
+
+/// The description of today with the fitted values; candidates become described effects.
+physics::Machine refined_machine(const Model& model);
+/// Predicts another recording with it: its own start (first samples) gives the sensors' offsets of that recording.
+physics::Prediction predict_other(const physics::Machine& refined, const recording::Recording& recording);
+/// Numbers of one effect of the model after the fit, without prior widths; sigma by key.
+physics::EffectSpec fitted_effect(const Model& model, std::size_t index,
+                                  std::map<std::string, double>* sigma = nullptr);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,250 @@
+#include "core/diagnosis/screening.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+namespace zerodrift::diagnosis {
+namespace {
+
+using Eigen::Index;
+using physics::EffectSpec;
+using physics::Machine;
+
+bool varies(const recording::Recording& recording, const char* name) {
+  const recording::Channel* channel = recording.find(name);
+  return channel != nullptr &&
+         std::any_of(channel->values.begin(), channel->values.end(), [](double v) { return std::abs(v) > 1e-9; });
+}
+
+std::pair<double, double> limits(const recording::Channel& channel) {
+  double low = 1e300, high = -1e300;
+  for (const double v : channel.values) {
+    if (!std::isfinite(v)) continue;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  return {low, high};
+}
+
+/// The moments of the largest single-sample jumps, each at the first sample after it.
+std::vector<double> jumps(const recording::Channel& channel, const std::vector<double>& time_s) {
+  std::vector<std::pair<double, double>> list;
+  const double noise = physics::noise_width(channel.values, 0.05);
+  for (std::size_t k = 2; k + 2 < time_s.size(); ++k) {
+    const auto& v = channel.values;
+    const double jump = std::abs(0.5 * (v[k] + v[k + 1]) - 0.5 * (v[k - 1] + v[k - 2]));
+    if (std::isfinite(jump) && jump > 4.0 * noise) list.emplace_back(jump, time_s[k]);
+  }
+  std::sort(list.rbegin(), list.rend());
+  std::vector<double> times_s;
+  for (const auto& [jump, at_s] : list) {
+    const bool near =
+        std::any_of(times_s.begin(), times_s.end(), [&, t = at_s](double s) { return std::abs(s - t) < 300.0; });
+    if (!near) times_s.push_back(at_s);
+    if (times_s.size() == 3) break;
+  }
+  return times_s;
+}
+
+bool conflicts(const Machine& machine, const EffectSpec& have, const EffectSpec& want) {
+  if (have.id != want.id) return false;
+  const auto same = [&](const char* word) { return have.word_or(word, "") == want.word_or(word, ""); };
+  if (have.id == "extra_heat_source" || have.id == "contact_resistance") {
+    const physics::Component* component = machine.find(want.word_or("component", ""));
+    const double near_mm = component == nullptr ? 1.0 : 0.07 * component->length_mm;
+    return same("law") && std::abs(have.number_or("position_mm", 0) - want.number_or("position_mm", 0)) < near_mm;
+  }
+  if (have.id == "neighbour_heat") return same("component") && same("neighbour");
+  if (have.words.count("channel") != 0 || want.words.count("channel") != 0) return same("channel");
+  if (have.words.count("component") != 0 && want.words.count("component") != 0) return same("component");
+  return true;
+}
+
+/// A form that replaces part of the network cannot stand beside its rivals in one simulation.
+bool stands_alone(const EffectSpec& spec) {
+  return spec.id == "heater_body";
+}
+
+struct Columns {
+  std::vector<int> parameters;
+  std::vector<double> slopes;
+  std::vector<std::pair<std::size_t, std::size_t>> of_candidate;  // first column, count
+};
+
+Columns amplitude_columns(const physics::Network& network, std::size_t first_effect, std::size_t count) {
+  Columns columns;
+  columns.of_candidate.assign(count, {0, 0});
+  for (std::size_t c = 0; c < count; ++c) {
+    columns.of_candidate[c].first = columns.parameters.size();
+    for (std::size_t p = 0; p < network.parameters.size(); ++p) {
+      const auto& parameter = network.parameters[p];
+      if (parameter.effect != static_cast<int>(first_effect + c) || !parameter.amplitude) continue;
+      columns.parameters.push_back(static_cast<int>(p));
+      columns.slopes.push_back(parameter.sigma);
+    }
+    columns.of_candidate[c].second = columns.parameters.size() - columns.of_candidate[c].first;
+  }
+  return columns;
+}
+
+/// Scores a group of candidates that may stand side by side.
+void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::vector<Candidate>& group) {
+  if (group.empty()) return;
+  Machine machine = base.machine();
+  const std::size_t first_effect = machine.effects.size();
+  for (const auto& candidate : group) machine.effects.push_back(candidate.spec);
+  Model wide(std::move(machine), base.shared_data());
+  wide.start_from(base, false);
+  const Columns columns = amplitude_columns(wide.network(), first_effect, group.size());
+  const physics::Prediction prediction =
+      physics::predict(wide.network(), wide.inputs(), wide.values(), columns.parameters);
+  RowMatrix s = RowMatrix::Zero(base.residual().size(), static_cast<Index>(columns.parameters.size()));
+  std::vector<int> targets(columns.parameters.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) targets[i] = static_cast<int>(i);
+  whiten_columns(base.data(), prediction, columns.slopes, s, targets);
+  const Eigen::MatrixXd js = base.jacobian().transpose() * s;
+  const Eigen::MatrixXd solved = factors.solve(js);
+  const Eigen::VectorXd base_gradient = base.jacobian().transpose() * base.residual() - base.z();
+  const Eigen::VectorXd gradient = s.transpose() * base.residual() - solved.transpose() * base_gradient;
+  for (std::size_t c = 0; c < group.size(); ++c) {
+    const Index first = static_cast<Index>(columns.of_candidate[c].first);
+    const Index count = static_cast<Index>(columns.of_candidate[c].second);
+    if (count == 0) continue;
+    const auto block = s.middleCols(first, count);
+    Eigen::MatrixXd d = block.transpose() * block + Eigen::MatrixXd::Identity(count, count) -
+                        js.middleCols(first, count).transpose() * solved.middleCols(first, count);
+    const Eigen::VectorXd g = gradient.segment(first, count);
+    Eigen::VectorXd step = d.ldlt().solve(g);
+    double gain = step.dot(g);
+    const auto& main = wide.network().parameters[columns.parameters[static_cast<std::size_t>(first)]];
+    group[c].detectable = 5.0 * main.sigma / std::sqrt(std::max(1e-12, d(0, 0)));
+    if (main.low >= 0.0 && step[0] <= 0.0) gain = 0.0;  // physics forbids the sign
+    group[c].gain = gain;
+    group[c].step.assign(step.data(), step.data() + count);
+  }
+}
+
+}  // namespace
+
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& job) {
+  const std::size_t threads = std::min<std::size_t>({count, 4, std::max(1u, std::thread::hardware_concurrency())});
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) job(i);
+  };
+  std::vector<std::jthread> helpers;
+  for (std::size_t t = 1; t < threads; ++t) helpers.emplace_back(work);
+  work();
+}
+
+physics::RunFacts facts_of(const Machine& machine, const recording::Recording& recording) {
+  physics::RunFacts facts;
+  facts.duration_s = recording.time_s.back() - recording.time_s.front();
+  facts.has_speed = varies(recording, "spindle_rpm");
+  facts.has_coolant = varies(recording, "coolant_on");
+  facts.has_load = varies(recording, "spindle_load_W");
+  facts.room_logged = !machine.room.channel.empty() && recording.find(machine.room.channel) != nullptr;
+  facts.full_speed_rpm = machine.rated_speed_rpm();
+  if (const auto* speed = recording.find("spindle_rpm"); speed != nullptr && facts.full_speed_rpm <= 0.0) {
+    facts.full_speed_rpm = std::max(1.0, limits(*speed).second);
+  }
+  for (const auto& component : machine.components) {
+    for (const auto& source : component.sources) {
+      double input = facts.full_speed_rpm;
+      const bool by_speed = source.kind == physics::SourceKind::motor || source.kind == physics::SourceKind::bearing;
+      if (const auto* channel = recording.find(source.channel); !by_speed && channel != nullptr) {
+        input = limits(*channel).second;
+      }
+      facts.typical_heat_W += physics::nominal_heat_W(source, input, std::max(1.0, facts.full_speed_rpm));
+    }
+  }
+  for (const auto& sensor : machine.sensors) {
+    const auto* channel = recording.find(sensor.channel);
+    if (channel == nullptr || recording::present_count(*channel) < 10) continue;
+    facts.channels.push_back(sensor.channel);
+    const auto [low, high] = limits(*channel);
+    facts.temperature_rise_K = std::max(facts.temperature_rise_K, high - low);
+  }
+  for (const auto& displacement : machine.displacements) {
+    const auto* channel = recording.find(displacement.channel);
+    if (channel == nullptr || recording::present_count(*channel) < 10) continue;
+    const auto [low, high] = limits(*channel);
+    facts.displacement_range_um = std::max(facts.displacement_range_um, high - low);
+    facts.jump_times_s[displacement.channel] = jumps(*channel, recording.time_s);
+  }
+  return facts;
+}
+
+std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts) {
+  std::vector<Candidate> together;
+  std::vector<std::vector<Candidate>> alone;
+  const auto measured = [&](const EffectSpec& spec) {
+    const std::string channel = spec.word_or("channel", "");
+    if (channel.empty()) return true;
+    for (const auto& one : base.data().channels) {
+      if (one.name == channel) return one.samples > 0;
+    }
+    return false;
+  };
+  for (const physics::Effect* effect : physics::all_effects()) {
+    for (auto& spec : effect->candidates(base.machine(), facts)) {
+      const bool taken = std::any_of(base.machine().effects.begin(), base.machine().effects.end(),
+                                     [&](const EffectSpec& have) { return conflicts(base.machine(), have, spec); });
+      if (taken || !measured(spec)) continue;
+      if (stands_alone(spec)) {
+        alone.push_back({Candidate{std::move(spec), 0, 0, {}}});
+      } else {
+        together.push_back({std::move(spec), 0, 0, {}});
+      }
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factors(base.hessian());
+  score(base, factors, together);
+  for (auto& one : alone) {
+    score(base, factors, one);
+    together.push_back(one.front());
+  }
+  std::stable_sort(together.begin(), together.end(), [](auto& a, auto& b) { return a.gain > b.gain; });
+  return together;
+}
+
+std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate) {
+  Machine machine = base.machine();
+  machine.effects.push_back(candidate.spec);
+  const int index = static_cast<int>(machine.effects.size()) - 1;
+  auto model = std::make_shared<Model>(std::move(machine), base.shared_data());
+  model->start_from(base, true);
+  model->gain = candidate.gain;
+  std::size_t amplitude = 0;
+  for (std::size_t i = 0; i < model->unknowns(); ++i) {
+    const auto& parameter = model->unknown(i);
+    if (parameter.effect != index || !parameter.amplitude || amplitude >= candidate.step.size()) continue;
+    model->set_z(i, std::clamp(candidate.step[amplitude++], -3.0, 3.0));
+  }
+  return model;
+}
+
+std::shared_ptr<Model> reduced(const Model& model, std::size_t index) {
+  Machine machine = model.machine();
+  Machine reordered = machine;
+  reordered.effects.erase(reordered.effects.begin() + static_cast<std::ptrdiff_t>(index));
+  auto result = std::make_shared<Model>(std::move(reordered), model.shared_data());
+  for (std::size_t i = 0; i < result->unknowns(); ++i) {
+    const auto& want = result->unknown(i);
+    const int source = want.effect >= static_cast<int>(index) ? want.effect + 1 : want.effect;
+    for (std::size_t k = 0; k < model.unknowns(); ++k) {
+      const auto& have = model.unknown(k);
+      if (have.key == want.key && have.component == want.component && have.channel == want.channel &&
+          have.effect == source) {
+        result->set_z(i, model.z()[static_cast<Index>(k)]);
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace zerodrift::diagnosis

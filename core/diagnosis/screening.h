@@ -1,0 +1,30 @@
+#pragma once
+// Which effects could explain what the fitted base leaves: every form of every effect gets one efficient score test
+// (Rao 1948) around the base fit. All are derivatives of one simulation, so a hundred forms cost little more than one.
+
+#include <memory>
+#include <vector>
+
+#include "core/diagnosis/model.h"
+#include "core/physics/effects/effect.h"
+
+namespace zerodrift::diagnosis {
+
+struct Candidate {
+  physics::EffectSpec spec;
+  double gain = 0.0;         // cost that one step would save
+  double detectable = 0.0;   // amplitude that would have shown (5 sigma), in the amplitude's unit
+  std::vector<double> step;  // standardised amplitudes after that step, in the order of the effect's amplitudes
+};
+
+physics::RunFacts facts_of(const physics::Machine& machine, const recording::Recording& recording);
+/// Best first. Forms that the model already has are left out.
+std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts);
+/// The model with one candidate more, started at the candidate's step, not yet fitted.
+std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate);
+/// The model without its effect at `index`, not yet fitted.
+std::shared_ptr<Model> reduced(const Model& model, std::size_t index);
+/// Runs the jobs on as many threads as the machine has (at most four).
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& job);
+
+}  // namespace zerodrift::diagnosis

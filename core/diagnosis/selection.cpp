@@ -1,0 +1,214 @@
+#include "core/diagnosis/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace zerodrift::diagnosis {
+namespace {
+
+using ModelPtr = std::shared_ptr<Model>;
+
+const physics::EffectSpec& last_effect(const Model& model) {
+  return model.machine().effects.back();
+}
+
+bool by_evidence(const ModelPtr& a, const ModelPtr& b) {
+  return a->log_evidence() > b->log_evidence();
+}
+
+bool many_forms(const std::string& id) {
+  return id == "extra_heat_source" || id == "contact_resistance" || id == "bearing_preload" || id == "coolant" ||
+         id == "structure_bending" || id == "convection" || id == "sensor_lag" || id == "sensor_offset" ||
+         id == "sensor_gain";
+}
+
+struct RefineOptions {
+  int per_family = 2;
+  double least_gain = 6.0;
+  std::size_t most = 18;
+};
+
+/// The best-scored forms, at most a few a family, and not two neighbouring places of one law.
+std::vector<Candidate> leaders(const Model& base, const std::vector<Candidate>& screened,
+                               const RefineOptions& options) {
+  std::map<std::string, int> count;
+  std::vector<Candidate> chosen;
+  for (const auto& candidate : screened) {
+    if (candidate.gain < options.least_gain || chosen.size() >= options.most) break;
+    const std::string& id = candidate.spec.id;
+    if (count[id] >= options.per_family + (many_forms(id) ? 1 : 0)) continue;
+    const physics::Component* component = base.machine().find(candidate.spec.word_or("component", ""));
+    const bool near = component != nullptr && candidate.spec.numbers.count("position_mm") != 0 &&
+                      std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
+                        return other.spec.id == id && other.spec.words == candidate.spec.words &&
+                               std::abs(other.spec.number_or("position_mm", 0) -
+                                        candidate.spec.number_or("position_mm", 0)) < 0.07 * component->length_mm;
+                      });
+    if (near) continue;
+    ++count[id];
+    chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+/// An unconverged fit with a large gain invents a second effect, so the leaders are polished before they are compared.
+void polish(const ModelPtr& base, std::vector<ModelPtr>& fits) {
+  std::set<const Model*> polished;
+  for (int round = 0; round < 2 && !fits.empty(); ++round) {
+    std::sort(fits.begin(), fits.end(), by_evidence);
+    const double lead = fits.front()->log_evidence();
+    const double margin = std::max(60.0, 0.35 * std::abs(lead - base->log_evidence()));
+    std::map<std::string, int> count;
+    std::vector<ModelPtr> turn;
+    for (const auto& fit : fits) {
+      const std::string& id = last_effect(*fit).id;
+      if (count[id] >= (round == 0 ? 2 : 1) || count.size() > 4) continue;
+      ++count[id];
+      if (polished.count(fit.get()) != 0 || fit->log_evidence() < lead - margin) continue;
+      turn.push_back(fit);
+      polished.insert(fit.get());
+    }
+    in_parallel(turn.size(), [&](std::size_t i) { turn[i]->fit({15, 0.05, true}); });
+  }
+  std::sort(fits.begin(), fits.end(), by_evidence);
+}
+
+std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>& screened,
+                             const RefineOptions& options) {
+  const std::vector<Candidate> chosen = leaders(*base, screened, options);
+  std::vector<ModelPtr> fits(chosen.size());
+  in_parallel(chosen.size(), [&](std::size_t i) {
+    fits[i] = extended(*base, chosen[i]);
+    fits[i]->fit({8, 0.05, false});
+  });
+  polish(base, fits);
+  return fits;
+}
+
+class Selector {
+ public:
+  Selector(physics::RunFacts facts, SelectionOptions options, const TaskContext& context)
+      : m_facts(std::move(facts)), m_options(options), m_context(context) {}
+
+  Result<Selection> run(const physics::Machine& machine, std::shared_ptr<const Dataset> data) {
+    m_result.described = machine.effects.size();
+    m_result.base = std::make_shared<Model>(machine, std::move(data));
+    m_result.base->fit({});
+    m_result.best = m_result.base;
+    m_context.progress(0.15, "screening");
+    if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+    m_result.screened = screen(*m_result.base, m_facts);
+    auto first = refine(m_result.base, m_result.screened, {});
+    m_result.levels.push_back(first);
+    m_context.progress(0.5, "refitting");
+    if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+    if (first.empty() || first.front()->log_evidence() - m_result.base->log_evidence() <= m_options.first)
+      return m_result;
+    m_result.best = first.front();
+    for (int level = 2; level <= m_options.most_effects; ++level) {
+      const ModelPtr before = m_result.best;
+      add_one(level == 2 ? beam_of(first) : std::vector<ModelPtr>{m_result.best});
+      m_context.progress(0.4 + 0.25 * level, "further_effects");
+      if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+      if (m_result.best == before) break;
+      eliminate();
+    }
+    return m_result;
+  }
+
+ private:
+  /// The two best first effects of different families.
+  std::vector<ModelPtr> beam_of(const std::vector<ModelPtr>& first) const {
+    std::vector<ModelPtr> beam;
+    std::set<std::string> ids;
+    for (const auto& fit : first) {
+      if (fit->log_evidence() <= m_result.base->log_evidence() + m_options.first) break;
+      if (ids.insert(last_effect(*fit).id).second) beam.push_back(fit);
+      if (beam.size() == 2) break;
+    }
+    return beam;
+  }
+
+  void add_one(const std::vector<ModelPtr>& beam) {
+    std::vector<ModelPtr> fits;
+    for (const auto& start : beam) {
+      start->fit({2, 0.05, true});
+      auto screened = screen(*start, m_facts);
+      if (screened.size() > 60) screened.resize(60);
+      for (auto& fit : refine(start, screened, {1, m_options.second_screen, 7})) fits.push_back(std::move(fit));
+    }
+    std::sort(fits.begin(), fits.end(), by_evidence);
+    m_result.levels.push_back(fits);
+    const Excess before = excess_of(*m_result.best);
+    for (const auto& fit : fits) {
+      if (accepted(*fit, before)) {
+        m_result.best = fit;
+        return;
+      }
+    }
+  }
+
+  bool accepted(const Model& fit, const Excess& before) const {
+    const double gained = fit.log_evidence() - m_result.best->log_evidence();
+    if (before.largest < 1.6) return gained > m_options.second_clean;
+    const double so_far = m_result.best->log_evidence() - m_result.base->log_evidence();
+    if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
+    const Excess after = excess_of(fit);
+    return after.largest - 1.0 < 0.6 * (before.largest - 1.0) || after.mean - 1.0 < 0.6 * (before.mean - 1.0);
+  }
+
+  /// Is each effect still needed beside the others?
+  void eliminate() {
+    for (bool removed = true; removed;) {
+      removed = false;
+      const std::size_t count = m_result.best->machine().effects.size();
+      if (count <= m_result.described + 1) return;
+      for (std::size_t i = m_result.described; i < count; ++i) {
+        ModelPtr without = reduced(*m_result.best, i);
+        without->fit({15, 0.05, true});
+        if (m_result.best->log_evidence() - without->log_evidence() >= m_options.second_clean) continue;
+        m_result.best = without;
+        add_one({without});
+        removed = m_result.best == without;
+        break;
+      }
+    }
+  }
+
+  physics::RunFacts m_facts;
+  SelectionOptions m_options;
+  const TaskContext& m_context;
+  Selection m_result;
+};
+
+}  // namespace
+
+Excess excess_of(const Model& model) {
+  Excess excess;
+  excess.per_channel = block_excess(model.data(), model.residual());
+  int count = 0;
+  for (std::size_t c = 0; c < excess.per_channel.size(); ++c) {
+    if (model.data().channels[c].samples == 0) continue;
+    excess.largest = std::max(excess.largest, excess.per_channel[c]);
+    excess.mean += excess.per_channel[c];
+    ++count;
+  }
+  if (count > 0) excess.mean /= count;
+  return excess;
+}
+
+std::vector<std::size_t> Selection::effects() const {
+  std::vector<std::size_t> list;
+  for (std::size_t i = described; i < best->machine().effects.size(); ++i) list.push_back(i);
+  return list;
+}
+
+Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,
+                                 const physics::RunFacts& facts, const SelectionOptions& options,
+                                 const TaskContext& context) {
+  return Selector(facts, options, context).run(machine, std::move(data));
+}
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,42 @@
+#pragma once
+// Which effects, if any: refit of the best-scored forms, evidence, one or several effects, elimination, adequacy.
+
+#include <memory>
+#include <vector>
+
+#include "core/diagnosis/screening.h"
+
+namespace zerodrift::diagnosis {
+
+/// Thresholds on the log evidence (natural logarithm), found on concealed cases; see the proof.
+struct SelectionOptions {
+  double first = 5.5;         // an effect against none
+  double second_screen = 20;  // score gain that makes a second effect worth a refit
+  double second_clean = 10;   // a second effect where the first leaves nothing slow
+  double second = 25;         // a second effect where it does
+  double second_relative = 0.002;
+  int most_effects = 3;
+};
+
+struct Excess {
+  std::vector<double> per_channel;
+  double largest = 0.0;
+  double mean = 0.0;
+};
+
+Excess excess_of(const Model& model);
+
+struct Selection {
+  std::shared_ptr<Model> base;  // refitted without any effect
+  std::shared_ptr<Model> best;
+  std::vector<Candidate> screened;                          // around the base
+  std::vector<std::vector<std::shared_ptr<Model>>> levels;  // refits with one effect more, best first
+  std::size_t described = 0;                                // effects that the description had
+  std::vector<std::size_t> effects() const;                 // indices in best->machine().effects
+};
+
+Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,
+                                 const physics::RunFacts& facts, const SelectionOptions& options,
+                                 const TaskContext& context);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,81 @@
+// An imperfect joint at x: the heat flow across it needs a temperature step R q. The resistance is shared by the two
+// faces next to x, so that x is continuous.
+#include "core/physics/effects/laws.h"
+
+namespace zerodrift::physics {
+namespace {
+
+/// Change of one face's conductance k A / dx by the share of the joint that lies on it.
+Law face_law(double face, double cell_m, double section_m2) {
+  return [=](const LawPoint& at) {
+    Strength s;
+    const double u = 1e-3 * at.values[1] / cell_m - face;
+    const double share = std::max(0.0, 1.0 - std::abs(u));
+    if (share == 0.0) return s;
+    const double by_place = (u > 0.0 ? -1.0 : 1.0) * 1e-3 / cell_m;
+    const double k = at.values[2];
+    const double plain = k * section_m2 / cell_m;
+    const double resistance = 1.0 / plain + share * at.values[0] / section_m2;
+    const double conductance = 1.0 / resistance;
+    s.value = conductance - plain;
+    s.by_parameter[0] = -conductance * conductance * share / section_m2;
+    s.by_parameter[1] = -conductance * conductance * by_place * at.values[0] / section_m2;
+    s.by_parameter[2] = (conductance * conductance / plain - plain) / k;
+    return s;
+  };
+}
+
+void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  const std::vector<std::string> rods = builder.rods();
+  if (rods.empty()) return;
+  const std::string id = spec.word_or("component", rods.front());
+  const Component& component = *builder.machine().find(id);
+  const int resistance = builder.effect_parameter(spec, index, "resistance_m2K_W");
+  const int place = builder.effect_parameter(spec, index, "position_mm", 0.5 * component.length_mm);
+  Parameter& p = builder.network().parameters[place];
+  p.low = 0.04 * component.length_mm;
+  p.high = 0.96 * component.length_mm;
+  const auto at = builder.place(id);
+  for (int face = 1; face < at.count; ++face) {
+    Term term;
+    term.kind = TermKind::link;
+    term.law_kind = LawKind::constant;
+    term.label = id + "/contact_resistance";
+    term.links = {{at.first + face - 1, at.first + face, 1.0}};
+    term.parameters = {resistance, place, builder.conductivity(id)};
+    term.law = face_law(face, at.cell_m, component.section_m2());
+    builder.add(std::move(term));
+  }
+}
+
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
+  std::vector<EffectSpec> list;
+  for (const auto& component : machine.components) {
+    if (component.lump) continue;
+    for (int i = 1; i <= 8; ++i) {
+      list.push_back({"contact_resistance",
+                      true,
+                      {{"resistance_m2K_W", 0.0},
+                       {"position_mm", i / 9.0 * component.length_mm},
+                       {"position_mm_prior_sigma", 0.05 * component.length_mm}},
+                      {{"component", component.id}}});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+extern const Effect contact_resistance_effect;
+const Effect contact_resistance_effect = {
+    "contact_resistance",
+    "step R q of the temperature at x",
+    "metal joints in air 0.5e-4 to 5e-3 m2 K/W (Yovanovich 2005)",
+    "Opposite errors on the two sides of one place: the heated side too cold, the other too hot in the simulation",
+    "sensor_lag extra_heat_source heater_body",
+    {{"resistance_m2K_W", 1.2e-3, 0.0, 2e-2, true}, {"position_mm", 20.0, 0.0, 30000.0}},
+    {"resistance_m2K_W"},
+    add,
+    candidates};
+
+}  // namespace zerodrift::physics

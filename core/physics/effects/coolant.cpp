@@ -1,0 +1,102 @@
+// Cooling by a liquid while it flows: -c(t) h P (T - T_coolant) over a region. A fluid that the description measures is
+// used with its own temperature and flow; a lump of unknown surface has a conductance instead of a film.
+#include "core/physics/effects/laws.h"
+
+namespace zerodrift::physics {
+namespace {
+
+void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
+  const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
+  Environment liquid;
+  liquid.name = "coolant";
+  std::string flow = "coolant_on";
+  bool always_on = false;
+  const std::string fluid_id = spec.word_or("fluid", "");
+  for (const auto& fluid : builder.machine().fluids) {
+    if (fluid.id != fluid_id) continue;
+    liquid.series = builder.linear(fluid.temperature_channel);
+    always_on = fluid.always_on;
+    if (!fluid.flow_channel.empty()) flow = fluid.flow_channel;
+  }
+  if (liquid.series < 0) {
+    liquid.parts.push_back({builder.effect_parameter(spec, index, "temperature_C", builder.mean_initial_C()), -1});
+  }
+  const int environment = builder.environment(std::move(liquid));
+  for_components(builder, spec, [&](const Component& component) {
+    if (!by_conductance && !has_surface(component)) return;
+    Term film = builder.film_over(component.id, spec.number_or("from_mm", 0.0),
+                                  std::min(component.length_mm, spec.number_or("to_mm", component.length_mm)));
+    if (by_conductance) film.weights.assign(film.weights.size(), 1.0 / static_cast<double>(film.weights.size()));
+    film.label = component.id + "/coolant";
+    film.environment = environment;
+    film.parameters = {strength};
+    film.law_kind = always_on ? LawKind::constant : LawKind::inputs;
+    film.law = always_on ? Law(proportional_law) : times_input(builder.held(flow));
+    builder.add(std::move(film));
+  });
+}
+
+void add_regions(const Component& component, std::vector<EffectSpec>& list) {
+  const auto region = [&](const std::string& name, double from_mm, double to_mm) {
+    list.push_back(
+        {"coolant",
+         true,
+         {{"h_W_m2K", 0.0}, {"from_mm", std::max(0.0, from_mm)}, {"to_mm", std::min(component.length_mm, to_mm)}},
+         {{"component", component.id}, {"region", name}}});
+  };
+  region("all", 0.0, component.length_mm);
+  const double margin_mm = 0.06 * component.length_mm;
+  std::vector<const HeatSource*> bearings;
+  for (const auto& source : component.sources) {
+    if (source.kind == SourceKind::motor) region("motor", source.from_mm, source.to_mm);
+    if (source.kind != SourceKind::bearing) continue;
+    bearings.push_back(&source);
+    region("at_" + source.id, source.from_mm - margin_mm, source.to_mm + margin_mm);
+  }
+  if (bearings.size() > 1) region("between", bearings.front()->from_mm, bearings.back()->to_mm);
+}
+
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
+  std::vector<EffectSpec> list;
+  for (const auto& component : machine.components) {
+    if (component.prescribed) continue;
+    for (const auto& fluid : machine.fluids) {
+      bool own = false;  // a component cannot be cooled by a fluid whose temperature is its own sensor
+      for (const auto& sensor : machine.sensors) {
+        own = own || (sensor.component == component.id && sensor.channel == fluid.temperature_channel);
+      }
+      const bool listed = [&] {
+        for (const auto& spec : machine.effects) {
+          if (spec.id == "coolant" && spec.word_or("component", "") == component.id) return true;
+        }
+        return false;
+      }();
+      if (own || listed) continue;
+      list.push_back({"coolant",
+                      true,
+                      {{has_surface(component) ? "h_W_m2K" : "conductance_W_K", 0.0}},
+                      {{"component", component.id}, {"fluid", fluid.id}}});
+    }
+    if (facts.has_coolant && !component.lump && machine.effect("coolant") == nullptr) add_regions(component, list);
+  }
+  return list;
+}
+
+}  // namespace
+
+extern const Effect coolant_effect;
+const Effect coolant_effect = {
+    "coolant",
+    "-c(t) h P (T - T_coolant) over a region",
+    "forced liquid film, 50 to 1500 W/(m2 K) (VDI Heat Atlas G)",
+    "The simulation is too hot from the moment the coolant runs; the error steps with coolant_on",
+    "extra_heat_source convection",
+    {{"h_W_m2K", 60.0, 0.0, 1500.0, true},
+     {"conductance_W_K", 0.5, 0.0, 200.0, true},
+     {"temperature_C", 2.0, -20.0, 90.0}},
+    {"h_W_m2K", "conductance_W_K"},
+    add,
+    candidates};
+
+}  // namespace zerodrift::physics

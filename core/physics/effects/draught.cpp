@@ -1,0 +1,79 @@
+// A door stands open for a while: between two moments the film is stronger and the air may be colder than the logged
+// room.
+#include "core/physics/effects/laws.h"
+
+namespace zerodrift::physics {
+namespace {
+
+/// Between the moments, with edges of two minutes so that they can be fitted.
+Strength law(const LawPoint& at) {
+  constexpr double edge_s = 120.0;
+  const double rise = 0.5 * (1.0 + std::tanh((at.time_s - at.values[1]) / edge_s));
+  const double fall = 0.5 * (1.0 + std::tanh((at.time_s - at.values[2]) / edge_s));
+  const auto slope = [](double u) { return 2.0 * u * (1.0 - u) / edge_s; };
+  Strength s;
+  s.by_parameter[0] = rise - fall;
+  s.value = at.values[0] * s.by_parameter[0];
+  s.by_parameter[1] = -at.values[0] * slope(rise);
+  s.by_parameter[2] = at.values[0] * slope(fall);
+  return s;
+}
+
+void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  const int strength = builder.effect_parameter(spec, index, "h_W_m2K");
+  const int from = builder.effect_parameter(spec, index, "from_s");
+  const int to = builder.effect_parameter(spec, index, "to_s");
+  Environment air = builder.network().environments[builder.room()];
+  air.name = "draught";
+  if (spec.numbers.count("colder_K") != 0) air.parts.push_back({builder.effect_parameter(spec, index, "colder_K"), -1});
+  const int environment = builder.environment(std::move(air));
+  for_components(builder, spec, [&](const Component& component) {
+    if (!has_surface(component)) return;
+    Term film = builder.film_over(component.id, 0.0, component.length_mm);
+    film.label = component.id + "/draught";
+    film.law_kind = LawKind::time;
+    film.environment = environment;
+    film.parameters = {strength, from, to};
+    film.law = law;
+    builder.add(std::move(film));
+  });
+}
+
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
+  std::vector<EffectSpec> list;
+  bool surface = false;
+  for (const auto& component : machine.components)
+    surface = surface || (!component.prescribed && has_surface(component));
+  if (!surface || facts.duration_s < 3600.0) return list;
+  for (int i = 0; i < 8; ++i) {
+    const double width_s = facts.duration_s / 8.0;
+    list.push_back({"draught",
+                    true,
+                    {{"h_W_m2K", 0.0},
+                     {"from_s", i * width_s},
+                     {"to_s", (i + 1) * width_s},
+                     {"from_s_prior_sigma", 0.5 * width_s},
+                     {"to_s_prior_sigma", 0.5 * width_s},
+                     {"colder_K", 0.0}},
+                    {}});
+  }
+  return list;
+}
+
+}  // namespace
+
+extern const Effect draught_effect;
+const Effect draught_effect = {"draught",
+                               "-h_d P (T - (T_room + dT)) for t in [t1, t2]",
+                               "open door or gate: films of 5 to 40 W/(m2 K) more, air some kelvin colder",
+                               "All surfaces cool together during one stretch of time that no logged input explains",
+                               "room_sensor_fault coolant",
+                               {{"h_W_m2K", 15.0, 0.0, 200.0, true},
+                                {"from_s", 1800.0, 0.0, 1e6},
+                                {"to_s", 1800.0, 0.0, 1e6},
+                                {"colder_K", 3.0, -20.0, 20.0}},
+                               {"h_W_m2K"},
+                               add,
+                               candidates};
+
+}  // namespace zerodrift::physics

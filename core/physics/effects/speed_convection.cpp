@@ -1,0 +1,57 @@
+// The air film of a turning part grows with its speed: h = h0 + a (n / n_full)^m.
+#include "core/physics/effects/laws.h"
+
+namespace zerodrift::physics {
+namespace {
+
+Law law(int speed, double full_rpm) {
+  return [=](const LawPoint& at) {
+    Strength s;
+    const double relative = std::abs(at.held[speed]) / full_rpm;
+    if (relative < 1e-6) return s;
+    s.by_parameter[0] = std::pow(relative, at.values[1]);
+    s.value = at.values[0] * s.by_parameter[0];
+    s.by_parameter[1] = s.value * std::log(relative);
+    return s;
+  };
+}
+
+void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  const int strength = builder.effect_parameter(spec, index, "a_W_m2K");
+  const int exponent = builder.effect_parameter(spec, index, "exponent", 0.7);
+  for_components(builder, spec, [&](const Component& component) {
+    if (!has_surface(component)) return;
+    Term film = builder.film_over(component.id, 0.0, component.length_mm);
+    film.label = component.id + "/speed_convection";
+    film.environment = builder.room();
+    film.parameters = {strength, exponent};
+    film.law = law(builder.held_speed(), builder.network().full_speed_rpm);
+    builder.add(std::move(film));
+  });
+}
+
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
+  if (!facts.has_speed || machine.effect("speed_convection") != nullptr) return {};
+  for (const auto& component : machine.components) {
+    if (!component.prescribed && has_surface(component)) {
+      return {{"speed_convection", true, {{"a_W_m2K", 0.0}, {"exponent", 0.7}}, {}}};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+extern const Effect speed_convection_effect;
+const Effect speed_convection_effect = {
+    "speed_convection",
+    "-a (n / n_full)^m P (T - T_room)",
+    "rotating cylinder in air, Nu ~ Re^m with m 0.6 to 0.8 (Kays and Bjorklund 1958)",
+    "The simulation is too hot while the spindle turns and right while it stands",
+    "bearing_viscosity convection",
+    {{"a_W_m2K", 30.0, 0.0, 400.0, true}, {"exponent", 0.15, 0.4, 1.1, false, 0.7}},
+    {"a_W_m2K"},
+    add,
+    candidates};
+
+}  // namespace zerodrift::physics

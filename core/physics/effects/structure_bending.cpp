@@ -1,0 +1,123 @@
+// The structure bends under a temperature difference or a heat flow and moves the nose across the axis:
+// d += g lag(u, tau) + g_room lag(T_room - T0, tau), or g [lag(u, tau1) - lag(lag(u, tau1), tau2)] for a housing whose
+// sides warm one after the other. u: heat of the bearings or the motor, or a temperature of the rod over the room.
+#include "core/physics/effects/sensor_effects.h"
+
+namespace zerodrift::physics {
+namespace {
+
+/// Nominal heat of all sources of a kind, in W.
+int heat_signal(NetworkBuilder& builder, SourceKind kind) {
+  std::vector<HeatSource> sources;
+  for (const auto& component : builder.machine().components) {
+    for (const auto& source : component.sources) {
+      if (source.kind == kind) sources.push_back(source);
+    }
+  }
+  const int speed = builder.held_speed();
+  const double full_rpm = builder.network().full_speed_rpm;
+  return builder.signal({"heat", [=](const double* held, const double*, double) {
+                           double watts = 0.0;
+                           for (const auto& source : sources) watts += nominal_heat_W(source, held[speed], full_rpm);
+                           return watts;
+                         }});
+}
+
+void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  const std::vector<std::string> rods = builder.rods();
+  if (observation_of(builder, spec) == nullptr || rods.empty()) return;
+  const std::string driver = spec.word_or("driver", "bearing_heat");
+  const std::string& rod = rods.front();
+  const double length_mm = builder.machine().find(rod)->length_mm;
+  const int gain = builder.effect_parameter(spec, index, "um_per_unit");
+  const int lag = builder.effect_parameter(spec, index, "lag_s", 3000.0);
+  const int second =
+      spec.numbers.count("second_lag_s") != 0 ? builder.effect_parameter(spec, index, "second_lag_s") : -1;
+  std::vector<StructureTerm> terms;
+  StructureTerm term;
+  term.gain = gain;
+  term.lag = lag;
+  term.second_lag = second;
+  const auto temperature = [&](double position_mm, double factor) {
+    StructureTerm one = term;
+    one.probe = builder.probe(builder.probe_at(rod, position_mm));
+    one.probe_reference = builder.reference_C(rod);
+    one.factor = factor;
+    terms.push_back(one);
+  };
+  if (driver == "bearing_heat" || driver == "motor_heat") {
+    term.signal = heat_signal(builder, driver == "motor_heat" ? SourceKind::motor : SourceKind::bearing);
+    terms.push_back(term);
+  } else {
+    if (driver == "front" || driver == "difference") temperature(0.95 * length_mm, 1.0);
+    if (driver == "rear" || driver == "difference") temperature(0.05 * length_mm, driver == "rear" ? 1.0 : -1.0);
+    if (driver == "mean") {
+      StructureTerm one = term;
+      one.probe = builder.probe(builder.mean_probe(rod));
+      one.probe_reference = builder.reference_C(rod);
+      terms.push_back(one);
+    }
+    if (driver != "difference") {
+      StructureTerm over_room = term;
+      over_room.signal = room_rise_signal(builder);
+      over_room.factor = -1.0;
+      terms.push_back(over_room);
+    }
+  }
+  if (spec.numbers.count("room_um_per_K") != 0) {
+    StructureTerm room;
+    room.gain = builder.effect_parameter(spec, index, "room_um_per_K");
+    room.lag = lag;
+    room.signal = room_rise_signal(builder);
+    terms.push_back(room);
+  }
+  Observation* seen = observation_of(builder, spec);
+  seen->structure.insert(seen->structure.end(), terms.begin(), terms.end());
+}
+
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
+  std::vector<EffectSpec> list;
+  const double watts = std::max(10.0, facts.typical_heat_W);
+  for (const auto& displacement : machine.displacements) {
+    const Component* component = machine.find(displacement.component);
+    if (!is_across(displacement) || component == nullptr || component->lump) continue;
+    for (const char* driver : {"bearing_heat", "motor_heat", "front", "rear", "mean", "difference"}) {
+      const bool heat = std::string(driver).find("heat") != std::string::npos;
+      if (heat && !facts.has_speed) continue;
+      const double sigma = heat ? 30.0 / watts : 3.0;
+      EffectSpec spec{"structure_bending",
+                      true,
+                      {{"um_per_unit", 0.0}, {"um_per_unit_prior_sigma", sigma}, {"lag_s", 3000.0}},
+                      {{"channel", displacement.channel}, {"driver", driver}}};
+      EffectSpec two_sides = spec;
+      two_sides.numbers["lag_s"] = 1200.0;
+      two_sides.numbers["second_lag_s"] = 4000.0;
+      if (facts.room_logged) spec.numbers["room_um_per_K"] = 0.0;
+      for (const double lag_s : {600.0, 3000.0, 9000.0}) {
+        spec.numbers["lag_s"] = lag_s;
+        list.push_back(spec);
+      }
+      list.push_back(two_sides);
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+extern const Effect structure_bending_effect;
+const Effect structure_bending_effect = {
+    "structure_bending",
+    "d += g lag(u, tau) + g_room lag(T_room - T0, tau)",
+    "head stock and column of machining centres: 1 to 10 um per K of difference, 5 min to 5 h",
+    "Only the displacement across the axis is off; it follows a heat source or a temperature difference with a delay",
+    "structure_ambient",
+    {{"um_per_unit", 3.0, -100.0, 100.0, true},
+     {"lag_s", 0.9, 30.0, 40000.0, false, 3000.0, true},
+     {"second_lag_s", 0.9, 100.0, 60000.0, false, 4000.0, true},
+     {"room_um_per_K", 1.5, -30.0, 30.0, true}},
+    {"um_per_unit"},
+    add,
+    candidates};
+
+}  // namespace zerodrift::physics
