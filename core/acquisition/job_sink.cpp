@@ -57,6 +57,7 @@ Status replay(const std::vector<Event>& events, InterruptedRun& run) {
 Result<InterruptedSeries> interrupted(const Job& job, const SeriesInfo& info) {
   InterruptedSeries found;
   found.series = info.id;
+  found.run.rows = info.rows;
   ZD_TRY(found.run.start, start_of(info));
   ZD_TRY(found.run.last_utc, utc_from_text(info.last_utc));
   std::vector<Error> damaged;  // a gap for the reader, no reason not to go on

@@ -110,21 +110,24 @@ Status Run::command_step() {
   return {};
 }
 
-void Run::wait_for_next() {
-  double until_s = m_next_sample_s;
-  if (!m_paused_since_s) {
-    // Plan time to series time; step changes and the end of the plan do not wait for a sample either.
-    double change_s = 0.0;
-    const double plan_s = plan_time_s(time_now_s());
-    for (const PlanStep& step : m_start.plan.steps) {
-      change_s += step.duration_s;
-      if (change_s > plan_s) break;
-    }
-    until_s = std::min({until_s, m_next_measure_s + m_paused_s, change_s + m_paused_s});
+/// Machine time until something is due; in the very terms in which it will be found due.
+double Run::idle_s() const {
+  const double now_s = time_now_s();
+  double idle = m_next_sample_s - now_s;
+  if (m_paused_since_s) return idle;
+  const double plan_s = plan_time_s(now_s);
+  double change_s = 0.0;  // the next step, or the end of the plan: neither waits for a sample
+  for (const PlanStep& step : m_start.plan.steps) {
+    change_s += step.duration_s;
+    if (change_s > plan_s) break;
   }
+  return std::min({idle, m_next_measure_s - plan_s, change_s - plan_s});
+}
+
+void Run::wait_for_next() {
   const bool paused = m_control.paused();
   for (;;) {
-    const double wait_s = until_s - time_now_s();
+    const double wait_s = idle_s();
     const bool asked = m_control.paused() != paused || m_control.finish_requested();
     if (wait_s <= 0.0 || stopped() || asked) return;
     m_log.commit_before_waiting(wait_s / m_options.time_factor);

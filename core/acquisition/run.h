@@ -32,6 +32,7 @@ class Run {
   Status measure();
   Status measure_here();
   void publish(RunPhase phase, const std::vector<double>* row = nullptr, const ErrorSample* measured = nullptr);
+  double idle_s() const;
   void wait_for_next();
   Status keep(const MachineSample& sample, const ErrorSample* error, bool expected_late);
   void watch_sensors(const MachineSample& sample);

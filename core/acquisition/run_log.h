@@ -17,6 +17,8 @@ class RunLog {
 
   Status begin(const RunStart& start) { return m_sink.begin(start); }
   Status append(double time_s, std::span<const double> values);
+  /// Rows that an earlier run of the program has stored.
+  void go_on_from(std::int64_t rows) { m_rows = m_committed_rows = rows; }
   /// Committed at once, together with the rows before it, if the sink can.
   void event(RunEvent event);
   /// Commits if anything would otherwise wait for longer than the period when the caller now waits `wait_s` (wall).

@@ -27,6 +27,7 @@ struct RunStart {
 /// A run that was broken off and can go on.
 struct InterruptedRun {
   RunStart start;                        // origin_s as of the last restart of the machine's clock
+  std::int64_t rows = 0;                 // stored
   double last_time_s = 0.0;              // of the last stored row
   UtcTime last_utc{};                    // of the last commit
   double paused_s = 0.0;                 // time that does not count for the plan

@@ -90,6 +90,7 @@ Result<RunSummary> Run::go_on(const InterruptedRun& interrupted) {
   m_start = interrupted.start;
   m_trend = Trend(m_start.plan.measure_period_s);
   m_paused_s = interrupted.paused_s;
+  m_log.go_on_from(interrupted.rows);
   publish(RunPhase::starting);
   ZD_CHECK(connect());
   if (m_identity.serial != m_start.machine_serial) {

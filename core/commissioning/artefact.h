@@ -33,6 +33,9 @@ struct NewArtefact {
   std::string body;                // JSON text
   std::vector<ArtefactId> inputs;  // what it was made from
   std::vector<Blob> blobs;         // files that belong to it
+  /// Top-level keys of the body that are kept but do not count for equality: readings of the moment, such as a round
+  /// trip time. Without this, looking at a machine again would make everything made from it stale.
+  std::vector<std::string> observed;
 
   static NewArtefact of(std::string kind, const nlohmann::json& body, std::vector<ArtefactId> inputs = {},
                         std::vector<Blob> blobs = {});
@@ -42,7 +45,7 @@ struct Artefact {
   ArtefactId id = 0;
   std::string kind;
   std::string body;          // JSON text, keys in order
-  std::string content_hash;  // SHA-256 of kind, body and blobs: equal results have equal hashes
+  std::string content_hash;  // SHA-256 of kind, body without `observed`, blobs: equal results, equal hashes
   std::string input_hash;    // SHA-256 of the inputs' hashes
   std::string made_by;       // program and version
   std::string engineer;

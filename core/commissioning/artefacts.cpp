@@ -33,18 +33,43 @@ Result<std::vector<InputRef>> inputs_of(Database& database, ArtefactId id) {
 
 }  // namespace
 
+std::string text_of_keys(const std::vector<std::string>& keys) {
+  return json(keys).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::vector<std::string> keys_from(const std::string& text) {
+  const json list = json::parse(text, nullptr, false);
+  std::vector<std::string> keys;
+  if (!list.is_array()) return keys;
+  for (const json& key : list) {
+    if (key.is_string()) keys.push_back(key.get<std::string>());
+  }
+  return keys;
+}
+
 // Lengths keep two different artefacts from having the same text to hash.
-std::string content_hash_of(std::string_view kind, std::string_view body,
+std::string content_hash_of(std::string_view kind, std::string_view body, const std::vector<std::string>& observed,
                             const std::map<std::string, std::string>& blob_hashes) {
-  std::string text = fmt::format("{}:{}\n{}:{}\n", kind.size(), kind, body.size(), body);
+  std::string counted(body);
+  if (!observed.empty()) {
+    json document = json::parse(body, nullptr, false);
+    if (document.is_object()) {
+      for (const std::string& key : observed) document.erase(key);
+      counted = document.dump(-1, ' ', false, json::error_handler_t::replace);
+    }
+  }
+  std::string text = fmt::format("{}:{}\n{}:{}\n", kind.size(), kind, counted.size(), counted);
   for (const auto& [name, hash] : blob_hashes) text += fmt::format("{}:{} {}\n", name.size(), name, hash);
   return sha256_hex(text);
 }
 
 NewArtefact NewArtefact::of(std::string kind, const json& body, std::vector<ArtefactId> inputs,
                             std::vector<Blob> blobs) {
-  return {std::move(kind), body.dump(-1, ' ', false, json::error_handler_t::replace), std::move(inputs),
-          std::move(blobs)};
+  return {std::move(kind),
+          body.dump(-1, ' ', false, json::error_handler_t::replace),
+          std::move(inputs),
+          std::move(blobs),
+          {}};
 }
 
 Result<json> Artefact::document() const {
@@ -68,11 +93,13 @@ Result<Artefact> Job::put(const NewArtefact& artefact) {
   inputs.erase(std::unique(inputs.begin(), inputs.end(), [](auto& a, auto& b) { return a.id == b.id; }), inputs.end());
 
   ZD_TRY(const std::string engineer, m_store->header_value("engineer"));
-  ZD_TRY(Statement add, database.prepare("INSERT INTO artefact (kind, body, content_hash, input_hash, made_by, "
-                                         "engineer, created_utc) VALUES (?, ?, ?, ?, ?, ?, ?)"));
+  ZD_TRY(Statement add,
+         database.prepare("INSERT INTO artefact (kind, body, content_hash, input_hash, made_by, engineer, "
+                          "created_utc, observed, body_hash) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"));
   add.bind(1, artefact.kind).bind(2, artefact.body);
-  add.bind(3, content_hash_of(artefact.kind, artefact.body, blob_hashes)).bind(4, input_hash_of(inputs));
-  ZD_CHECK(add.bind(5, program_name()).bind(6, engineer).bind(7, now_text()).run());
+  add.bind(3, content_hash_of(artefact.kind, artefact.body, artefact.observed, blob_hashes));
+  add.bind(4, input_hash_of(inputs)).bind(5, program_name()).bind(6, engineer).bind(7, now_text());
+  ZD_CHECK(add.bind(8, text_of_keys(artefact.observed)).bind(9, sha256_hex(artefact.body)).run());
   const ArtefactId id = database.last_row_id();
   for (const InputRef& input : inputs) {
     ZD_TRY(Statement link, database.prepare("INSERT INTO artefact_input (artefact, input, content_hash) "

@@ -49,10 +49,17 @@ Status to_version_1(Database& database) {
   return database.execute(tables_1);
 }
 
+// Readings of the moment, kept beside what counts for equality.
+Status to_version_2(Database& database) {
+  return database.execute(
+      "ALTER TABLE artefact ADD COLUMN observed TEXT NOT NULL DEFAULT '[]';"
+      "ALTER TABLE artefact ADD COLUMN body_hash TEXT NOT NULL DEFAULT ''");
+}
+
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 1> steps = {to_version_1};
+  static const std::array<Migration, 2> steps = {to_version_1, to_version_2};
   return steps;
 }
 
