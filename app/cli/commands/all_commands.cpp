@@ -6,6 +6,7 @@ namespace zerodrift::cli {
 void add_calibrate(Cli& cli);
 void add_cluster(Cli& cli);
 void add_commission(Cli& cli);
+void add_record(Cli& cli);
 void add_report(Cli& cli);
 void add_verify(Cli& cli);
 void add_predict(Cli& cli);
@@ -18,6 +19,7 @@ void add_all_commands(Cli& cli) {
   add_calibrate(cli);
   add_cluster(cli);
   add_commission(cli);
+  add_record(cli);
   add_report(cli);
   add_verify(cli);
   add_predict(cli);
