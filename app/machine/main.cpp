@@ -15,6 +15,7 @@
 #include "app/machine/faults.h"
 #include "app/machine/live_machine.h"
 #include "app/machine/truth_log.h"
+#include "app/text/error_text.h"
 #include "core/base/json.h"
 #include "core/controller/modbus_server.h"
 
@@ -53,21 +54,21 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--write-case", options.case_folder, "write recordings and description there and end");
 }
 
-/// Blocks the signals that end the program in every thread; wait_for_end then takes them.
+/// Blocks the signals that end the program, in every thread; wait_for_end then takes them.
 sigset_t end_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
+  sigset_t endings;
+  sigemptyset(&endings);
+  sigaddset(&endings, SIGTERM);
+  sigaddset(&endings, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &endings, nullptr);
+  return endings;
 }
 
 /// Until a signal comes; meanwhile the camera's fault is set for the machine time that is near.
-void wait_for_end(const sigset_t& signals, const std::vector<Fault>& faults, LiveMachine& machine,
+void wait_for_end(const sigset_t& endings, const std::vector<Fault>& faults, LiveMachine& machine,
                   CameraServer& cameras) {
   const timespec turn{0, 50'000'000};
-  while (sigtimedwait(&signals, nullptr, &turn) < 0) {
+  while (sigtimedwait(&endings, nullptr, &turn) < 0) {
     const CameraFault fault = camera_fault(faults, machine.scene(View::front).machine_time_s);
     if (fault.kind != CameraFault::Kind::none) cameras.set_fault(fault);
   }
@@ -81,7 +82,7 @@ Result<std::vector<Fault>> parse_faults(const std::vector<std::string>& texts) {
   return faults;
 }
 
-Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t& signals) {
+Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t& endings) {
   ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
   TruthLog truth;
   if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
@@ -105,7 +106,7 @@ Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t&
   machine.start();
   fmt::print("ready modbus={} camera=http://127.0.0.1:{}/\n", server->port(), camera_port);
   std::fflush(stdout);
-  wait_for_end(signals, faults, machine, cameras);
+  wait_for_end(endings, faults, machine, cameras);
   server.reset();
   cameras.stop();
   machine.stop();
@@ -114,13 +115,13 @@ Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t&
 }
 
 /// What is hidden is promised on stderr before and opened there at the end; stdout holds the line "ready" alone.
-Status work(const Options& options, const sigset_t& signals) {
+Status work(const Options& options, const sigset_t& endings) {
   ZD_TRY(const HiddenEffect hidden, draw_effect(options.conceal, options.seed));
   if (!options.case_folder.empty()) return write_case(options.case_folder, hidden, options.seed);
-  if (options.conceal.empty()) return serve(options, hidden, signals);
+  if (options.conceal.empty()) return serve(options, hidden, endings);
   const Commitment commitment = commit_to(hidden);
   fmt::print(stderr, "concealed sha256={}\n", commitment.sha256);
-  const Status done = serve(options, hidden, signals);
+  const Status done = serve(options, hidden, endings);
   fmt::print(stderr, "opened salt={} answer={}\n", commitment.salt, commitment.answer);
   return done;
 }
@@ -134,11 +135,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  const sigset_t signals = end_signals();
-  const Status done = work(options, signals);
+  const sigset_t endings = end_signals();
+  const Status done = work(options, endings);
   if (done) return 0;
-  fmt::print(stderr, "zerodrift-machine: {}\n", describe(done.error()));
-  return 1;
+  fmt::print(stderr, "zerodrift-machine: {}\n", lineOf(done.error()).toStdString());
+  return done.error().code == ErrorCode::bad_argument ? 2 : 1;
 }
 
 }  // namespace
