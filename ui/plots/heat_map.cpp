@@ -26,6 +26,31 @@ HeatMap::HeatMap(QWidget* parent) : PlotWidget(parent) {
   m_region->setVisible(false);
   m_region->setLayer("overlay");
   restyle();
+  connect(plot(), &QCustomPlot::afterReplot, this, &HeatMap::layoutChanged);
+}
+
+QCPAxis* HeatMap::positionAxis() const {
+  return m_across ? xAxis() : yAxis();
+}
+
+QCPAxis* HeatMap::timeAxis() const {
+  return m_across ? yAxis() : xAxis();
+}
+
+void HeatMap::setPositionAcross(bool across) {
+  m_across = across;
+  setTimeAxis(!across);
+  if (across) yAxis()->setTicker(QSharedPointer<QCPAxisTicker>(elapsedTicker()));
+  setVerticalZoom(across);
+}
+
+void HeatMap::setPositionRange(double from_mm, double to_mm) {
+  positionAxis()->setRange(from_mm, to_mm);
+  replot();
+}
+
+double HeatMap::positionToPixel(double position_mm) const {
+  return xAxis()->coordToPixel(position_mm);
 }
 
 void HeatMap::setData(const HeatMapData& map) {
@@ -36,13 +61,15 @@ void HeatMap::setData(const HeatMapData& map) {
   m_map->setVisible(some);
   m_scale->setVisible(some);
   if (!some) return replot();
-  cells->setSize(map.columns, map.rows);
-  cells->setRange(QCPRange(map.from_s, map.to_s), QCPRange(map.from_mm, map.to_mm));
+  const QCPRange times(map.from_s, map.to_s);
+  const QCPRange positions(map.from_mm, map.to_mm);
+  cells->setSize(m_across ? map.rows : map.columns, m_across ? map.columns : map.rows);
+  cells->setRange(m_across ? positions : times, m_across ? times : positions);
   double largest = 0.0;
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
       const double value = map.values[row * map.columns + column];
-      cells->setCell(column, row, value);
+      cells->setCell(m_across ? row : column, m_across ? column : row, value);
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     }
   }
@@ -56,22 +83,24 @@ void HeatMap::setSensors(const QVector<SensorTick>& sensors) {
   m_sensors = sensors;
   QSharedPointer<QCPAxisTickerText> ticker(new QCPAxisTickerText);
   for (const SensorTick& sensor : sensors) {
-    ticker->addTick(sensor.position_mm, QStringLiteral("%1  %2").arg(sensor.tag).arg(sensor.position_mm, 0, 'f', 0));
+    ticker->addTick(
+        sensor.position_mm,
+        m_across ? sensor.tag : QStringLiteral("%1  %2").arg(sensor.tag).arg(sensor.position_mm, 0, 'f', 0));
   }
-  if (!sensors.isEmpty()) yAxis()->setTicker(ticker);
+  if (!sensors.isEmpty()) positionAxis()->setTicker(ticker);
   replot();
 }
 
 void HeatMap::setRegion(double from_s, double to_s, double from_mm, double to_mm) {
-  m_region->topLeft->setCoords(from_s, to_mm);
-  m_region->bottomRight->setCoords(to_s, from_mm);
+  m_region->topLeft->setCoords(m_across ? QPointF(from_mm, to_s) : QPointF(from_s, to_mm));
+  m_region->bottomRight->setCoords(m_across ? QPointF(to_mm, from_s) : QPointF(to_s, from_mm));
   m_region->setVisible(to_s > from_s);
   replot();
 }
 
 void HeatMap::fit() {
-  xAxis()->setRange(m_data.from_s, m_data.to_s);
-  yAxis()->setRange(m_data.from_mm, m_data.to_mm);
+  timeAxis()->setRange(m_data.from_s, m_data.to_s);
+  positionAxis()->setRange(m_data.from_mm, m_data.to_mm);
   replot();
 }
 
@@ -104,12 +133,14 @@ PlotWidget::Near HeatMap::nearest(const QPointF& pixel) const {
   const double y = yAxis()->pixelToCoord(pixel.y());
   if (!m_map->data()->keyRange().contains(x) || !m_map->data()->valueRange().contains(y)) return {};
   const double value = m_map->data()->data(x, y);
+  const double position_mm = m_across ? x : y;
+  const double time_s = m_across ? y : x;
   Near near;
   near.id = "map";
   near.text = QStringLiteral("%1 %2   %3 mm   %4")
                   .arg(QString::number(value, 'f', 1), m_data.unit)
-                  .arg(y, 0, 'f', 0)
-                  .arg(xText(x));
+                  .arg(position_mm, 0, 'f', 0)
+                  .arg(elapsedText(time_s));
   near.x = x;
   near.y = y;
   near.distance_px = 0.0;
@@ -123,8 +154,11 @@ QString HeatMap::csv() const {
     for (int column = 0; column < m_data.columns; ++column) {
       double x = 0.0;
       double y = 0.0;
-      m_map->data()->cellToCoord(column, row, &x, &y);
-      text += QStringLiteral("%1,%2,%3\n").arg(x).arg(y).arg(m_data.values[row * m_data.columns + column]);
+      m_map->data()->cellToCoord(m_across ? row : column, m_across ? column : row, &x, &y);
+      text += QStringLiteral("%1,%2,%3\n")
+                  .arg(m_across ? y : x)
+                  .arg(m_across ? x : y)
+                  .arg(m_data.values[row * m_data.columns + column]);
     }
   }
   return text;

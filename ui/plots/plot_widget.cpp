@@ -127,8 +127,15 @@ void PlotWidget::setVerticalZoom(bool vertical) {
 }
 
 QString PlotWidget::xText(double x) const {
-  if (!m_time) return QString::number(x, 'g', 6);
-  const auto seconds = static_cast<qint64>(std::llround(x));
+  return m_time ? elapsedText(x) : QString::number(x, 'g', 6);
+}
+
+QCPAxisTicker* PlotWidget::elapsedTicker() {
+  return new ElapsedTicker;
+}
+
+QString elapsedText(double elapsed_s) {
+  const auto seconds = static_cast<qint64>(std::llround(elapsed_s));
   return QStringLiteral("%1:%2:%3")
       .arg(seconds / 3600)
       .arg(seconds / 60 % 60, 2, 10, QChar('0'))

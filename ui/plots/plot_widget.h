@@ -11,6 +11,7 @@
 #include "ui/widgets/colors.h"
 
 class QCPAxis;
+class QCPAxisTicker;
 class QCPAxisRect;
 class QCPItemRect;
 class QCPItemStraightLine;
@@ -20,6 +21,9 @@ class QCustomPlot;
 class QMouseEvent;
 
 namespace zerodrift::ui {
+
+/// "1:05:30" of seconds since the start.
+QString elapsedText(double seconds);
 
 /// A stretch of x shown behind the curves: a regime, a training run, a mismatch.
 struct Span {
@@ -97,6 +101,7 @@ class PlotWidget : public QWidget {
   QCPAxis* xAxis() const;
   QCPAxis* yAxis() const;
   QString xText(double x) const;
+  static QCPAxisTicker* elapsedTicker();
   bool isTimeAxis() const { return m_time; }
   void replot();
   void showPlaceholder(bool shown);

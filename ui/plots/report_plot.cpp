@@ -9,6 +9,8 @@
 namespace zerodrift::ui {
 namespace {
 
+constexpr int most_in_legend_row = 7;
+
 // Six hues that stay apart in print and for colour-blind readers when combined with the legend's order.
 const QVector<QColor>& curveColours() {
   static const QVector<QColor> colours = {QColor(0x0F6CBD), QColor(0xC4314B), QColor(0x2E8B57),
@@ -61,8 +63,8 @@ void fill(QCustomPlot& plot, const ReportPlotData& data) {
   below->addElement(0, 0, plot.legend);
   plot.plotLayout()->setRowStretchFactor(1, 0.001);
   plot.legend->setVisible(true);
-  plot.legend->setFillOrder(QCPLegend::foColumnsFirst);
-  plot.legend->setWrap(6);
+  plot.legend->setWrap(most_in_legend_row);
+  plot.legend->setFillOrder(QCPLegend::foColumnsFirst, true);
   plot.legend->setBorderPen(Qt::NoPen);
   plot.legend->setFont(paperFont(10));
   plot.legend->setIconSize(16, 8);

@@ -1,0 +1,326 @@
+#include "ui/pages/axis_page.h"
+
+#include <cmath>
+
+#include "ui/plots/xy_plot.h"
+#include "ui/widgets/card.h"
+#include "ui/widgets/data_table.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/toggle_segment.h"
+
+namespace zerodrift::ui {
+
+AxisPage::AxisPage(QWidget* parent) : Page("axis_errors", parent) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(makePlotCard(), 1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  m_figureCard = new Card(this);
+  m_figureCard->setFixedWidth(372);
+  m_figureCard->setBodyMargins(1, 0, 1, 6);
+  m_standard = new ToggleSegment(m_figureCard);
+  m_figureCard->tools()->addWidget(m_standard);
+  m_standardTable = new DataTable(m_figureCard);
+  m_segmentTable = new DataTable(m_figureCard);
+  m_tables = new QStackedWidget(m_figureCard);
+  m_tables->addWidget(m_standardTable);
+  m_tables->addWidget(m_segmentTable);
+  m_figureCard->body()->addWidget(m_tables, 1);
+  right->addWidget(m_figureCard, 1);
+  right->addWidget(makeRuleCard());
+  row->addLayout(right);
+  content()->addLayout(row, 1);
+  connect(m_standard, &ToggleSegment::currentChanged, this, [this] { renderTables(); });
+  refresh();
+}
+
+Card* AxisPage::makePlotCard() {
+  m_plotCard = new Card(this);
+  m_plotCard->setBodyMargins(6, 0, 6, 6);
+  m_axis = new ToggleSegment(m_plotCard);
+  m_view = new ToggleSegment(m_plotCard);
+  m_plotCard->tools()->addWidget(m_axis);
+  m_plotCard->tools()->addWidget(m_view);
+  m_measurement = new XyPlot(m_plotCard);
+  m_segmentPlot = new XyPlot(m_plotCard);
+  m_views = new QStackedWidget(m_plotCard);
+  m_views->addWidget(m_measurement);
+  m_views->addWidget(m_segmentPlot);
+  m_plotCard->body()->addWidget(m_views, 1);
+  connect(m_axis, &ToggleSegment::currentChanged, this, &AxisPage::axisChosen);
+  connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_views->setCurrentIndex(index);
+    refresh();
+  });
+  return m_plotCard;
+}
+
+Card* AxisPage::makeRuleCard() {
+  m_ruleCard = new Card(this);
+  m_ruleCard->setFixedWidth(372);
+  m_rule = new ToggleSegment(m_ruleCard);
+  m_ruleCard->tools()->addWidget(m_rule);
+  m_criterion = new QComboBox(m_ruleCard);
+  m_criterion->setObjectName("criterion");
+  m_limit = new QDoubleSpinBox(m_ruleCard);
+  m_limit->setObjectName("criterionLimit");
+  m_start = new QSpinBox(m_ruleCard);
+  m_start->setRange(2, 100);
+  m_format = new QComboBox(m_ruleCard);
+  m_format->setObjectName("format");
+  auto* grid = new QGridLayout;
+  grid->setHorizontalSpacing(10);
+  grid->setVerticalSpacing(4);
+  const QVector<QWidget*> fields = {m_criterion, m_limit, m_start, m_format};
+  for (int i = 0; i < fields.size(); ++i) {
+    auto* name = new QLabel(m_ruleCard);
+    name->setProperty("role", "muted");
+    name->setBuddy(fields[i]);
+    grid->addWidget(name, i, 0);
+    grid->addWidget(fields[i], i, 1);
+    m_names.append(name);
+  }
+  grid->setColumnStretch(1, 1);
+  m_check = new QLabel(m_ruleCard);
+  m_check->setProperty("role", "caption");
+  m_check->setWordWrap(true);
+  m_ruleCard->body()->addLayout(grid);
+  m_ruleCard->body()->addWidget(m_check);
+  const auto changed = [this] {
+    if (m_filling) return;
+    m_state.criterion = static_cast<SegmentCriterion>(m_criterion->currentIndex());
+    (m_state.criterion == SegmentCriterion::tolerance ? m_state.tolerance_um : m_state.threshold) = m_limit->value();
+    m_state.startPoints = m_start->value();
+    Q_EMIT segmentationChanged(m_criterion->currentIndex(), m_state.threshold, m_state.startPoints,
+                               m_state.tolerance_um);
+  };
+  connect(m_criterion, &QComboBox::activated, this, [this](int index) {
+    m_state.criterion = static_cast<SegmentCriterion>(index);
+    refresh();
+    Q_EMIT segmentationChanged(index, m_state.threshold, m_state.startPoints, m_state.tolerance_um);
+  });
+  connect(m_limit, &QDoubleSpinBox::editingFinished, this, changed);
+  connect(m_start, &QSpinBox::editingFinished, this, changed);
+  connect(m_format, &QComboBox::activated, this, &AxisPage::formatChosen);
+  connect(m_rule, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_state.useOptimal = index == 1;
+    refresh();
+    Q_EMIT ruleChosen(m_state.useOptimal);
+  });
+  return m_ruleCard;
+}
+
+void AxisPage::setState(const AxisState& state) {
+  m_state = state;
+  refresh();
+}
+
+void AxisPage::showView(int index) {
+  m_view->setCurrentIndex(index);
+}
+
+const QVector<AxisSegment>& AxisPage::segments() const {
+  return m_state.useOptimal ? m_state.optimal : m_state.published;
+}
+
+QString AxisPage::title() const {
+  return tr("Axis errors");
+}
+
+QString AxisPage::sentence() const {
+  if (m_state.axis.isEmpty())
+    return tr("Beside the main line: the geometric error of each axis, from a laser interferometer.");
+  return tr("Judge the measurement, choose how it is cut into segments, then write the table.");
+}
+
+PageAction AxisPage::primary() const {
+  if (m_state.axis.isEmpty()) return {"primary", tr("Open laser file"), true, {}};
+  return {"primary", tr("Use for upload"), m_state.monotonic && !segments().isEmpty(),
+          tr("The table is not monotonic: the axis would move backwards somewhere.")};
+}
+
+QVector<PageAction> AxisPage::secondary() const {
+  if (m_state.axis.isEmpty()) return {};
+  return {{"open", tr("Open laser file")}, {"export", tr("Export")}};
+}
+
+QVector<Figure> AxisPage::figures() const {
+  Figure now = figureOf(tr("Accuracy now"), m_state.before_um, 1, "µm", tr("A, ISO 230-2"));
+  Figure then = figureOf(tr("With the table"), m_state.after_um, 1, "µm", tr("expected"));
+  if (!std::isnan(m_state.after_um) && !std::isnan(m_state.before_um)) {
+    then.judgement = m_state.after_um < m_state.before_um ? Judgement::ok : Judgement::bad;
+    then.word = then.judgement == Judgement::ok ? tr("better") : tr("worse");
+  }
+  double largest = NAN;
+  for (const AxisSegment& s : segments()) largest = std::fmax(largest, s.largestResidual_um);
+  Figure count =
+      figureOf(tr("Segments"), static_cast<double>(segments().size()), 0, {},
+               tr("other rule: %1").arg(m_state.useOptimal ? m_state.published.size() : m_state.optimal.size()));
+  Figure residual = figureAtMost(tr("Largest residual"), largest, 2, "µm", m_state.tolerance_um);
+  Figure thereAndBack = figureAtMost(tr("There and back"), m_state.roundTrip_nm, 2, "nm", 1.0);
+  thereAndBack.tip = tr("Forward of inverse against the position itself, largest over the travel.");
+  return {now, then, count, residual, thereAndBack};
+}
+
+void AxisPage::render() {
+  if (m_state.axis.isEmpty()) {
+    showEmpty(Icon::file, tr("Drop a laser file here"),
+              tr("CSV, Renishaw .rtl or .pos with targets and runs. It is checked, drawn with its ISO 230-2 figures, "
+                 "and cut into segments that the controller can use."),
+              tr("Open laser file"));
+    return;
+  }
+  showContent();
+  m_filling = true;
+  setFigures(figures());
+  {
+    const QSignalBlocker quiet(m_axis);
+    m_axis->setItems(m_state.axes);
+    m_axis->setCurrentIndex(m_state.chosenAxis);
+    m_axis->setVisible(m_state.axes.size() > 1);
+  }
+  m_view->setItems({tr("Measurement"), tr("Segments")});
+  m_plotCard->setTitle(tr("Axis %1").arg(m_state.axis));
+  m_plotCard->setSubtitle(m_state.fileNotes);
+  m_ruleCard->setTitle(tr("Cut into segments"));
+  {
+    const QSignalBlocker quiet(m_rule);
+    m_rule->setItems({tr("As published"), tr("Fewest")});
+    m_rule->setCurrentIndex(m_state.useOptimal ? 1 : 0);
+  }
+  const QStringList names = {tr("Criterion"),
+                             m_state.criterion == SegmentCriterion::tolerance ? tr("Tolerance") : tr("Threshold"),
+                             tr("First points"), tr("Format")};
+  for (int i = 0; i < names.size(); ++i) m_names[i]->setText(names[i]);
+  m_criterion->clear();
+  m_criterion->addItems({tr("r on coordinates"), tr("r on errors"), tr("tolerance in µm")});
+  m_criterion->setCurrentIndex(static_cast<int>(m_state.criterion));
+  const bool tolerance = m_state.criterion == SegmentCriterion::tolerance;
+  m_limit->setDecimals(tolerance ? 2 : 4);
+  m_limit->setRange(tolerance ? 0.01 : 0.0, tolerance ? 1000.0 : 1.0);
+  m_limit->setSingleStep(tolerance ? 0.1 : 0.005);
+  m_limit->setSuffix(tolerance ? QStringLiteral(" µm") : QString());
+  m_limit->setValue(tolerance ? m_state.tolerance_um : m_state.threshold);
+  m_start->setValue(m_state.startPoints);
+  m_start->setEnabled(!m_state.useOptimal);
+  m_format->clear();
+  m_format->addItems(m_state.formats);
+  m_format->setCurrentIndex(m_state.format);
+  QStringList check;
+  if (m_state.criterion == SegmentCriterion::coordinates) {
+    check.append(tr("On coordinates r is about 1 whatever the error: it hardly cuts."));
+  }
+  check.append(m_state.formatLoss.isEmpty() ? tr("The format loses nothing.")
+                                            : tr("Lost in this format: %1").arg(m_state.formatLoss));
+  m_check->setText(check.join(' '));
+  m_filling = false;
+  renderMeasurement();
+  renderSegments();
+  renderTables();
+}
+
+void AxisPage::renderMeasurement() {
+  const Colors& c = colors();
+  m_measurement->clear();
+  m_measurement->setAxisLabels(tr("position / mm"), tr("error / µm"));
+  const auto band = [&](const QString& id, const QVector<double>& mean, const QVector<double>& sigma,
+                        const QColor& color) {
+    QVector<double> low;
+    QVector<double> high;
+    for (int i = 0; i < mean.size() && i < sigma.size(); ++i) {
+      low.append(mean[i] - 2.0 * sigma[i]);
+      high.append(mean[i] + 2.0 * sigma[i]);
+    }
+    if (!low.isEmpty()) m_measurement->setBand(id, m_state.position_mm, low, high, color);
+  };
+  const QColor up = axisColor(2);
+  const QColor down = axisColor(0);
+  band("0up", m_state.meanUp_um, m_state.sigmaUp_um, up);
+  band("0down", m_state.meanDown_um, m_state.sigmaDown_um, down);
+  PartStyle style;
+  style.unit = "µm";
+  style.points = true;
+  style.line = false;
+  style.pointSize = 3.5;
+  int number = 0;
+  for (const LaserRun& run : m_state.runs) {
+    style.tag = run.upwards ? tr("Run %1 upwards").arg(number + 1) : tr("Run %1 downwards").arg(number + 1);
+    style.color = mix(c.panel, run.upwards ? up : down, 0.6);
+    m_measurement->setPart(QStringLiteral("1run%1").arg(number++, 3, 10, QChar('0')), run.position_mm, run.error_um,
+                           style);
+  }
+  style.line = true;
+  style.width = 2.0;
+  style.pointSize = 5;
+  style.tag = tr("Mean upwards");
+  style.color = up;
+  m_measurement->setPart("2up", m_state.position_mm, m_state.meanUp_um, style);
+  style.tag = tr("Mean downwards");
+  style.color = down;
+  if (!m_state.meanDown_um.isEmpty()) m_measurement->setPart("2down", m_state.position_mm, m_state.meanDown_um, style);
+}
+
+void AxisPage::renderSegments() {
+  const Colors& c = colors();
+  m_segmentPlot->clear();
+  m_segmentPlot->setAxisLabels(tr("position / mm"), tr("error / µm"));
+  PartStyle style;
+  style.unit = "µm";
+  style.tag = tr("Mean upwards");
+  style.color = c.muted;
+  style.line = false;
+  style.points = true;
+  style.pointSize = 5;
+  m_segmentPlot->setPart("0points", m_state.position_mm, m_state.meanUp_um, style);
+  const auto draw = [&](const QString& id, const QVector<AxisSegment>& list, const QColor& color, double width,
+                        bool dashed) {
+    PartStyle line;
+    line.unit = "µm";
+    line.color = color;
+    line.width = width;
+    line.dashed = dashed;
+    for (int i = 0; i < list.size(); ++i) {
+      line.tag = tr("Segment %1").arg(i + 1);
+      // The error along a segment: measured - commanded.
+      const auto error_um = [&](double x) { return ((list[i].a - 1.0) * x + list[i].b_mm) * 1000.0; };
+      m_segmentPlot->setPart(id + QStringLiteral("%1").arg(i, 3, 10, QChar('0')), {list[i].from_mm, list[i].to_mm},
+                             {error_um(list[i].from_mm), error_um(list[i].to_mm)}, line);
+    }
+  };
+  draw("1other", m_state.useOptimal ? m_state.published : m_state.optimal, mix(c.panel, c.warn, 0.7), 1.2, true);
+  draw("2chosen", segments(), c.accent, 2.2, false);
+}
+
+void AxisPage::renderTables() {
+  const bool cut = m_views->currentIndex() == 1;
+  m_figureCard->setTitle(cut ? tr("Segments") : tr("Figures"));
+  m_standard->setItems({"ISO 230-2", "VDI 3441"});
+  m_standard->setVisible(!cut);
+  m_tables->setCurrentIndex(cut ? 1 : 0);
+  m_standardTable->setColumns({{tr("Figure"), 72, false, {}}, {tr("Meaning"), 0, false, {}}, {"µm", 64, true, {}}});
+  QVector<QVector<DataCell>> rows;
+  for (const StandardFigure& figure : m_standard->currentIndex() == 1 ? m_state.vdi : m_state.iso) {
+    DataCell symbol{figure.symbol};
+    symbol.strong = true;
+    rows.append(
+        {symbol, DataCell{figure.name},
+         DataCell{std::isnan(figure.value_um) ? QStringLiteral("–") : QString::number(figure.value_um, 'f', 2)}});
+  }
+  m_standardTable->setRows(rows);
+  m_segmentTable->setColumns({{tr("From"), 66, true, {}},
+                              {tr("To"), 66, true, {}},
+                              {tr("Points"), 54, true, {}},
+                              {"r", 66, true, {}},
+                              {tr("Residual"), 0, true, tr("Largest residual of a point")}});
+  rows.clear();
+  for (const AxisSegment& s : segments()) {
+    rows.append({DataCell{QString::number(s.from_mm, 'f', 1)}, DataCell{QString::number(s.to_mm, 'f', 1)},
+                 DataCell{QString::number(s.points)},
+                 DataCell{std::isnan(s.r) ? QStringLiteral("–") : QString::number(s.r, 'f', 4)},
+                 DataCell{QString::number(s.largestResidual_um, 'f', 2) + " µm"}});
+  }
+  m_segmentTable->setRows(rows);
+}
+
+}  // namespace zerodrift::ui

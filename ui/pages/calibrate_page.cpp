@@ -1,0 +1,362 @@
+#include "ui/pages/calibrate_page.h"
+
+#include <cmath>
+
+#include "ui/plots/xy_plot.h"
+#include "ui/widgets/card.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/level_bar.h"
+#include "ui/widgets/progress_strip.h"
+#include "ui/widgets/toggle_segment.h"
+
+namespace zerodrift::ui {
+namespace {
+
+PartStyle pointStyle(const QString& tag, const QColor& color, bool hollow, double size) {
+  PartStyle style;
+  style.tag = tag;
+  style.unit = "mm";
+  style.color = color;
+  style.line = false;
+  style.points = true;
+  style.hollow = hollow;
+  style.pointSize = size;
+  return style;
+}
+
+PartStyle lineStyle(const QString& tag, const QColor& color, bool dashed) {
+  PartStyle style;
+  style.tag = tag;
+  style.unit = "mm";
+  style.color = color;
+  style.dashed = dashed;
+  return style;
+}
+
+/// Corners of a rectangle about the origin, closed.
+QPair<QVector<double>, QVector<double>> frame(double halfWidth, double halfHeight) {
+  return {{-halfWidth, halfWidth, halfWidth, -halfWidth, -halfWidth},
+          {-halfHeight, -halfHeight, halfHeight, halfHeight, -halfHeight}};
+}
+
+}  // namespace
+
+CalibratePage::CalibratePage(QWidget* parent) : Page("calibrate", parent) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(makeImageCard(), 5);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(makePlanCard(), 1);
+  right->addWidget(makeMoves());
+  row->addLayout(right, 4);
+  content()->addLayout(row, 1);
+  refresh();
+}
+
+Card* CalibratePage::makeImageCard() {
+  m_imageCard = new Card(this);
+  m_camera = new ToggleSegment(m_imageCard);
+  m_region = new QPushButton(m_imageCard);
+  m_region->setObjectName("drawRegion");
+  m_region->setCheckable(true);
+  m_imageCard->tools()->addWidget(m_region);
+  m_imageCard->tools()->addWidget(m_camera);
+  m_view = new CameraView(m_imageCard);
+  m_focus = new LevelBar(m_imageCard);
+  m_exposure = new LevelBar(m_imageCard);
+  auto* bars = new QHBoxLayout;
+  bars->setSpacing(24);
+  bars->addWidget(m_focus);
+  bars->addWidget(m_exposure);
+  m_imageCard->body()->addWidget(m_view, 1);
+  m_imageCard->body()->addLayout(bars);
+  connect(m_camera, &ToggleSegment::currentChanged, this, &CalibratePage::cameraChosen);
+  connect(m_region, &QPushButton::toggled, m_view, &CameraView::setRegionEditable);
+  connect(m_view, &CameraView::regionDrawn, this, [this](const QRectF& region) {
+    m_region->setChecked(false);
+    Q_EMIT regionDrawn(region);
+  });
+  return m_imageCard;
+}
+
+Card* CalibratePage::makePlanCard() {
+  m_planCard = new Card(this);
+  m_planCard->setBodyMargins(6, 0, 6, 8);
+  m_planView = new ToggleSegment(m_planCard);
+  m_planCard->tools()->addWidget(m_planView);
+  m_plan = new XyPlot(m_planCard);
+  m_plan->setEqualScale(true);
+  m_residuals = new XyPlot(m_planCard);
+  m_residuals->setEqualScale(true);
+  m_plots = new QStackedWidget(m_planCard);
+  m_plots->addWidget(m_plan);
+  m_plots->addWidget(m_residuals);
+  m_planNote = new QLabel(m_planCard);
+  m_planNote->setProperty("role", "caption");
+  m_planNote->setWordWrap(true);
+  m_planNote->setContentsMargins(10, 0, 10, 0);
+  m_planCard->body()->addWidget(m_plots, 1);
+  m_planCard->body()->addWidget(m_planNote);
+  connect(m_planView, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_plots->setCurrentIndex(index);
+    render();
+  });
+  return m_planCard;
+}
+
+QWidget* CalibratePage::makeMoves() {
+  m_moveCard = new Card(this);
+  m_mode = new ToggleSegment(m_moveCard);
+  m_moveCard->tools()->addWidget(m_mode);
+  m_clear = new QCheckBox(m_moveCard);
+  m_clear->setObjectName("areaClear");
+  m_hand = new QWidget(m_moveCard);
+  auto* row = new QHBoxLayout(m_hand);
+  row->setContentsMargins(0, 0, 0, 0);
+  const auto box = [this, row](QLabel** name) {
+    *name = new QLabel(m_hand);
+    auto* made = new QDoubleSpinBox(m_hand);
+    made->setRange(-5000.0, 5000.0);
+    made->setDecimals(4);
+    made->setSuffix(" mm");
+    row->addWidget(*name);
+    row->addWidget(made, 1);
+    return made;
+  };
+  m_right = box(&m_rightName);
+  m_up = box(&m_upName);
+  m_read = new QPushButton(m_hand);
+  m_read->setObjectName("readPosition");
+  m_take = new QPushButton(m_hand);
+  m_take->setObjectName("takePosition");
+  row->addWidget(m_read);
+  row->addWidget(m_take);
+  m_moveCard->body()->addWidget(m_clear);
+  m_moveCard->body()->addWidget(m_hand);
+  connect(m_mode, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_state.byHand = index == 1;
+    refresh();
+    Q_EMIT modeChosen(m_state.byHand);
+  });
+  connect(m_clear, &QCheckBox::toggled, this, [this] { refresh(); });
+  connect(m_read, &QPushButton::clicked, this, [this] {
+    if (std::isnan(m_state.reportedRight_mm)) return;
+    m_right->setValue(m_state.reportedRight_mm);
+    m_up->setValue(m_state.reportedUp_mm);
+  });
+  connect(m_take, &QPushButton::clicked, this, [this] { Q_EMIT positionTaken(m_right->value(), m_up->value()); });
+  return m_moveCard;
+}
+
+void CalibratePage::setState(const CalibrateState& state) {
+  // A finished measurement shows its residuals by itself, once.
+  if (state.solved && !m_state.solved) m_planView->setCurrentIndex(1);
+  if (!state.solved && m_state.solved) m_planView->setCurrentIndex(0);
+  m_state = state;
+  refresh();
+}
+
+void CalibratePage::setFrame(const QImage& image, const CameraMarks& marks) {
+  m_view->setImage(image);
+  m_view->setMarks(marks);
+}
+
+void CalibratePage::setQuality(const ImageQuality& quality) {
+  m_quality = quality;
+  renderQuality();
+}
+
+int CalibratePage::measured() const {
+  return static_cast<int>(std::count_if(m_state.points.begin(), m_state.points.end(),
+                                        [](const CalibrationPoint& p) { return p.state == PointState::measured; }));
+}
+
+QString CalibratePage::title() const {
+  return tr("Calibrate");
+}
+
+QString CalibratePage::sentence() const {
+  if (!m_state.templateTaken)
+    return tr("Point the camera at the target, set focus and light, then draw the target's region.");
+  if (m_state.running) return tr("The axes go from position to position. Keep hands and doors away.");
+  if (m_state.accepted) return tr("This camera is calibrated. Measure again when it was touched.");
+  if (m_state.solved) return tr("Judge the residuals: they must be small and without pattern. Then accept.");
+  return m_state.byHand ? tr("Move the axes by hand to each position, read it, and take the picture.")
+                        : tr("Confirm that the axes may move, then measure the positions.");
+}
+
+PageAction CalibratePage::primary() const {
+  if (!m_state.blocked.isEmpty()) return {"primary", tr("Measure positions"), false, m_state.blocked};
+  if (!m_state.templateTaken) {
+    return {"primary", tr("Take the template"), true, {}};
+  }
+  if (m_state.solved && !m_state.accepted) {
+    const bool good = m_state.rms_um <= 1.25 * m_state.rmsLimit_um;
+    return {"primary", tr("Accept"), good,
+            tr("The residual is above the limit. Measure again, slower or with better light.")};
+  }
+  if (m_state.accepted) return {"primary", tr("Go on"), true, {}};
+  if (m_state.byHand) {
+    return {"primary", tr("Solve"), measured() >= 3, tr("Take at least three positions that do not lie on one line.")};
+  }
+  return {"primary", tr("Measure positions"), m_clear->isChecked() && !m_state.running,
+          m_state.running ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")};
+}
+
+QVector<PageAction> CalibratePage::secondary() const {
+  if (!m_state.blocked.isEmpty() || !m_state.templateTaken) return {};
+  const bool free = !m_state.running;
+  const QString wait = tr("The positions are being measured.");
+  QVector<PageAction> actions = {{"template", tr("New template"), free, wait},
+                                 {"plan", tr("Propose positions"), free, wait}};
+  if (m_state.solved) actions.append({"repeat", tr("Measure again"), free, wait});
+  return actions;
+}
+
+QVector<Figure> CalibratePage::figures() const {
+  Figure scale = figureOf(tr("Scale"), m_state.umPerPx, 3, tr("µm/px"));
+  if (!std::isnan(m_state.umPerPxSigma)) scale.limit = QStringLiteral("± %1").arg(m_state.umPerPxSigma, 0, 'f', 4);
+  Figure rotation = figureOf(tr("Camera rotation"), m_state.rotation_deg, 2, QStringLiteral("°"));
+  rotation.tip = tr("Taken out by the calibration; it needs no turning of the camera.");
+  Figure time = figureOf(tr("Positions"), measured(), 0, tr("of %1").arg(m_state.points.size()));
+  if (m_state.points.isEmpty()) time.value.clear();
+  if (!std::isnan(m_state.timeLeft_s)) time.limit = tr("%1 left").arg(durationText(m_state.timeLeft_s));
+  return {scale, rotation, figureAtMost(tr("Residual, rms"), m_state.rms_um, 2, "µm", m_state.rmsLimit_um),
+          figureAtMost(tr("Uncertainty"), m_state.uncertainty_um, 2, "µm", m_state.uncertaintyLimit_um), time};
+}
+
+void CalibratePage::render() {
+  if (!m_state.blocked.isEmpty()) {
+    showEmpty(Icon::camera, tr("No camera to calibrate"), m_state.blocked);
+    return;
+  }
+  showContent();
+  setFigures(figures());
+  m_imageCard->setTitle(tr("Live image"));
+  m_imageCard->setSubtitle(m_state.referenceFound ? tr("reference target found") : tr("no reference target"));
+  {
+    const QSignalBlocker quiet(m_camera);
+    m_camera->setItems(m_state.cameras);
+    m_camera->setCurrentIndex(m_state.camera);
+    m_camera->setVisible(m_state.cameras.size() > 1);
+  }
+  m_region->setText(tr("Draw region"));
+  m_region->setToolTip(tr("Draw a box around the target in the image"));
+  m_region->setEnabled(!m_state.running);
+  m_view->setPlaceholder(tr("Waiting for the camera"));
+  m_planCard->setTitle(m_planView->currentIndex() == 1 ? tr("Residuals") : tr("Positions"));
+  m_planCard->setSubtitle(QStringLiteral("mm"));
+  m_planView->setItems({tr("Plan"), tr("Residuals")});
+  renderPlan();
+  renderResiduals();
+  renderQuality();
+  renderMoves();
+}
+
+void CalibratePage::renderPlan() {
+  const Colors& c = colors();
+  m_plan->clear();
+  m_plan->setPlaceholder(tr("The positions are proposed after the template"));
+  const auto named = [](const QString& axis) { return axis + QStringLiteral(" / mm"); };
+  for (XyPlot* plot : {m_plan, m_residuals}) plot->setAxisLabels(named(m_state.axisRight), named(m_state.axisUp));
+  if (m_state.points.isEmpty()) return;
+  if (m_state.fieldRight_mm > 0.0) {
+    const auto [x, y] = frame(m_state.fieldRight_mm / 2.0, m_state.fieldUp_mm / 2.0);
+    m_plan->setPart("0field", x, y, lineStyle(tr("Field of view"), c.muted, true));
+  }
+  if (m_state.driftRight_mm > 0.0) {
+    const auto [x, y] = frame(m_state.driftRight_mm, m_state.driftUp_mm);
+    m_plan->setPart("1drift", x, y, lineStyle(tr("Expected drift"), c.accent, false));
+  }
+  const auto put = [this](const QString& id, PointState state, const PartStyle& style) {
+    QVector<double> x;
+    QVector<double> y;
+    for (const CalibrationPoint& p : m_state.points) {
+      if (p.state != state) continue;
+      x.append(p.right_mm);
+      y.append(p.up_mm);
+    }
+    if (!x.isEmpty()) m_plan->setPart(id, x, y, style);
+  };
+  put("2planned", PointState::planned, pointStyle(tr("Planned"), c.muted, true, 10));
+  put("3moving", PointState::moving, pointStyle(tr("Now"), c.accent, false, 13));
+  put("4measured", PointState::measured, pointStyle(tr("Measured"), c.ok, false, 10));
+  put("5refused", PointState::refused, pointStyle(tr("Refused"), c.bad, true, 11));
+}
+
+void CalibratePage::renderResiduals() {
+  m_residuals->clear();
+  m_residuals->setPlaceholder(tr("Shown when the positions are measured"));
+  const bool shown = m_planView->currentIndex() == 1;
+  m_planNote->setText(tr("Dashed: field of view. Blue: expected drift; the positions must enclose it."));
+  if (!m_state.solved || m_state.points.isEmpty()) return;
+  double largest_um = 1e-6;
+  double extent_mm = 1e-6;
+  for (const CalibrationPoint& p : m_state.points) {
+    largest_um = std::max(largest_um, std::hypot(p.residualRight_um, p.residualUp_um));
+    extent_mm = std::max({extent_mm, std::abs(p.right_mm), std::abs(p.up_mm)});
+  }
+  // The longest vector gets a fifth of the plan; the factor is rounded, so that it can be said.
+  const double raw = 0.2 * extent_mm * 1000.0 / largest_um;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double factor = power * (raw / power >= 5.0 ? 5.0 : raw / power >= 2.0 ? 2.0 : 1.0);
+  QVector<double> x;
+  QVector<double> y;
+  QStringList words;
+  int index = 0;
+  for (const CalibrationPoint& p : m_state.points) {
+    if (p.state != PointState::measured) continue;
+    x.append(p.right_mm);
+    y.append(p.up_mm);
+    words.append(tr("%1 µm").arg(std::hypot(p.residualRight_um, p.residualUp_um), 0, 'f', 2));
+    m_residuals->setPart(
+        QStringLiteral("v%1").arg(index++), {p.right_mm, p.right_mm + factor * p.residualRight_um / 1000.0},
+        {p.up_mm, p.up_mm + factor * p.residualUp_um / 1000.0}, lineStyle(tr("Residual"), colors().bad, false));
+  }
+  m_residuals->setPart("points", x, y, pointStyle(tr("Position"), colors().ok, false, 7), words);
+  if (shown) m_planNote->setText(tr("Residual vectors drawn %1 times larger.").arg(factor, 0, 'f', 0));
+}
+
+void CalibratePage::renderQuality() {
+  const auto word = [](double level, double from, double to, const QString& low, const QString& high) {
+    if (std::isnan(level)) return CalibratePage::tr("unknown");
+    return level < from ? low : level > to ? high : CalibratePage::tr("good");
+  };
+  const auto judge = [](double level, double from, double to) {
+    if (std::isnan(level)) return Judgement::none;
+    return level < from || level > to ? Judgement::warn : Judgement::ok;
+  };
+  m_focus->setLevel(tr("Focus"), m_quality.focus, 0.6, 1.0, word(m_quality.focus, 0.6, 1.0, tr("blurred"), {}),
+                    judge(m_quality.focus, 0.6, 1.0));
+  const bool glare = m_quality.saturated_percent > 1.0;
+  m_exposure->setLevel(tr("Exposure"), m_quality.exposure, 0.35, 0.8,
+                       glare ? tr("%1 % too bright").arg(m_quality.saturated_percent, 0, 'f', 0)
+                             : word(m_quality.exposure, 0.35, 0.8, tr("too dark"), tr("too bright")),
+                       glare ? Judgement::warn : judge(m_quality.exposure, 0.35, 0.8));
+}
+
+void CalibratePage::renderMoves() {
+  m_moveCard->setTitle(tr("Moves"));
+  {
+    const QSignalBlocker quiet(m_mode);
+    m_mode->setItems({tr("By the controller"), tr("By hand")});
+    m_mode->setCurrentIndex(m_state.byHand ? 1 : 0);
+    m_mode->setEnabled(!m_state.running);
+  }
+  m_clear->setText(tr("%1 and %2 may move by ±%3 mm; the area is clear.")
+                       .arg(m_state.axisRight, m_state.axisUp)
+                       .arg(m_state.span_mm / 2.0, 0, 'f', 1));
+  m_clear->setVisible(!m_state.byHand);
+  m_clear->setEnabled(!m_state.running);
+  m_hand->setVisible(m_state.byHand);
+  m_rightName->setText(m_state.axisRight);
+  m_upName->setText(m_state.axisUp);
+  m_read->setText(tr("Read"));
+  m_read->setToolTip(tr("Take over the position that the controller reports"));
+  m_read->setEnabled(!std::isnan(m_state.reportedRight_mm));
+  m_take->setText(tr("Take"));
+  m_take->setToolTip(tr("Take the picture at this position"));
+}
+
+}  // namespace zerodrift::ui

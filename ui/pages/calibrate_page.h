@@ -1,0 +1,141 @@
+#pragma once
+// Calibration of a camera against the machine's own axes (V1, V2): live image, plan of positions, residuals.
+
+#include <QImage>
+#include <limits>
+
+#include "ui/pages/page.h"
+#include "ui/widgets/camera_view.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+class QStackedWidget;
+
+namespace zerodrift::ui {
+
+class Card;
+class LevelBar;
+class ToggleSegment;
+class XyPlot;
+
+enum class PointState {
+  planned,
+  moving,  // the machine goes there or the picture is being taken
+  measured,
+  refused,
+};
+
+/// One position of the plan, in the two machine axes that this camera sees.
+struct CalibrationPoint {
+  double right_mm = 0.0;  // along the axis seen to the right
+  double up_mm = 0.0;     // along the axis seen upwards
+  PointState state = PointState::planned;
+  double residualRight_um = 0.0;  // after the fit
+  double residualUp_um = 0.0;
+  QString reason{};  // why it was refused
+};
+
+struct CalibrateState {
+  QString blocked{};  // why the page cannot be used yet; empty: it can
+  QStringList cameras{};
+  int camera = 0;
+  QString axisRight = "X";
+  QString axisUp = "Z";
+  bool templateTaken = false;
+  bool referenceFound = false;
+  bool running = false;
+  bool solved = false;
+  bool accepted = false;
+  bool byHand = false;
+  QVector<CalibrationPoint> points{};
+  double fieldRight_mm = 0.0;  // size of the field of view
+  double fieldUp_mm = 0.0;
+  double driftRight_mm = 0.0;  // expected drift, half widths: the positions must enclose it
+  double driftUp_mm = 0.0;
+  double span_mm = 1.6;                                                // how far the axes move altogether
+  double reportedRight_mm = std::numeric_limits<double>::quiet_NaN();  // the controller's position, for taking by hand
+  double reportedUp_mm = std::numeric_limits<double>::quiet_NaN();
+
+  double umPerPx = std::numeric_limits<double>::quiet_NaN();
+  double umPerPxSigma = std::numeric_limits<double>::quiet_NaN();
+  double rotation_deg = std::numeric_limits<double>::quiet_NaN();
+  double rms_um = std::numeric_limits<double>::quiet_NaN();
+  double rmsLimit_um = 1.0;
+  double uncertainty_um = std::numeric_limits<double>::quiet_NaN();
+  double uncertaintyLimit_um = 0.5;
+  double timeLeft_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Help to set the lens and the lamp; levels 0..1, NaN: unknown.
+struct ImageQuality {
+  double focus = std::numeric_limits<double>::quiet_NaN();
+  double exposure = std::numeric_limits<double>::quiet_NaN();
+  double saturated_percent = 0.0;
+};
+
+class CalibratePage : public Page {
+  Q_OBJECT
+
+ public:
+  explicit CalibratePage(QWidget* parent = nullptr);
+  void setState(const CalibrateState& state);
+  const CalibrateState& state() const { return m_state; }
+  void setFrame(const QImage& image, const CameraMarks& marks);
+  void setQuality(const ImageQuality& quality);
+
+  QString title() const override;
+  QString sentence() const override;
+  /// Take the template, Measure positions, Accept.
+  PageAction primary() const override;
+  /// "template", "plan", "repeat".
+  QVector<PageAction> secondary() const override;
+
+ Q_SIGNALS:
+  void cameraChosen(int index);
+  void regionDrawn(const QRectF& region_px);
+  void modeChosen(bool byHand);
+  void positionTaken(double right_mm, double up_mm);  // by hand
+
+ protected:
+  void render() override;
+
+ private:
+  Card* makeImageCard();
+  Card* makePlanCard();
+  QWidget* makeMoves();
+  void renderPlan();
+  void renderResiduals();
+  void renderQuality();
+  void renderMoves();
+  QVector<Figure> figures() const;
+  int measured() const;
+
+  CalibrateState m_state;
+  ImageQuality m_quality;
+  Card* m_imageCard;
+  Card* m_planCard;
+  Card* m_moveCard;
+  CameraView* m_view;
+  ToggleSegment* m_camera;
+  QPushButton* m_region;
+  LevelBar* m_focus;
+  LevelBar* m_exposure;
+  ToggleSegment* m_planView;
+  QStackedWidget* m_plots;
+  XyPlot* m_plan;
+  XyPlot* m_residuals;
+  QLabel* m_planNote;
+  ToggleSegment* m_mode;
+  QCheckBox* m_clear;
+  QWidget* m_hand;
+  QDoubleSpinBox* m_right;
+  QDoubleSpinBox* m_up;
+  QLabel* m_rightName;
+  QLabel* m_upName;
+  QPushButton* m_read;
+  QPushButton* m_take;
+};
+
+}  // namespace zerodrift::ui

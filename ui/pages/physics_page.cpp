@@ -1,0 +1,312 @@
+#include "ui/pages/physics_page.h"
+
+#include <cmath>
+
+#include "ui/pages/explanation_card.h"
+#include "ui/plots/live_plot.h"
+#include "ui/widgets/card.h"
+#include "ui/widgets/channel_table.h"
+#include "ui/widgets/data_table.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/toggle_segment.h"
+
+namespace zerodrift::ui {
+
+PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
+  m_mapCard = new Card(this);
+  m_mapCard->setBodyMargins(6, 0, 6, 6);
+  m_component = new ToggleSegment(m_mapCard);
+  m_view = new ToggleSegment(m_mapCard);
+  m_mapCard->tools()->addWidget(m_component);
+  m_mapCard->tools()->addWidget(m_view);
+
+  auto* where = new QWidget(m_mapCard);
+  auto* whereLayout = new QVBoxLayout(where);
+  whereLayout->setContentsMargins(0, 0, 0, 0);
+  whereLayout->setSpacing(0);
+  m_drawing = new ComponentDrawing(where);
+  m_map = new HeatMap(where);
+  m_map->setPositionAcross(true);
+  m_drawing->setScale([this](double position_mm) { return m_map->positionToPixel(position_mm); });
+  whereLayout->addWidget(m_drawing);
+  whereLayout->addWidget(m_map, 1);
+  connect(m_map, &HeatMap::layoutChanged, m_drawing, qOverload<>(&QWidget::update));
+
+  auto* compare = new QWidget(m_mapCard);
+  auto* compareLayout = new QHBoxLayout(compare);
+  compareLayout->setContentsMargins(0, 0, 0, 0);
+  auto* plots = new QVBoxLayout;
+  m_channelPlot = new LivePlot(compare);
+  m_residualPlot = new LivePlot(compare);
+  m_channelPlot->linkTime(m_residualPlot);
+  plots->addWidget(m_channelPlot, 3);
+  plots->addWidget(m_residualPlot, 2);
+  m_channelTable = new ChannelTable(compare);
+  m_channelTable->setFixedWidth(230);
+  m_channelTable->setColumnWidths(76, 64);
+  compareLayout->addLayout(plots, 1);
+  compareLayout->addWidget(m_channelTable);
+  connect(m_channelTable, &ChannelTable::selected, this, [this] { renderChannel(); });
+
+  auto* trial = new QWidget(m_mapCard);
+  auto* trialLayout = new QVBoxLayout(trial);
+  m_trialWords = new QLabel(trial);
+  m_trialWords->setWordWrap(true);
+  m_trials = new DataTable(trial);
+  trialLayout->addWidget(m_trialWords);
+  trialLayout->addWidget(m_trials, 1);
+
+  m_views = new QStackedWidget(m_mapCard);
+  for (QWidget* view : {where, compare, trial}) m_views->addWidget(view);
+  m_mapCard->body()->addWidget(m_views, 1);
+
+  m_sideCard = new Card(this);
+  m_sideCard->setFixedWidth(372);
+  m_sideCard->setBodyMargins(12, 0, 4, 8);
+  m_verdict = new QLabel(m_sideCard);
+  m_verdict->setWordWrap(true);
+  m_scroll = new QScrollArea(m_sideCard);
+  m_scroll->setWidgetResizable(true);
+  m_scroll->setFrameShape(QFrame::NoFrame);
+  m_scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* list = new QWidget;
+  list->setObjectName("explanations");
+  m_explanationLayout = new QVBoxLayout(list);
+  m_explanationLayout->setContentsMargins(0, 0, 8, 0);
+  m_explanationLayout->setSpacing(10);
+  m_explanationLayout->addStretch();
+  m_scroll->setWidget(list);
+  m_sideCard->body()->addWidget(m_verdict);
+  m_sideCard->body()->addWidget(m_scroll, 1);
+  m_experiment = new Card(this);
+  m_experiment->setFixedWidth(372);
+  m_experimentText = new QLabel(m_experiment);
+  m_experimentText->setWordWrap(true);
+  m_experimentButton = new QPushButton(m_experiment);
+  m_experimentButton->setObjectName("experiment");
+  m_experiment->body()->addWidget(m_experimentText);
+  m_experiment->body()->addWidget(m_experimentButton, 0, Qt::AlignLeft);
+  connect(m_experimentButton, &QPushButton::clicked, this, &PhysicsPage::experimentRequested);
+
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(m_sideCard, 1);
+  right->addWidget(m_experiment);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(m_mapCard, 1);
+  row->addLayout(right);
+  content()->addLayout(row, 1);
+  connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_views->setCurrentIndex(index);
+    refresh();
+  });
+  connect(m_component, &ToggleSegment::currentChanged, this, &PhysicsPage::componentChosen);
+  refresh();
+}
+
+void PhysicsPage::setState(const PhysicsState& state) {
+  m_state = state;
+  refresh();
+}
+
+void PhysicsPage::showView(int index) {
+  m_view->setCurrentIndex(index);
+}
+
+QString PhysicsPage::title() const {
+  return tr("Physics");
+}
+
+QString PhysicsPage::sentence() const {
+  switch (m_state.verdict) {
+    case PhysicsVerdict::none:
+      return tr("The run is simulated from the machine's description. Let the program find what the simulation lacks.");
+    case PhysicsVerdict::consistent:
+      return tr("Simulation and recording agree down to the noise. Nothing needs to be added.");
+    case PhysicsVerdict::missingEffect:
+      return tr("Something is missing in the simulation. Judge the explanations; adopt what convinces.");
+    case PhysicsVerdict::unexplained:
+      return tr("Something is missing that no known effect explains. It is shown, not guessed.");
+  }
+  return {};
+}
+
+PageAction PhysicsPage::primary() const {
+  if (m_state.verdict == PhysicsVerdict::none || !m_state.blocked.isEmpty()) {
+    return {"primary", tr("Find what is missing"), m_state.blocked.isEmpty(), m_state.blocked};
+  }
+  return {"primary", tr("Go on"), true, {}};
+}
+
+QVector<PageAction> PhysicsPage::secondary() const {
+  if (!m_state.blocked.isEmpty()) return {};
+  QVector<PageAction> actions = {{"trial", tr("Blind trial")}, {"region", tr("Find sensor region")}};
+  if (m_state.verdict != PhysicsVerdict::none) actions.append({"find", tr("Search again")});
+  return actions;
+}
+
+QVector<Figure> PhysicsPage::figures() const {
+  Figure agreement = figureAtMost(tr("Simulation against recording"), m_state.rmse_K, 2, "K",
+                                  std::isnan(m_state.noise_K) ? 0.1 : std::ceil(20.0 * m_state.noise_K) / 10.0);
+  if (agreement.judgement == Judgement::ok) agreement.word = tr("down to noise");
+  if (agreement.judgement == Judgement::bad) agreement.word = tr("something missing");
+  Figure noise = figureOf(tr("Noise of the sensors"), m_state.noise_K, 2, "K");
+  Figure heat = figureOf(tr("Missing heat"), m_state.missing_W, 0, "W");
+  const auto adopted = std::count_if(m_state.explanations.begin(), m_state.explanations.end(),
+                                     [](const Explanation& e) { return e.adopted; });
+  Figure held = figureOf(tr("After, on unseen data"), m_state.held_K, 2, "K",
+                         tr("%n adopted", nullptr, static_cast<int>(adopted)));
+  return {agreement, noise, heat, held};
+}
+
+void PhysicsPage::render() {
+  if (!m_state.blocked.isEmpty()) {
+    showEmpty(Icon::chart, tr("Nothing to compare yet"), m_state.blocked);
+    return;
+  }
+  showContent();
+  setFigures(figures());
+  m_view->setItems({tr("Where"), tr("Channels"), tr("Blind trial")});
+  QStringList names;
+  for (const DrawnComponent& component : m_state.components) names.append(component.name);
+  {
+    const QSignalBlocker quiet(m_component);
+    m_component->setItems(names);
+    m_component->setCurrentIndex(m_state.component);
+    m_component->setVisible(names.size() > 1 && m_views->currentIndex() == 0);
+  }
+  const bool residual = m_state.missingHeat.unit == QStringLiteral("K");  // before the search: what the sensors saw
+  const QStringList titles = {residual ? tr("Recorded minus simulated") : tr("Missing heat"),
+                              tr("Simulation and recording"), tr("Blind trial")};
+  m_mapCard->setTitle(titles.value(m_views->currentIndex()));
+  m_mapCard->setSubtitle(m_views->currentIndex() == 0 ? (residual ? tr("K, over position in mm and time")
+                                                                  : tr("W, over position in mm and time"))
+                                                      : QString());
+  renderMap();
+  renderChannels();
+  renderExplanations();
+  renderTrials();
+}
+
+void PhysicsPage::renderMap() {
+  m_map->setPlaceholder(tr("Drawn when the search is done"));
+  if (m_state.component < m_state.components.size()) {
+    const DrawnComponent& component = m_state.components[m_state.component];
+    m_drawing->setComponent(component);
+    QVector<SensorTick> ticks;
+    for (const DrawnSensor& sensor : component.sensors) ticks.append({sensor.tag, sensor.position_mm});
+    m_map->setSensors(ticks);
+    m_map->setData(m_state.missingHeat);
+    m_map->setPositionRange(0.0, component.length_mm);
+  }
+}
+
+void PhysicsPage::renderChannels() {
+  QVector<ChannelRow> rows;
+  for (const SimulatedChannel& channel : m_state.channels) {
+    ChannelRow row;
+    row.id = channel.id;
+    row.tag = channel.tag;
+    const bool known = !std::isnan(channel.rmse);
+    row.value = known ? QString::number(channel.rmse, 'f', 2) + ' ' + channel.unit : QStringLiteral("–");
+    const double times = channel.rmse / std::max(channel.noise, 1e-9);
+    row.judgement = !known || std::isnan(times) ? Judgement::none
+                    : times < 2.0               ? Judgement::ok
+                    : times < 5.0               ? Judgement::warn
+                                                : Judgement::bad;
+    row.state = row.judgement == Judgement::ok     ? tr("agrees")
+                : row.judgement == Judgement::none ? QString()
+                                                   : tr("differs");
+    rows.append(row);
+  }
+  m_channelTable->setHeaders(tr("Channel"), tr("rms"), tr("State"));
+  m_channelTable->setRows(rows);
+  if (m_channelTable->selectedId().isEmpty() && !rows.isEmpty()) m_channelTable->select(rows.first().id);
+  renderChannel();
+}
+
+void PhysicsPage::renderChannel() {
+  const QString id = m_channelTable->selectedId();
+  const auto found = std::find_if(m_state.channels.begin(), m_state.channels.end(),
+                                  [&](const SimulatedChannel& c) { return c.id == id; });
+  if (found == m_state.channels.end()) return;
+  const Colors& c = colors();
+  const auto curve = [&](const char* name, const QString& tag, const QColor& color, bool dashed) {
+    Curve made;
+    made.id = name;
+    made.tag = tag;
+    made.unit = found->unit;
+    made.color = color;
+    made.dashed = dashed;
+    made.width = 1.6;
+    return made;
+  };
+  m_channelPlot->setCurves({curve("recorded", tr("Recorded"), c.text, false),
+                            curve("simulated", tr("Simulated"), c.bad, true),
+                            curve("refined", tr("With effects"), c.ok, false)});
+  m_channelPlot->setData("recorded", found->time_s, found->recorded);
+  m_channelPlot->setData("simulated", found->time_s, found->simulated);
+  m_channelPlot->setData("refined", found->time_s, found->refined);
+  const auto difference = [&](const QVector<double>& model) {
+    QVector<double> d;
+    for (int i = 0; i < model.size() && i < found->recorded.size(); ++i) d.append(found->recorded[i] - model[i]);
+    return d;
+  };
+  m_residualPlot->setCurves({curve("simulated", tr("Recorded - simulated"), c.bad, false),
+                             curve("refined", tr("Recorded - refined"), c.ok, false)});
+  m_residualPlot->setData("simulated", found->time_s, difference(found->simulated));
+  m_residualPlot->setData("refined", found->time_s, difference(found->refined));
+  m_residualPlot->setIncludeZero(true);
+}
+
+void PhysicsPage::renderExplanations() {
+  m_sideCard->setTitle(tr("Explanations"));
+  m_sideCard->setSubtitle(tr("ranked by evidence"));
+  QString words = m_state.verdictSentence;
+  if (m_state.verdict == PhysicsVerdict::none && words.isEmpty()) words = tr("Not searched yet.");
+  m_verdict->setText(words);
+  m_verdict->setProperty("role", m_state.verdict == PhysicsVerdict::consistent ? "ok" : "muted");
+  m_verdict->style()->unpolish(m_verdict);
+  m_verdict->style()->polish(m_verdict);
+  while (m_cards.size() > m_state.explanations.size()) delete m_cards.takeLast();
+  while (m_cards.size() < m_state.explanations.size()) {
+    auto* card = new ExplanationCard(m_scroll->widget());
+    m_explanationLayout->insertWidget(static_cast<int>(m_cards.size()), card);
+    m_cards.append(card);
+    connect(card, &ExplanationCard::adoptClicked, this,
+            [this, card](bool adopt) { Q_EMIT adopted(card->effectId(), adopt); });
+    connect(card, &ExplanationCard::rejectClicked, this, [this, card] { Q_EMIT rejected(card->effectId()); });
+  }
+  for (int i = 0; i < m_cards.size(); ++i) m_cards[i]->setExplanation(i + 1, m_state.explanations[i]);
+  m_experiment->setTitle(tr("Shortest run that decides"));
+  m_experimentText->setText(m_state.nextExperiment);
+  m_experimentButton->setText(tr("Put it into the plan"));
+  m_experiment->setVisible(!m_state.nextExperiment.isEmpty());
+}
+
+void PhysicsPage::renderTrials() {
+  const auto right =
+      std::count_if(m_state.trials.begin(), m_state.trials.end(), [](const TrialScore& t) { return t.right; });
+  m_trialWords->setText(
+      m_state.trials.isEmpty()
+          ? tr("One effect is hidden in a made recording and its name sealed. The search must name it. "
+               "Start with Blind trial above.")
+          : tr("%1 of %2 hidden effects named correctly.").arg(right).arg(m_state.trials.size()));
+  m_trials->setColumns({{tr("Hidden"), 0, false, {}},
+                        {tr("Answer"), 0, false, {}},
+                        {tr("Result"), 110, false, {}},
+                        {tr("Improved"), 90, true, {}}});
+  QVector<QVector<DataCell>> rows;
+  for (const TrialScore& trial : m_state.trials) {
+    DataCell result;
+    result.text = trial.right ? tr("right") : tr("wrong");
+    result.judged = true;
+    result.judgement = trial.right ? Judgement::ok : Judgement::bad;
+    rows.append({DataCell{trial.effect}, DataCell{trial.answer}, result,
+                 DataCell{QString::number(trial.improvement_percent, 'f', 0) + " %"}});
+  }
+  m_trials->setRows(rows);
+}
+
+}  // namespace zerodrift::ui

@@ -1,0 +1,147 @@
+#pragma once
+// Simulation against recording (P1 to P7): where heat is missing, which effect explains it, what would decide between
+// rivals. Nothing is claimed that the state does not say.
+
+#include <QStringList>
+#include <limits>
+
+#include "ui/pages/page.h"
+#include "ui/plots/heat_map.h"
+#include "ui/widgets/component_drawing.h"
+
+class QLabel;
+class QPushButton;
+class QScrollArea;
+class QStackedWidget;
+class QVBoxLayout;
+
+namespace zerodrift::ui {
+
+class Card;
+class ChannelTable;
+class DataTable;
+class ExplanationCard;
+class LivePlot;
+class ToggleSegment;
+
+/// A channel simulated and recorded.
+struct SimulatedChannel {
+  QString id{};
+  QString tag{};
+  QString unit{};
+  QVector<double> time_s{};
+  QVector<double> recorded{};
+  QVector<double> simulated{};
+  QVector<double> refined{};  // with the adopted effects; empty: none adopted
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+  double noise = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct Explanation {
+  QString id{};             // of the effect
+  QString name{};           // in words
+  QString sentence{};       // what was left out, where, how large
+  QString magnitude{};      // "36.1 ± 2.0 W"
+  QString place{};          // "spindle, 172 mm"
+  double confidence = 0.0;  // 0..1
+  bool adopted = false;
+  bool rejected = false;
+  QVector<double> before{};  // residual of the most telling channel
+  QVector<double> refit{};   // after a plain re-fit without the effect
+  QVector<double> after{};
+  double rmseBefore = 0.0;
+  double rmseRefit = 0.0;
+  double rmseAfter = 0.0;
+  QString unit = "K";
+  QString rivals{};       // "cannot be told from: contact resistance at 170 mm"
+  QString couldDetect{};  // "would have shown down to 8 W"
+};
+
+struct TrialScore {
+  QString effect{};  // concealed
+  QString answer{};
+  bool right = false;
+  double improvement_percent = 0.0;
+};
+
+enum class PhysicsVerdict {
+  none,  // not asked yet
+  consistent,
+  missingEffect,
+  unexplained,
+};
+
+struct PhysicsState {
+  QString blocked{};
+  PhysicsVerdict verdict = PhysicsVerdict::none;
+  QString verdictSentence{};
+  QVector<DrawnComponent> components{};
+  int component = 0;
+  HeatMapData missingHeat{};  // of the chosen component
+  QVector<SimulatedChannel> channels{};
+  QVector<Explanation> explanations{};
+  QString nextExperiment{};  // one sentence; empty: none needed
+  QVector<TrialScore> trials{};
+  double rmse_K = std::numeric_limits<double>::quiet_NaN();
+  double noise_K = std::numeric_limits<double>::quiet_NaN();
+  double missing_W = std::numeric_limits<double>::quiet_NaN();
+  double held_K = std::numeric_limits<double>::quiet_NaN();  // on data not used for the fit
+};
+
+class PhysicsPage : public Page {
+  Q_OBJECT
+
+ public:
+  explicit PhysicsPage(QWidget* parent = nullptr);
+  void setState(const PhysicsState& state);
+  const PhysicsState& state() const { return m_state; }
+  /// 0 missing heat, 1 simulation over recording, 2 blind trial.
+  void showView(int index);
+
+  QString title() const override;
+  QString sentence() const override;
+  /// Find what is missing; afterwards Go on.
+  PageAction primary() const override;
+  /// "find" again, "region", "trial".
+  QVector<PageAction> secondary() const override;
+
+ Q_SIGNALS:
+  void componentChosen(int index);
+  void adopted(const QString& effectId, bool adopt);
+  void rejected(const QString& effectId);
+  void experimentRequested();  // put the proposed run into the plan editor
+
+ protected:
+  void render() override;
+
+ private:
+  void renderMap();
+  void renderChannels();
+  void renderChannel();
+  void renderExplanations();
+  void renderTrials();
+  QVector<Figure> figures() const;
+
+  PhysicsState m_state;
+  Card* m_mapCard;
+  Card* m_sideCard;
+  ToggleSegment* m_view;
+  ToggleSegment* m_component;
+  QStackedWidget* m_views;
+  ComponentDrawing* m_drawing;
+  HeatMap* m_map;
+  LivePlot* m_channelPlot;
+  LivePlot* m_residualPlot;
+  ChannelTable* m_channelTable;
+  DataTable* m_trials;
+  QLabel* m_trialWords;
+  QLabel* m_verdict;
+  QScrollArea* m_scroll;
+  QVBoxLayout* m_explanationLayout;
+  QVector<ExplanationCard*> m_cards;
+  Card* m_experiment;
+  QLabel* m_experimentText;
+  QPushButton* m_experimentButton;
+};
+
+}  // namespace zerodrift::ui

@@ -1,0 +1,109 @@
+#pragma once
+// The report (J2): preview at the right, sections and head at the left, figures that look doubtful first.
+
+#include <QImage>
+#include <QStringList>
+
+#include "ui/pages/page.h"
+#include "ui/widgets/colors.h"
+
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QScrollArea;
+class QStackedWidget;
+
+namespace zerodrift::ui {
+
+class Card;
+class SignaturePad;
+class ToggleSegment;
+
+struct ReportSection {
+  QString id{};
+  QString title{};
+  bool included = true;
+  QString note{};  // why it is empty
+};
+
+/// A figure that a reader would ask about, and the page where it can be looked into.
+struct DoubtfulFigure {
+  QString text{};
+  Judgement judgement = Judgement::warn;
+  QString pageId{};
+};
+
+struct ReportHead {
+  QString customer{};
+  QString machine{};
+  QString serial{};
+  QString engineer{};
+  QString standards{};  // "ISO 230-3:2020, ISO 230-2:2014"
+
+  bool operator==(const ReportHead& other) const = default;
+};
+
+struct ReportState {
+  QString blocked{};
+  ReportHead head{};
+  QStringList languages{};
+  int language = 0;
+  QVector<ReportSection> sections{};
+  QVector<DoubtfulFigure> doubtful{};
+  QVector<QImage> pages{};  // preview
+  QString savedTo{};        // path of the last saved report
+};
+
+class ReportPage : public Page {
+  Q_OBJECT
+
+ public:
+  explicit ReportPage(QWidget* parent = nullptr);
+  void setState(const ReportState& state);
+  const ReportState& state() const { return m_state; }
+
+  QString title() const override;
+  QString sentence() const override;
+  PageAction primary() const override;
+  /// "bundle", "csv", "html".
+  QVector<PageAction> secondary() const override;
+
+ Q_SIGNALS:
+  void headEdited(const zerodrift::ui::ReportHead& head);
+  void languageChosen(int index);
+  void sectionToggled(const QString& sectionId, bool included);
+  void doubtClicked(const QString& pageId);
+  void signatureDrawn(const QImage& signature);  // null: cleared
+
+ protected:
+  void render() override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  Card* makeHeadCard();
+  Card* makeSectionCard();
+  void renderHead();
+  void renderSections();
+  void renderPreview();
+
+  ReportState m_state;
+  Card* m_headCard;
+  Card* m_sectionCard;
+  Card* m_previewCard;
+  QVector<QLabel*> m_fieldNames;
+  QVector<QLineEdit*> m_fields;
+  QComboBox* m_language;
+  QListWidget* m_sections;
+  QListWidget* m_doubtful;
+  ToggleSegment* m_view;
+  QStackedWidget* m_views;
+  QScrollArea* m_scroll;
+  QLabel* m_noPreview;
+  QVector<QLabel*> m_sheets;
+  SignaturePad* m_signature;
+  bool m_filling = false;
+};
+
+}  // namespace zerodrift::ui

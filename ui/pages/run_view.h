@@ -1,0 +1,82 @@
+#pragma once
+// A run while it happens, for the warm-up and the verification: temperatures above, errors in the middle, inputs
+// below on one time axis; channel tables as legends; the camera's picture with the drift trail.
+
+#include <QHash>
+#include <QImage>
+#include <QVector>
+#include <QWidget>
+
+#include "ui/plots/live_plot.h"
+#include "ui/widgets/camera_view.h"
+#include "ui/widgets/channel_table.h"
+
+class QLabel;
+
+namespace zerodrift::ui {
+
+class Card;
+class ToggleSegment;
+
+struct RunChannel {
+  QString id{};     // "T1_C", "dZ_um", "spindle_rpm"
+  QString tag{};    // "T1"
+  QString label{};  // "Spindle front bearing", for the tip
+  QString unit{};
+  int decimals = 2;
+  QColor color{};       // invalid: by its place in the list
+  bool dashed = false;  // for example predicted, not measured
+};
+
+struct RunValue {
+  QString id{};
+  double value = 0.0;  // NaN: no value
+  QString state{};
+  Judgement judgement = Judgement::none;
+};
+
+class RunView : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit RunView(QWidget* parent = nullptr);
+  void setChannels(const QVector<RunChannel>& temperatures, const QVector<RunChannel>& errors,
+                   const QVector<RunChannel>& inputs);
+  /// Adds samples to whichever plot has the channel; NaN is a gap.
+  void append(const QString& id, const QVector<double>& time_s, const QVector<double>& values);
+  void setBand(const QString& id, const QVector<double>& time_s, const QVector<double>& low,
+               const QVector<double>& high);
+  void clear();
+  void setValues(const QVector<RunValue>& values);
+  void setRegimes(const QVector<Regime>& regimes, double fastest_rpm);
+  void setMarks(const QVector<Mark>& marks);
+  void setErrorLimits(const QVector<Limit>& limits);
+  void setFrame(const QImage& image, const CameraMarks& marks);
+  void setCameraShown(bool shown);
+  void retranslate();
+
+ Q_SIGNALS:
+  void noteRequested(double time_s);
+
+ private:
+  void wire(LivePlot* plot, ChannelTable* table);
+  static QVector<Curve> curvesOf(const QVector<RunChannel>& channels, bool steps);
+  static QVector<ChannelRow> rowsOf(const QVector<RunChannel>& channels);
+
+  Card* m_plotCard;
+  Card* m_cameraCard;
+  Card* m_errorCard;
+  Card* m_temperatureCard;
+  ToggleSegment* m_span;
+  LivePlot* m_temperatures;
+  LivePlot* m_errors;
+  LivePlot* m_inputs;
+  QVector<QLabel*> m_headings;
+  ChannelTable* m_temperatureTable;
+  ChannelTable* m_errorTable;
+  CameraView* m_camera;
+  QHash<QString, LivePlot*> m_plotOf;
+  QHash<QString, RunChannel> m_channels;
+};
+
+}  // namespace zerodrift::ui

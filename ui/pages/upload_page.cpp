@@ -1,0 +1,247 @@
+#include "ui/pages/upload_page.h"
+
+#include <cmath>
+
+#include "ui/plots/xy_plot.h"
+#include "ui/widgets/card.h"
+#include "ui/widgets/data_table.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/toggle_segment.h"
+
+namespace zerodrift::ui {
+
+UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
+  m_tableCard = new Card(this);
+  m_tableCard->setBodyMargins(6, 0, 6, 8);
+  m_axis = new ToggleSegment(m_tableCard);
+  m_tableCard->tools()->addWidget(m_axis);
+  m_curves = new XyPlot(m_tableCard);
+  m_curves->setIncludeZero(true);
+  m_terms = new DataTable(m_tableCard);
+  m_terms->setMinimumHeight(96);
+  m_loss = new QLabel(m_tableCard);
+  m_loss->setProperty("role", "caption");
+  m_loss->setWordWrap(true);
+  m_loss->setContentsMargins(10, 0, 10, 0);
+  m_tableCard->body()->addWidget(m_curves, 3);
+  m_tableCard->body()->addWidget(m_terms, 2);
+  m_tableCard->body()->addWidget(m_loss);
+
+  m_writeCard = new Card(this);
+  m_writeCard->setFixedWidth(372);
+  m_side = new ToggleSegment(m_writeCard);
+  m_writeCard->tools()->addWidget(m_side);
+  auto* stagePanel = new QWidget(m_writeCard);
+  auto* stageLayout = new QVBoxLayout(stagePanel);
+  stageLayout->setContentsMargins(0, 0, 0, 0);
+  m_stages = new StepList(stagePanel);
+  stageLayout->addWidget(m_stages);
+  stageLayout->addStretch();
+  auto* historyPanel = new QWidget(m_writeCard);
+  auto* historyLayout = new QVBoxLayout(historyPanel);
+  historyLayout->setContentsMargins(0, 0, 0, 0);
+  m_history = new DataTable(historyPanel);
+  m_rollback = new QPushButton(lineIcon(Icon::undo), {}, historyPanel);
+  m_rollback->setObjectName("rollback");
+  historyLayout->addWidget(m_history, 1);
+  historyLayout->addWidget(m_rollback, 0, Qt::AlignLeft);
+  m_sides = new QStackedWidget(m_writeCard);
+  m_sides->addWidget(stagePanel);
+  m_sides->addWidget(historyPanel);
+  m_writeCard->body()->addWidget(m_sides, 1);
+  m_signCard = new Card(this);
+  m_signCard->setFixedWidth(372);
+  m_signCard->setBodyMargins(12, 0, 12, 8);
+  m_sign = new SignCheck(m_signCard);
+  m_signCard->body()->addWidget(m_sign);
+
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(m_writeCard, 1);
+  right->addWidget(m_signCard);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(m_tableCard, 1);
+  row->addLayout(right);
+  content()->addLayout(row, 1);
+  connect(m_axis, &ToggleSegment::currentChanged, this, [this] { renderAxis(); });
+  connect(m_side, &ToggleSegment::currentChanged, m_sides, &QStackedWidget::setCurrentIndex);
+  connect(m_history, &DataTable::rowSelected, this, [this] { renderHistory(); });
+  connect(m_rollback, &QPushButton::clicked, this, [this] {
+    const int chosen = m_history->currentRow();
+    if (chosen >= 0 && chosen < m_state.history.size()) Q_EMIT rollbackRequested(m_state.history[chosen].version);
+  });
+  refresh();
+}
+
+void UploadPage::setState(const UploadState& state) {
+  if (state.writing && !m_state.writing) m_side->setCurrentIndex(0);
+  m_state = state;
+  refresh();
+}
+
+QString UploadPage::title() const {
+  return tr("Upload");
+}
+
+QString UploadPage::sentence() const {
+  if (m_state.writing) return tr("The table is being written. It becomes active as a whole or not at all.");
+  if (m_state.written)
+    return tr("Version %1 is active in %2. Now prove it.").arg(m_state.newVersion).arg(m_state.machineName);
+  return tr("Compare the old table with the new one, let the camera check the sign, then write.");
+}
+
+PageAction UploadPage::primary() const {
+  const QString text = m_state.written ? tr("Go on") : tr("Write to the machine");
+  if (!m_state.blocked.isEmpty()) return {"primary", text, false, m_state.blocked};
+  if (m_state.written) return {"primary", text, true, {}};
+  if (m_state.writing) return {"primary", text, false, tr("The table is being written.")};
+  if (m_state.compensationOn) {
+    return {"primary", text, false, tr("The compensation is ON. Tables may only be written while it is off.")};
+  }
+  if (m_state.largestChange_um > m_state.changeLimit_um) {
+    return {"primary", text, false, tr("The largest change is above the machine's limit.")};
+  }
+  if (m_state.sign.judgement == Judgement::bad) {
+    return {"primary", text, false, tr("The camera saw the test move in the wrong direction.")};
+  }
+  return {"primary", text, true, {}};
+}
+
+QVector<PageAction> UploadPage::secondary() const {
+  if (!m_state.blocked.isEmpty()) return {};
+  const bool free = !m_state.writing;
+  const QString wait = tr("The table is being written.");
+  return {{"export", tr("Export")}, {"dryRun", tr("Dry run"), free, wait}, {"sign", tr("Check sign"), free, wait}};
+}
+
+QVector<Figure> UploadPage::figures() const {
+  Figure version =
+      figureOf(tr("Version"), m_state.newVersion, 0, tr("new"), tr("in the machine: %1").arg(m_state.oldVersion));
+  Figure size = figureAtMost(tr("Registers"), m_state.registers, 0, {}, m_state.capacity);
+  if (size.judgement == Judgement::ok) size.word = tr("fits");
+  Figure sign = figureOf(tr("Sign"), NAN, 0, {});
+  sign.value =
+      m_state.sign.measured ? (m_state.sign.judgement == Judgement::bad ? tr("wrong") : tr("right")) : QString();
+  sign.judgement = m_state.sign.judgement;
+  sign.word = m_state.sign.measured ? tr("seen by the camera") : tr("not checked");
+  return {version, figureAtMost(tr("Largest change"), m_state.largestChange_um, 1, "µm", m_state.changeLimit_um),
+          figureAtMost(tr("Steepest term"), m_state.steepest_um_per_K, 2, tr("µm/K"), m_state.steepestLimit_um_per_K),
+          size, sign};
+}
+
+void UploadPage::render() {
+  if (!m_state.blocked.isEmpty()) {
+    showEmpty(Icon::plug, tr("No table to write yet"), m_state.blocked);
+    return;
+  }
+  showContent();
+  setFigures(figures());
+  QStringList names;
+  for (const AxisTable& axis : m_state.axes) names.append(axis.axis);
+  {
+    const QSignalBlocker quiet(m_axis);
+    m_axis->setItems(names);
+  }
+  m_tableCard->setTitle(tr("Old and new compensation"));
+  m_tableCard->setSubtitle(QStringLiteral("µm"));
+  QStringList loss;
+  if (!m_state.expressed.isEmpty()) loss.append(tr("The controller takes %1.").arg(m_state.expressed));
+  loss.append(m_state.lost.isEmpty() ? tr("Nothing is lost on the way.")
+                                     : tr("Lost: %1.").arg(m_state.lost.join("; ")));
+  m_loss->setText(loss.join(' '));
+  m_writeCard->setTitle(tr("Transaction"));
+  m_side->setItems({tr("Write"), tr("History")});
+  m_signCard->setTitle(tr("Sign check"));
+  m_sign->setResult(m_state.sign);
+  renderAxis();
+  renderTransaction();
+  renderHistory();
+}
+
+void UploadPage::renderAxis() {
+  m_terms->setColumns({{tr("Term"), 0, false, {}},
+                       {tr("Old"), 84, true, {}},
+                       {tr("New"), 84, true, {}},
+                       {tr("Change"), 84, true, {}},
+                       {tr("Unit"), 66, false, {}}});
+  const int index = m_axis->currentIndex();
+  if (index < 0 || index >= m_state.axes.size()) return m_terms->setRows({});
+  const AxisTable& axis = m_state.axes[index];
+  const Colors& c = colors();
+  m_curves->setTimeAxis(axis.overTime);
+  m_curves->setAxisLabels(axis.abscissa, {});
+  PartStyle style;
+  style.unit = "µm";
+  style.tag = tr("Old");
+  style.color = c.muted;
+  style.dashed = true;
+  m_curves->setPart("1old", axis.x, axis.before_um, style);
+  style.tag = tr("New");
+  style.color = c.accent;
+  style.dashed = false;
+  style.width = 2.0;
+  m_curves->setPart("2new", axis.x, axis.after_um, style);
+  QVector<double> change;
+  double largest = 0.0;
+  for (int i = 0; i < axis.after_um.size() && i < axis.before_um.size(); ++i) {
+    change.append(axis.after_um[i] - axis.before_um[i]);
+    largest = std::max({largest, std::abs(axis.after_um[i]), std::abs(axis.before_um[i]), std::abs(change.last())});
+  }
+  style.tag = tr("Change");
+  style.color = axisColor(0);
+  style.width = 1.2;
+  m_curves->setPart("3change", axis.x, change, style);
+  // Limits far outside the curves would press them flat: they are drawn when they are near.
+  QVector<Limit> limits;
+  if (largest > 0.4 * axis.limit_um) {
+    limits = {{axis.limit_um, tr("limit"), Judgement::bad}, {-axis.limit_um, {}, Judgement::bad}};
+    m_curves->setBand("0allowed", {axis.x.value(0), axis.x.isEmpty() ? 0.0 : axis.x.last()},
+                      {-axis.limit_um, -axis.limit_um}, {axis.limit_um, axis.limit_um}, c.ok);
+  } else {
+    m_curves->removePart("0allowed");
+  }
+  m_curves->setLimits(limits);
+
+  QVector<QVector<DataCell>> rows;
+  const auto number = [](double value) {
+    return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 3)};
+  };
+  for (const TableTerm& term : axis.terms) {
+    const double from = std::isnan(term.before) ? 0.0 : term.before;
+    const double to = std::isnan(term.after) ? 0.0 : term.after;
+    DataCell changed = number(to - from);
+    if (to > from) changed.text.prepend('+');
+    changed.strong = std::abs(to - from) > 1e-9;
+    rows.append({DataCell{term.name}, number(term.before), number(term.after), changed, DataCell{term.unit}});
+  }
+  m_terms->setRows(rows);
+}
+
+void UploadPage::renderTransaction() {
+  m_stages->setStages(m_state.stages);
+  m_writeCard->setSubtitle(std::isnan(m_state.ramp_percent) ? QString()
+                                                            : tr("ramp %1 %").arg(m_state.ramp_percent, 0, 'f', 0));
+}
+
+void UploadPage::renderHistory() {
+  m_history->setColumns({{tr("Version"), 66, true, {}}, {tr("When"), 104, false, {}}, {tr("What"), 0, false, {}}});
+  QVector<QVector<DataCell>> rows;
+  for (const TableVersion& version : m_state.history) {
+    DataCell number{QString::number(version.version)};
+    number.strong = version.active;
+    DataCell what{version.active ? tr("active: %1").arg(version.what) : version.what};
+    what.judged = version.active;
+    what.judgement = version.active ? Judgement::ok : Judgement::none;
+    what.tip = version.who;
+    rows.append({number, DataCell{version.when}, what});
+  }
+  m_history->setRows(rows);
+  const int row = m_history->currentRow();
+  const bool some = row >= 0 && row < m_state.history.size() && m_state.history[row].restorable && !m_state.writing;
+  m_rollback->setText(some ? tr("Roll back to version %1").arg(m_state.history[row].version) : tr("Roll back"));
+  m_rollback->setEnabled(some);
+  m_rollback->setToolTip(some ? QString() : tr("Select an earlier version"));
+}
+
+}  // namespace zerodrift::ui

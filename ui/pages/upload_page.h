@@ -1,0 +1,116 @@
+#pragma once
+// Writing the table into the controller (C5): old and new side by side, difference against limits, sign check, the
+// transaction's states as they pass, history with rollback. The question before writing is asked outside the page.
+
+#include <QStringList>
+#include <limits>
+
+#include "ui/pages/page.h"
+#include "ui/widgets/sign_check.h"
+#include "ui/widgets/step_list.h"
+
+class QLabel;
+class QPushButton;
+class QStackedWidget;
+
+namespace zerodrift::ui {
+
+class Card;
+class DataTable;
+class ToggleSegment;
+class XyPlot;
+
+struct TableTerm {
+  QString name{};                                            // "T3 front bearing", "offset", "point 120 mm"
+  QString unit{};                                            // "µm/K"
+  double before = std::numeric_limits<double>::quiet_NaN();  // NaN: not in the old table
+  double after = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Old and new compensation of one axis over what they depend on, and what is allowed.
+struct AxisTable {
+  QString axis{};
+  QVector<TableTerm> terms{};
+  QString abscissa{};  // "time of the run / h", "position / mm"
+  bool overTime = false;
+  QVector<double> x{};
+  QVector<double> before_um{};
+  QVector<double> after_um{};
+  double limit_um = 200.0;
+};
+
+struct TableVersion {
+  int version = 0;
+  QString when{};
+  QString who{};
+  QString what{};
+  bool active = false;
+  bool restorable = false;
+};
+
+struct UploadState {
+  QString blocked{};
+  QString machineName{};
+  int oldVersion = 0;
+  int newVersion = 0;
+  QVector<AxisTable> axes{};
+  QStringList lost{};   // what the controller cannot express
+  QString expressed{};  // "temperature terms and points; 412 of 2000 registers"
+  double largestChange_um = std::numeric_limits<double>::quiet_NaN();
+  double changeLimit_um = 200.0;
+  double steepest_um_per_K = std::numeric_limits<double>::quiet_NaN();
+  double steepestLimit_um_per_K = 50.0;
+  double registers = std::numeric_limits<double>::quiet_NaN();
+  double capacity = 2000.0;
+  double ramp_percent = std::numeric_limits<double>::quiet_NaN();
+  QVector<Stage> stages{};
+  SignCheckResult sign{};
+  QVector<TableVersion> history{};
+  bool compensationOn = false;
+  bool writing = false;
+  bool written = false;
+};
+
+class UploadPage : public Page {
+  Q_OBJECT
+
+ public:
+  explicit UploadPage(QWidget* parent = nullptr);
+  void setState(const UploadState& state);
+  const UploadState& state() const { return m_state; }
+
+  QString title() const override;
+  QString sentence() const override;
+  PageAction primary() const override;
+  /// "dryRun", "sign", "export".
+  QVector<PageAction> secondary() const override;
+
+ Q_SIGNALS:
+  void rollbackRequested(int version);
+
+ protected:
+  void render() override;
+
+ private:
+  void renderAxis();
+  void renderTransaction();
+  void renderHistory();
+  QVector<Figure> figures() const;
+
+  UploadState m_state;
+  Card* m_tableCard;
+  Card* m_writeCard;
+  Card* m_signCard;
+  ToggleSegment* m_axis;
+  ToggleSegment* m_side;
+  XyPlot* m_curves;
+  DataTable* m_terms;
+  QLabel* m_loss;
+  QStackedWidget* m_sides;
+  StepList* m_stages;
+  DataTable* m_history;
+  QPushButton* m_rollback;
+  SignCheck* m_sign;
+};
+
+}  // namespace zerodrift::ui

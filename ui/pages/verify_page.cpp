@@ -1,0 +1,208 @@
+#include "ui/pages/verify_page.h"
+
+#include <cmath>
+
+#include "ui/plots/xy_plot.h"
+#include "ui/widgets/card.h"
+#include "ui/widgets/data_table.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/progress_strip.h"
+#include "ui/widgets/toggle_segment.h"
+
+namespace zerodrift::ui {
+
+VerifyPage::VerifyPage(QWidget* parent) : Page("verify", parent) {
+  m_view = new ToggleSegment(this);
+  m_run = new RunView(this);
+  m_views = new QStackedWidget(this);
+  m_views->addWidget(m_run);
+  m_views->addWidget(makeCorrection());
+  auto* column = new QVBoxLayout;
+  column->setSpacing(8);
+  column->addWidget(m_view, 0, Qt::AlignLeft);
+  column->addWidget(m_views, 1);
+  content()->addLayout(column, 1);
+  connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_views->setCurrentIndex(index);
+    refresh();
+  });
+  connect(m_run, &RunView::noteRequested, this, &VerifyPage::noteRequested);
+  refresh();
+}
+
+QWidget* VerifyPage::makeCorrection() {
+  auto* view = new QWidget(this);
+  m_plotCard = new Card(view);
+  m_plotCard->setBodyMargins(6, 0, 6, 6);
+  m_plot = new XyPlot(m_plotCard);
+  m_plot->setTimeAxis(true);
+  m_plot->setIncludeZero(true);
+  m_plotCard->body()->addWidget(m_plot);
+  m_tableCard = new Card(view);
+  m_tableCard->setFixedWidth(500);
+  m_tableCard->setBodyMargins(1, 0, 1, 12);
+  m_thresholdName = new QLabel(m_tableCard);
+  m_thresholdName->setProperty("role", "caption");
+  m_threshold = new QDoubleSpinBox(m_tableCard);
+  m_threshold->setObjectName("threshold");
+  m_threshold->setRange(0.1, 100.0);
+  m_threshold->setDecimals(1);
+  m_threshold->setSuffix(QStringLiteral(" µm"));
+  m_thresholdName->setBuddy(m_threshold);
+  m_tableCard->tools()->addWidget(m_thresholdName);
+  m_tableCard->tools()->addWidget(m_threshold);
+  m_table = new DataTable(m_tableCard);
+  m_words = new QLabel(m_tableCard);
+  m_words->setWordWrap(true);
+  m_words->setContentsMargins(15, 4, 15, 0);
+  m_tableCard->body()->addWidget(m_table, 1);
+  m_tableCard->body()->addWidget(m_words);
+  auto* row = new QHBoxLayout(view);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(16);
+  row->addWidget(m_plotCard, 1);
+  row->addWidget(m_tableCard);
+  connect(m_threshold, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    if (!m_filling) Q_EMIT thresholdChanged(value);
+  });
+  connect(m_table, &DataTable::rowSelected, this, [this] { renderResiduals(); });
+  return view;
+}
+
+void VerifyPage::setState(const VerifyState& state) {
+  m_state = state;
+  refresh();
+}
+
+void VerifyPage::showView(int index) {
+  m_view->setCurrentIndex(index);
+}
+
+QString VerifyPage::title() const {
+  return tr("Verify");
+}
+
+QString VerifyPage::sentence() const {
+  switch (m_state.phase) {
+    case VerifyPhase::ready:
+      return tr("Run the machine with the compensation on and measure what is left.");
+    case VerifyPhase::running:
+      return tr("The compensation works while the camera watches. The measured curve must stay near zero.");
+    case VerifyPhase::paused:
+      return tr("Paused. Resume when the machine may run again.");
+    case VerifyPhase::finished:
+      return m_state.correctionProposed
+                 ? tr("Some parts of the error are above the threshold. Look at the proposed correction.")
+                 : tr("The proof is complete. Save the report next.");
+  }
+  return {};
+}
+
+PageAction VerifyPage::primary() const {
+  if (!m_state.blocked.isEmpty()) return {"primary", tr("Start verification"), false, m_state.blocked};
+  switch (m_state.phase) {
+    case VerifyPhase::ready:
+      return {"primary", tr("Start verification"), true, {}};
+    case VerifyPhase::running:
+      return {"primary", tr("Pause"), true, {}};
+    case VerifyPhase::paused:
+      return {"primary", tr("Resume"), true, {}};
+    case VerifyPhase::finished:
+      return {"primary", m_state.correctionProposed ? tr("Apply correction") : tr("Go on"), true, {}};
+  }
+  return {};
+}
+
+QVector<PageAction> VerifyPage::secondary() const {
+  if (!m_state.blocked.isEmpty()) return {};
+  switch (m_state.phase) {
+    case VerifyPhase::ready:
+      return {};
+    case VerifyPhase::running:
+    case VerifyPhase::paused:
+      return {{"abort", tr("Abort")}, {"finish", tr("Finish")}};
+    case VerifyPhase::finished:
+      if (m_state.correctionProposed) return {{"again", tr("Verify again")}, {"skip", tr("Leave as it is")}};
+      return {{"again", tr("Verify again")}};
+  }
+  return {};
+}
+
+QVector<Figure> VerifyPage::figures() const {
+  Figure before = figureOf(tr("Peak without"), m_state.peakBefore_um, 1, "µm");
+  if (!std::isnan(m_state.rmsBefore_um)) before.limit = tr("rms %1 µm").arg(m_state.rmsBefore_um, 0, 'f', 1);
+  Figure after = figureAtMost(tr("Peak with"), m_state.peakAfter_um, 1, "µm", m_state.peakLimit_um);
+  Figure rms = figureOf(tr("rms with"), m_state.rmsAfter_um, 2, "µm");
+  Figure removed = figureAtLeast(tr("Removed"), m_state.removed_percent, 0, "%", m_state.removedTarget_percent);
+  Figure frame = figureAtMost(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s", 120.0);
+  if (frame.judgement == Judgement::ok) frame.word = tr("measuring");
+  if (m_state.phase == VerifyPhase::finished) frame = figureOf(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s");
+  if (!std::isnan(m_state.timeLeft_s)) frame.limit = tr("%1 left").arg(durationText(m_state.timeLeft_s));
+  return {before, after, rms, removed, frame};
+}
+
+void VerifyPage::render() {
+  if (!m_state.blocked.isEmpty()) {
+    showEmpty(Icon::tick, tr("Nothing to verify yet"), m_state.blocked);
+    return;
+  }
+  showContent();
+  setFigures(figures());
+  m_view->setItems({tr("Live"), m_state.correctionProposed ? tr("Correction proposed") : tr("Correction")});
+  m_run->retranslate();
+  renderCorrection();
+}
+
+void VerifyPage::renderCorrection() {
+  m_filling = true;
+  m_plotCard->setTitle(tr("Residual"));
+  m_plotCard->setSubtitle(QStringLiteral("µm"));
+  m_tableCard->setTitle(tr("Correction of the model"));
+  m_thresholdName->setText(tr("Threshold"));
+  m_threshold->setValue(m_state.threshold_um);
+  m_table->setColumns({{tr("Axis"), 52, false, {}},
+                       {QStringLiteral("κ"), 104, true, tr("The temperatures' effect is multiplied by this")},
+                       {tr("Evidence"), 0, false, {}},
+                       {tr("Peak now"), 74, true, {}},
+                       {tr("Then"), 74, true, tr("Predicted with the correction")}});
+  QVector<QVector<DataCell>> rows;
+  for (const AxisCorrection& axis : m_state.corrections) {
+    DataCell name{axis.axis};
+    name.strong = axis.proposed;
+    DataCell kappa{QString::number(axis.kappa, 'f', 3)};
+    if (axis.kappaSigma > 0.0) kappa.text += QStringLiteral(" ± %1").arg(axis.kappaSigma, 0, 'f', 3);
+    const auto um = [](double value) {
+      return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 1) + " µm"};
+    };
+    rows.append({name, kappa, DataCell{axis.evidence}, um(axis.peakBefore_um), um(axis.peakAfter_um)});
+  }
+  m_table->setRows(rows);
+  if (m_table->currentRow() < 0 && !rows.isEmpty()) m_table->selectRow(0);
+  m_words->setText(
+      m_state.corrections.isEmpty() ? tr("The correction is computed from the verification run when it is finished.")
+      : m_state.correctionProposed
+          ? tr("With the correction the table is written anew, as a new version. The old one stays for rollback.")
+          : tr("All parts of the error are below the threshold. No correction is needed."));
+  m_filling = false;
+  renderResiduals();
+}
+
+void VerifyPage::renderResiduals() {
+  m_plot->setPlaceholder(tr("Shown when the verification is finished"));
+  m_plot->setLimits(
+      {{m_state.threshold_um, tr("threshold"), Judgement::warn}, {-m_state.threshold_um, {}, Judgement::warn}});
+  const int row = m_table->currentRow();
+  if (row < 0 || row >= m_state.corrections.size()) return m_plot->clear();
+  const AxisCorrection& axis = m_state.corrections[row];
+  PartStyle style;
+  style.unit = "µm";
+  style.tag = tr("%1, measured").arg(axis.axis);
+  style.color = colors().bad;
+  m_plot->setPart("1now", axis.time_s, axis.residual_um, style);
+  style.tag = tr("%1, with correction").arg(axis.axis);
+  style.color = colors().ok;
+  style.width = 2.0;
+  m_plot->setPart("2then", axis.time_s, axis.corrected_um, style);
+}
+
+}  // namespace zerodrift::ui

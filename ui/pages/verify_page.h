@@ -1,0 +1,104 @@
+#pragma once
+// The proof (C2): a compensated run, what was there without it, what is left, and the correction of the model.
+
+#include <limits>
+
+#include "ui/pages/page.h"
+#include "ui/pages/run_view.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QStackedWidget;
+
+namespace zerodrift::ui {
+
+class Card;
+class DataTable;
+class ToggleSegment;
+class XyPlot;
+
+enum class VerifyPhase {
+  ready,
+  running,
+  paused,
+  finished,
+};
+
+/// The proposed correction of one axis.
+struct AxisCorrection {
+  QString axis{};
+  double kappa = 1.0;  // correction coefficient of the model's temperatures
+  double kappaSigma = 0.0;
+  QString evidence{};                                               // "31 measurements, t = 12.4"
+  double peakBefore_um = std::numeric_limits<double>::quiet_NaN();  // residual as measured
+  double peakAfter_um = std::numeric_limits<double>::quiet_NaN();   // with the correction, predicted
+  bool proposed = false;
+  QVector<double> time_s{};
+  QVector<double> residual_um{};
+  QVector<double> corrected_um{};
+};
+
+struct VerifyState {
+  QString blocked{};
+  VerifyPhase phase = VerifyPhase::ready;
+  double peakBefore_um = std::numeric_limits<double>::quiet_NaN();
+  double peakAfter_um = std::numeric_limits<double>::quiet_NaN();
+  double peakLimit_um = 5.0;
+  double rmsBefore_um = std::numeric_limits<double>::quiet_NaN();
+  double rmsAfter_um = std::numeric_limits<double>::quiet_NaN();
+  double removed_percent = std::numeric_limits<double>::quiet_NaN();
+  double removedTarget_percent = 85.0;
+  double lastGoodFrame_s = std::numeric_limits<double>::quiet_NaN();
+  double timeLeft_s = std::numeric_limits<double>::quiet_NaN();
+  double threshold_um = 3.0;  // part error above which a correction is proposed
+  QVector<AxisCorrection> corrections{};
+  bool correctionProposed = false;
+  bool compensationOn = false;
+};
+
+class VerifyPage : public Page {
+  Q_OBJECT
+
+ public:
+  explicit VerifyPage(QWidget* parent = nullptr);
+  void setState(const VerifyState& state);
+  const VerifyState& state() const { return m_state; }
+  RunView* run() const { return m_run; }
+  /// 0 live, 1 correction.
+  void showView(int index);
+
+  QString title() const override;
+  QString sentence() const override;
+  /// Start verification, Pause, Apply correction, Go on.
+  PageAction primary() const override;
+  /// "finish", "abort", "again".
+  QVector<PageAction> secondary() const override;
+
+ Q_SIGNALS:
+  void thresholdChanged(double threshold_um);
+  void noteRequested(double time_s);
+
+ protected:
+  void render() override;
+
+ private:
+  QWidget* makeCorrection();
+  void renderCorrection();
+  void renderResiduals();
+  QVector<Figure> figures() const;
+
+  VerifyState m_state;
+  ToggleSegment* m_view;
+  QStackedWidget* m_views;
+  RunView* m_run;
+  Card* m_tableCard;
+  Card* m_plotCard;
+  DataTable* m_table;
+  XyPlot* m_plot;
+  QLabel* m_thresholdName;
+  QDoubleSpinBox* m_threshold;
+  QLabel* m_words;
+  bool m_filling = false;
+};
+
+}  // namespace zerodrift::ui

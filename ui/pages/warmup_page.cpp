@@ -1,0 +1,339 @@
+#include "ui/pages/warmup_page.h"
+
+#include <cmath>
+
+#include "ui/plots/xy_plot.h"
+#include "ui/widgets/card.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/progress_strip.h"
+
+namespace zerodrift::ui {
+
+WarmupPage::WarmupPage(QWidget* parent) : Page("warmup", parent) {
+  m_plan = makePlan();
+  m_run = new RunView(this);
+  content()->addWidget(m_plan, 1);
+  content()->addWidget(m_run, 1);
+  connect(m_run, &RunView::noteRequested, this, &WarmupPage::noteRequested);
+  refresh();
+}
+
+QWidget* WarmupPage::makePlan() {
+  auto* view = new QWidget(this);
+  m_timelineCard = new Card(view);
+  m_timelineCard->setBodyMargins(8, 0, 8, 8);
+  m_presets = new QComboBox(m_timelineCard);
+  m_presets->setObjectName("presets");
+  m_presets->setMinimumWidth(220);
+  m_add = new QPushButton(lineIcon(Icon::plus), {}, m_timelineCard);
+  m_add->setObjectName("addStep");
+  m_remove = new QPushButton(lineIcon(Icon::trash), {}, m_timelineCard);
+  m_remove->setObjectName("removeStep");
+  for (QWidget* tool :
+       {static_cast<QWidget*>(m_presets), static_cast<QWidget*>(m_add), static_cast<QWidget*>(m_remove)}) {
+    m_timelineCard->tools()->addWidget(tool);
+  }
+  m_timeline = new PlanTimeline(m_timelineCard);
+  m_timeline->setObjectName("timeline");
+  m_timelineCard->body()->addWidget(m_timeline);
+
+  m_stepCard = new Card(view);
+  m_stepCard->setFixedWidth(304);
+  makeStepEditor(m_stepCard->body());
+  m_expectedCard = new Card(view);
+  m_expectedCard->setBodyMargins(6, 0, 4, 4);
+  m_expected = new XyPlot(m_expectedCard);
+  m_expected->setTimeAxis(true);
+  m_expected->setIncludeZero(true);
+  m_expectedCard->body()->addWidget(m_expected);
+
+  auto* lower = new QHBoxLayout;
+  lower->setSpacing(16);
+  lower->addWidget(m_expectedCard, 1);
+  lower->addWidget(m_stepCard);
+  auto* all = new QVBoxLayout(view);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->setSpacing(16);
+  all->addWidget(m_timelineCard, 1);
+  all->addLayout(lower, 1);
+
+  connect(m_presets, &QComboBox::activated, this, &WarmupPage::presetChosen);
+  connect(m_timeline, &PlanTimeline::selectionChanged, this, &WarmupPage::showStep);
+  connect(m_timeline, &PlanTimeline::edited, this, &WarmupPage::planTouched);
+  connect(m_add, &QPushButton::clicked, this, [this] {
+    auto steps = m_timeline->steps();
+    const int after = std::min(m_timeline->selectedStep() + 1, static_cast<int>(steps.size()));
+    steps.insert(after, steps.isEmpty() ? PlanStepRow{} : steps[after - 1]);
+    m_timeline->setSteps(steps);
+    m_timeline->selectStep(after);
+    planTouched();
+  });
+  connect(m_remove, &QPushButton::clicked, this, [this] {
+    auto steps = m_timeline->steps();
+    if (steps.size() < 2) return;
+    steps.removeAt(m_timeline->selectedStep());
+    m_timeline->setSteps(steps);
+    planTouched();
+  });
+  return view;
+}
+
+void WarmupPage::makeStepEditor(QVBoxLayout* into) {
+  m_minutes = new QSpinBox(m_stepCard);
+  m_minutes->setObjectName("stepMinutes");
+  m_minutes->setRange(1, 48 * 60);
+  m_speed = new QSpinBox(m_stepCard);
+  m_speed->setObjectName("stepSpeed");
+  m_speed->setSingleStep(100);
+  m_motion = new QComboBox(m_stepCard);
+  m_coolant = new QCheckBox(m_stepCard);
+  m_coolant->setObjectName("stepCoolant");
+  m_sample = new QDoubleSpinBox(m_stepCard);
+  m_sample->setRange(0.1, 600.0);
+  m_sample->setDecimals(1);
+  m_measure = new QDoubleSpinBox(m_stepCard);
+  m_measure->setRange(1.0, 7200.0);
+  m_measure->setDecimals(0);
+  auto* grid = new QGridLayout;
+  grid->setVerticalSpacing(6);
+  grid->setHorizontalSpacing(12);
+  const QVector<QWidget*> fields = {m_minutes, m_speed, m_motion, m_coolant, m_sample, m_measure};
+  for (int i = 0; i < fields.size(); ++i) {
+    auto* name = new QLabel(m_stepCard);
+    name->setProperty("role", "muted");
+    name->setBuddy(fields[i]);
+    m_fieldNames.append(name);
+    grid->addWidget(name, i, 0);
+    grid->addWidget(fields[i], i, 1);
+  }
+  grid->setColumnStretch(1, 1);
+  into->addLayout(grid);
+  m_hint = new QLabel(m_stepCard);
+  m_hint->setProperty("role", "caption");
+  m_hint->setWordWrap(true);
+  into->addWidget(m_hint);
+  into->addStretch();
+  connect(m_minutes, &QSpinBox::valueChanged, this, &WarmupPage::stepEdited);
+  connect(m_speed, &QSpinBox::valueChanged, this, &WarmupPage::stepEdited);
+  connect(m_motion, &QComboBox::activated, this, &WarmupPage::stepEdited);
+  connect(m_coolant, &QCheckBox::toggled, this, &WarmupPage::stepEdited);
+  const auto periods = [this] {
+    if (!m_filling) Q_EMIT periodsEdited(m_sample->value(), m_measure->value());
+  };
+  connect(m_sample, &QDoubleSpinBox::editingFinished, this, periods);
+  connect(m_measure, &QDoubleSpinBox::editingFinished, this, periods);
+}
+
+void WarmupPage::setState(const WarmupState& state) {
+  m_state = state;
+  refresh();
+}
+
+double WarmupPage::planLength_s() const {
+  double sum = 0.0;
+  for (const PlanStepRow& step : m_state.plan) sum += step.duration_s;
+  return sum;
+}
+
+QString WarmupPage::title() const {
+  return tr("Warm-up");
+}
+
+QString WarmupPage::sentence() const {
+  switch (m_state.phase) {
+    case RunPhase::planning:
+      return tr("Choose a plan, change it by dragging, then start. The machine must be cold and at rest.");
+    case RunPhase::running:
+      return m_state.steady
+                 ? tr("Steady: %1. More time adds little; finish when you like.").arg(m_state.steadyCriterion)
+                 : tr("The machine warms up. Watch that the errors move and no sensor drops out.");
+    case RunPhase::paused:
+      return tr("Paused. The machine stands; the gap stays visible in the recording.");
+    case RunPhase::interrupted:
+      return tr("The run was interrupted. Everything stored is here; resume or finish with it.");
+    case RunPhase::finished:
+      return tr("The run is complete. Look it over, then go on to the sensors.");
+  }
+  return {};
+}
+
+PageAction WarmupPage::primary() const {
+  if (!m_state.blocked.isEmpty()) return {"primary", tr("Start"), false, m_state.blocked};
+  const QString locked = tr("The compensation is ON. Measuring for the model is locked until it is switched off.");
+  switch (m_state.phase) {
+    case RunPhase::planning:
+      if (m_state.plan.isEmpty()) return {"primary", tr("Start"), false, tr("The plan has no steps yet.")};
+      return {"primary", tr("Start"), !m_state.compensationOn, locked};
+    case RunPhase::running:
+      return {"primary", tr("Pause"), true, {}};
+    case RunPhase::paused:
+    case RunPhase::interrupted:
+      return {"primary", tr("Resume"), !m_state.compensationOn, locked};
+    case RunPhase::finished:
+      return {"primary", tr("Use this run"), true, {}};
+  }
+  return {};
+}
+
+QVector<PageAction> WarmupPage::secondary() const {
+  if (!m_state.blocked.isEmpty()) return {};
+  switch (m_state.phase) {
+    case RunPhase::planning:
+      return {{"load", tr("Load plan")}, {"save", tr("Save plan")}};
+    case RunPhase::running:
+      return {{"note", tr("Add note")}, {"abort", tr("Abort")}, {"finish", tr("Finish")}};
+    case RunPhase::paused:
+      return {{"abort", tr("Abort")}, {"finish", tr("Finish")}};
+    case RunPhase::interrupted:
+      return {{"again", tr("New run")}, {"finish", tr("Finish")}};
+    case RunPhase::finished:
+      return {{"again", tr("New run")}, {"export", tr("Save as CSV")}};
+  }
+  return {};
+}
+
+QVector<Figure> WarmupPage::planFigures() const {
+  const double length = planLength_s();
+  double expected = std::numeric_limits<double>::quiet_NaN();
+  for (const double drift : m_state.expectedDrift_um) expected = std::fmax(expected, std::abs(drift));
+  Figure largest = figureOf(tr("Expected drift"), expected, 0, "µm", m_state.expectedFrom);
+  if (m_state.expectedDrift_um.isEmpty()) largest.word = tr("no earlier job");
+  const double measurements = m_state.measurePeriod_s > 0.0 ? std::floor(length / m_state.measurePeriod_s) : NAN;
+  Figure count = figureAtLeast(tr("Measurements"), measurements, 0, {}, 20.0);
+  count.tip = tr("How often the error is measured. A model needs at least 20.");
+  Figure time = figureOf(tr("Total time"), NAN, 0, {});
+  time.value = length > 0.0 ? durationText(length) : QString();
+  Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
+  return {time, count, largest, disk};
+}
+
+QVector<Figure> WarmupPage::runFigures() const {
+  Figure left = figureOf(tr("Time left"), NAN, 0, {}, tr("of %1").arg(durationText(planLength_s())));
+  if (m_state.phase == RunPhase::finished) {
+    left = figureOf(tr("Recorded"), NAN, 0, {});
+    left.value = durationText(m_state.elapsed_s);
+  } else if (!std::isnan(m_state.timeLeft_s)) {
+    left.value = durationText(m_state.timeLeft_s);
+  }
+  Figure largest = figureOf(tr("Largest error"), m_state.largestError_um, 1, "µm", m_state.largestErrorAxis);
+  Figure slope = figureOf(tr("Error slope now"), m_state.slope_um_per_h, 1, "µm/h");
+  Figure heat = figureOf(tr("Heat slope now"), m_state.slope_K_per_h, 1, "K/h");
+  for (Figure* figure : {&slope, &heat}) {
+    if (figure->value.isEmpty()) continue;
+    figure->judgement = m_state.steady ? Judgement::ok : Judgement::none;
+    figure->word = m_state.steady ? tr("steady") : tr("still moving");
+    figure->tip = m_state.steadyCriterion;
+  }
+  Figure lost =
+      figureOf(tr("Samples lost"), static_cast<double>(m_state.samplesLost), 0, tr("of %1").arg(m_state.samples));
+  const double share =
+      static_cast<double>(m_state.samplesLost) / std::max<double>(1.0, static_cast<double>(m_state.samples));
+  lost.judgement = m_state.samplesLost == 0 ? Judgement::ok : share < 0.01 ? Judgement::warn : Judgement::bad;
+  lost.word = m_state.samplesLost == 0 ? tr("none") : share < 0.01 ? tr("few") : tr("too many");
+  return {left, largest, slope, heat, lost, figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5)};
+}
+
+void WarmupPage::render() {
+  if (!m_state.blocked.isEmpty()) {
+    showEmpty(Icon::clock, tr("No run yet"), m_state.blocked);
+    return;
+  }
+  showContent();
+  const bool planning = m_state.phase == RunPhase::planning;
+  setFigures(planning ? planFigures() : runFigures());
+  m_plan->setVisible(planning);
+  m_run->setVisible(!planning);
+  m_run->retranslate();
+  renderPlan();
+}
+
+void WarmupPage::renderPlan() {
+  m_filling = true;
+  m_timelineCard->setTitle(tr("Plan"));
+  m_timelineCard->setSubtitle(tr("spindle speed in rpm over time"));
+  m_stepCard->setTitle(tr("Step %1").arg(m_timeline->selectedStep() + 1));
+  m_expectedCard->setTitle(tr("Expected drift"));
+  m_expectedCard->setSubtitle(m_state.expectedFrom.isEmpty() ? QStringLiteral("µm") : "µm, " + m_state.expectedFrom);
+  const QStringList names = {tr("Duration"), tr("Speed"),        tr("Axes"),
+                             tr("Coolant"),  tr("Sample every"), tr("Measure every")};
+  for (int i = 0; i < names.size(); ++i) m_fieldNames[i]->setText(names[i]);
+  m_hint->setText(tr("Blue ticks under the plan: here the machine goes to the measuring position."));
+  m_minutes->setSuffix(tr(" min"));
+  m_speed->setSuffix(tr(" rpm"));
+  m_sample->setSuffix(tr(" s"));
+  m_measure->setSuffix(tr(" s"));
+  m_coolant->setText(tr("on"));
+  m_add->setText(tr("Add step"));
+  m_remove->setText({});
+  m_remove->setToolTip(tr("Remove the selected step"));
+  m_remove->setAccessibleName(m_remove->toolTip());
+  const int motion = std::max(0, m_motion->currentIndex());
+  m_motion->clear();
+  m_motion->addItems({tr("run the path"), tr("stand still")});
+  m_motion->setCurrentIndex(motion);
+  m_presets->clear();
+  m_presets->addItems(m_state.presets);
+  m_presets->setPlaceholderText(tr("Choose a plan"));
+  m_presets->setCurrentIndex(m_state.preset);
+  m_presets->setAccessibleName(tr("Preset plans"));
+  m_speed->setRange(0, static_cast<int>(m_state.fastest_rpm));
+  m_sample->setValue(m_state.samplePeriod_s);
+  m_measure->setValue(m_state.measurePeriod_s);
+  m_timeline->setFastest(m_state.fastest_rpm);
+  m_timeline->setMeasurePeriod(m_state.measurePeriod_s);
+  m_timeline->setSteps(m_state.plan);
+  m_expected->setPlaceholder(tr("Known after the first run of this machine"));
+  if (m_state.expectedTime_s.isEmpty()) {
+    m_expected->clear();
+  } else {
+    PartStyle style;
+    style.tag = tr("Expected drift");
+    style.unit = "µm";
+    style.color = axisColor(2);
+    m_expected->setPart("expected", m_state.expectedTime_s, m_state.expectedDrift_um, style);
+  }
+  m_filling = false;
+  showStep();
+}
+
+void WarmupPage::showStep() {
+  const auto& steps = m_timeline->steps();
+  const int index = m_timeline->selectedStep();
+  const bool some = index < steps.size();
+  for (QWidget* field : {static_cast<QWidget*>(m_minutes), static_cast<QWidget*>(m_speed),
+                         static_cast<QWidget*>(m_coolant), static_cast<QWidget*>(m_motion)}) {
+    field->setEnabled(some);
+  }
+  m_remove->setEnabled(steps.size() > 1);
+  m_stepCard->setTitle(tr("Step %1 of %2").arg(some ? index + 1 : 0).arg(steps.size()));
+  if (!some) return;
+  m_filling = true;
+  m_minutes->setValue(static_cast<int>(std::lround(steps[index].duration_s / 60.0)));
+  m_speed->setValue(static_cast<int>(std::lround(steps[index].speed_rpm)));
+  m_coolant->setChecked(steps[index].coolant);
+  m_motion->setCurrentIndex(steps[index].cycle ? 0 : 1);
+  m_filling = false;
+}
+
+void WarmupPage::stepEdited() {
+  if (m_filling) return;
+  auto steps = m_timeline->steps();
+  const int index = m_timeline->selectedStep();
+  if (index >= steps.size()) return;
+  steps[index] = {60.0 * m_minutes->value(), static_cast<double>(m_speed->value()), m_coolant->isChecked(),
+                  m_motion->currentIndex() == 0};
+  m_timeline->setSteps(steps);
+  planTouched();
+}
+
+void WarmupPage::planTouched() {
+  m_state.plan = m_timeline->steps();
+  m_state.preset = -1;
+  // The drawn expectation belongs to the plan it was made for.
+  m_state.expectedTime_s.clear();
+  m_state.expectedDrift_um.clear();
+  refresh();
+  Q_EMIT planEdited(m_state.plan);
+}
+
+}  // namespace zerodrift::ui
