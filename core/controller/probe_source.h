@@ -17,6 +17,11 @@ class ProbeErrorSource : public acquisition::ErrorSource {
   Status take_zero(const TaskContext& context) override;
   Result<acquisition::ErrorSample> measure(const TaskContext& context) override;
   std::string name() const override { return "probes"; }
+  std::optional<std::array<double, 3>> zero_um() const override { return m_zero_um; }
+  bool restore_zero_um(const std::array<double, 3>& zero_um) override {
+    m_zero_um = zero_um;
+    return true;
+  }
 
  private:
   struct Nose {

@@ -4,7 +4,7 @@
 // a commissioning that was broken off goes on where it stopped.
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/acquisition/plan.h"

@@ -6,6 +6,11 @@
 #include "core/flow/steps/calibrate_step.h"
 
 namespace zerodrift::flow {
+namespace {
+
+constexpr double fast_time_factor = 10.0;
+
+}  // namespace
 
 Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras) {
   Devices devices;
@@ -24,7 +29,10 @@ Result<std::unique_ptr<acquisition::ErrorSource>> open_error_source(const commis
     return std::make_unique<controller::ProbeErrorSource>(*devices.machine);
   }
   ZD_TRY(auto views, calibrated_views(job, devices));
-  auto source = std::make_unique<vision::CameraErrorSource>(std::move(views));
+  vision::MeasureOptions options;
+  // Where machine time runs fast, a measurement of several frames would outlast the drift it is to catch.
+  if (devices.profile.time_factor > fast_time_factor) options.frames = 1;
+  auto source = std::make_unique<vision::CameraErrorSource>(std::move(views), options);
   if (cameras != nullptr) *cameras = source.get();
   return source;
 }

@@ -1,6 +1,8 @@
 #include "core/vision/camera_error_source.h"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <thread>
 
@@ -64,9 +66,22 @@ Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskConte
   return state;
 }
 
+std::vector<Result<ViewState>> CameraErrorSource::look_all(const TaskContext& context) const {
+  // All cameras at the same time: the machine drifts while it is looked at.
+  std::vector<std::future<Result<ViewState>>> pending;
+  for (std::size_t k = 1; k < m_views.size(); ++k) {
+    pending.push_back(std::async(std::launch::async, [this, k, &context] { return look(m_views[k], context); }));
+  }
+  std::vector<Result<ViewState>> looks;
+  if (!m_views.empty()) looks.push_back(look(m_views[0], context));
+  for (auto& one : pending) looks.push_back(one.get());
+  return looks;
+}
+
 Status CameraErrorSource::take_zero(const TaskContext& context) {
+  auto looks = look_all(context);
   for (std::size_t k = 0; k < m_views.size(); ++k) {
-    ZD_TRY(ViewState state, look(m_views[k], context));
+    ZD_TRY(ViewState state, std::move(looks[k]));
     if (!state.problem.empty()) {
       return fail(ErrorCode::target_refused, {{"reason", m_views[k].id + ": " + state.problem}});
     }
@@ -83,9 +98,10 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
   acquisition::ErrorSample sample;
   std::optional<Error> dead;
   std::size_t dead_count = 0;
+  auto looks = look_all(context);
   for (std::size_t k = 0; k < m_views.size(); ++k) {
     const ErrorView& view = m_views[k];
-    Result<ViewState> looked = look(view, context);
+    Result<ViewState>& looked = looks[k];
     if (!looked) {
       if (looked.error().code == ErrorCode::cancelled) return fail(looked.error());
       sample.problems.push_back(view.id + ": " + problem_of(looked.error()));
@@ -129,6 +145,31 @@ std::string CameraErrorSource::name() const {
     text += " " + view.id + " (" + axis_names[view.axes[0]] + ", " + axis_names[view.axes[1]] + ")";
   }
   return text;
+}
+
+std::optional<std::array<double, 3>> CameraErrorSource::zero_um() const {
+  std::array<double, 3> sum{};
+  std::array<int, 3> count{};
+  for (std::size_t k = 0; k < m_views.size(); ++k) {
+    const Eigen::Vector2d um = m_views[k].calibration.um_from_px * Eigen::Vector2d(m_zero[k].x_px, m_zero[k].y_px);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto axis = static_cast<std::size_t>(m_views[k].axes[i]);
+      sum[axis] += um[static_cast<Eigen::Index>(i)];
+      ++count[axis];
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] /= std::max(count[axis], 1);
+  return sum;
+}
+
+bool CameraErrorSource::restore_zero_um(const std::array<double, 3>& zero_um) {
+  for (std::size_t k = 0; k < m_views.size(); ++k) {
+    const auto& axes = m_views[k].axes;
+    const Eigen::Vector2d um(zero_um[static_cast<std::size_t>(axes[0])], zero_um[static_cast<std::size_t>(axes[1])]);
+    const Eigen::Vector2d px = m_views[k].calibration.um_from_px.inverse() * um;
+    m_zero[k] = {px.x(), px.y(), 0.0, 0.0};
+  }
+  return true;
 }
 
 std::vector<ViewState> CameraErrorSource::states() const {

@@ -54,6 +54,9 @@ class CameraErrorSource : public acquisition::ErrorSource {
   Status take_zero(const TaskContext& context) override;
   Result<acquisition::ErrorSample> measure(const TaskContext& context) override;
   std::string name() const override;
+  /// The mean of the views' zeros along each axis; the template itself is {0, 0, 0}.
+  std::optional<std::array<double, 3>> zero_um() const override;
+  bool restore_zero_um(const std::array<double, 3>& zero_um) override;
 
   /// The last measurement of each view; may be called from any thread.
   std::vector<ViewState> states() const;
@@ -66,6 +69,7 @@ class CameraErrorSource : public acquisition::ErrorSource {
     double x_px = 0.0, y_px = 0.0, sigma_x_px = 0.0, sigma_y_px = 0.0;
   };
   Result<ViewState> look(const ErrorView& view, const TaskContext& context) const;
+  std::vector<Result<ViewState>> look_all(const TaskContext& context) const;
 
   std::vector<ErrorView> m_views;
   MeasureOptions m_options;

@@ -2,6 +2,7 @@
 
 #include "core/flow/commission.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>

@@ -1,5 +1,7 @@
 // zerodrift-cli report: the report of a job, and where a figure in it comes from.
 
+#include <fmt/format.h>
+
 #include "app/cli/command.h"
 #include "app/cli/report_files.h"
 #include "core/commissioning/job.h"

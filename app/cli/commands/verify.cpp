@@ -1,5 +1,7 @@
 // zerodrift-cli verify: the compensated run, what is left, and the correction it asks for.
 
+#include <fmt/format.h>
+
 #include "app/cli/command.h"
 #include "core/acquisition/plan.h"
 #include "core/commissioning/job.h"

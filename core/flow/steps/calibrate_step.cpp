@@ -61,6 +61,7 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   plan.centre_mm = devices.profile.measure_position_mm;
   plan.span_mm = devices.profile.calibration_span_mm;
   plan.per_side = options.per_side;
+  if (devices.profile.time_factor > 10.0) plan.frames = 2;
   ZD_TRY(auto outcome, vision::run_calibration(
                            *devices.machine, *device.camera, target, plan, context,
                            [&](int done, int of, const vision::GrayImage& frame, const vision::Location& location) {

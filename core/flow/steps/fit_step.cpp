@@ -26,6 +26,12 @@ std::string summary_of(const analysis::Model& model) {
   return text;
 }
 
+std::string alternative_of(const analysis::Model& dynamic) {
+  double rms = 0.0;
+  for (const auto& error : dynamic.errors) rms = std::max(rms, error.held_out.rms_um);
+  return fmt::format(" A dynamic model, which needs the host compensator, would leave {:.1f} um rms.", rms);
+}
+
 json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
@@ -75,7 +81,16 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   analysis::FitOptions fit_options;
   fit_options.sensors = sensors.body.at("chosen").get<std::vector<std::string>>();
   ZD_TRY(fit_options.method, analysis::method_from(options.method));
-  ZD_TRY(const auto model, analysis::fit({run}, fit_options, context));
+  ZD_TRY(auto model, analysis::fit({run}, fit_options, context));
+  // A controller that computes the table itself runs static models only: fit the one it will run, so that every figure
+  // is of what compensates, and say what a dynamic one would have left.
+  std::string alternative;
+  ZD_TRY(const Input machine, need(job, "fit", "machine"));
+  if (options.method == "auto" && !model.is_static() && machine.body.at("identity").value("accepts_table", false)) {
+    alternative = alternative_of(model);
+    fit_options.method = analysis::Method::ridge;
+    ZD_TRY(model, analysis::fit({run}, fit_options, context));
+  }
   ZD_TRY(const auto table, table_from_model(model, profile));
   json figures = json::array();
   for (const auto& error : model.errors) {
@@ -95,7 +110,7 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
     }
   }
   const json body = {{"model", analysis::to_json(model)},
-                     {"summary", summary_of(model)},
+                     {"summary", summary_of(model) + alternative},
                      {"runs_on_controller", model.is_static()},
                      {"figures", figures},
                      {"table", rows},

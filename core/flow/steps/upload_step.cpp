@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/time_text.h"
+#include "core/compensation/model_table.h"
 #include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
 #include "core/flow/steps/fit_step.h"
@@ -113,6 +114,12 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
     if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
     ZD_TRY(const auto model, model_of(*artefact));
     ZD_TRY(preview.table, table_from_model(model, devices.profile));
+    ZD_TRY(const auto axes, job.latest("axis_table"));
+    if (axes) {
+      ZD_TRY(const json body, axes->document());
+      ZD_TRY(const auto axis_table, compensation::table_from_json(body.at("table"), "the axis table"));
+      ZD_CHECK(compensation::add_axis_table(preview.table, axis_table));
+    }
   }
   controller::UploadOptions options;
   options.dry_run = true;
@@ -155,7 +162,10 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
     record = controller::upload_table(*devices.machine, preview.table, upload_options, context);
     return record.result;
   }));
-  return commissioning::NewArtefact::of("upload", body_of(preview, record, signs), {machine.id, model.id});
+  std::vector<commissioning::ArtefactId> inputs = {machine.id, model.id};
+  ZD_TRY(const auto axes, job.latest("axis_table"));
+  if (axes) inputs.push_back(axes->id);
+  return commissioning::NewArtefact::of("upload", body_of(preview, record, signs), inputs);
 }
 
 }  // namespace zerodrift::flow

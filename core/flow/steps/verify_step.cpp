@@ -13,6 +13,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr double part_threshold_um = 2.0;  // a part error above this is worth a correction
+
 std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(const recording::Recording& run,
                                                                               const compensation::Table& table) {
   std::map<std::string, std::vector<compensation::ResidualSample>> samples;
@@ -39,7 +41,7 @@ std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(co
 void propose_correction(const recording::Recording& run, const compensation::Table& table, double limit_um,
                         json& body) {
   compensation::ResidualOptions options;
-  options.threshold_um = limit_um;
+  options.threshold_um = std::min(limit_um, part_threshold_um);
   body["kappa"] = json::object();
   body["correction"] = json::array();
   body["corrected_table"] = nullptr;
@@ -118,6 +120,28 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   add_figures(before, after, options.limit_um, body);
   propose_correction(after, table, options.limit_um, body);
   return commissioning::NewArtefact::of("verification", body, {warmup.id, calibration.id, upload.id});
+}
+
+Result<VerificationResiduals> verification_residuals(const commissioning::Job& job) {
+  ZD_TRY(const auto artefact, job.latest("verification"));
+  if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "verify"}, {"needs", "verification"}});
+  ZD_TRY(const json body, artefact->document());
+  ZD_TRY(const auto run, run_of(job, {artefact->id, body}));
+  VerificationResiduals out;
+  for (const auto& input : artefact->inputs) {
+    if (input.kind != "upload") continue;
+    ZD_TRY(const auto upload, job.artefact(input.id));
+    ZD_TRY(const json uploaded, upload.document());
+    ZD_TRY(out.table, compensation::table_from_json(uploaded.at("table"), "the uploaded table"));
+  }
+  out.samples = residuals_of(run, out.table);
+  for (const auto& [axis, samples] : out.samples) {
+    const auto* error = run.find("d" + axis + "_um");
+    for (std::size_t r = 0; r < run.rows(); ++r) {
+      if (!std::isnan(error->values[r])) out.time_s[axis].push_back(run.time_s[r]);
+    }
+  }
+  return out;
 }
 
 Result<std::optional<compensation::Table>> corrected_table(const commissioning::Artefact& artefact) {

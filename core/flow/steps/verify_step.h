@@ -6,10 +6,14 @@
 //    "removed_percent", "limit_um", "verdict": "passed"|"failed", "kappa": {...}, "correction": [...],
 //    "corrected_table": {...} | null, "machine_time_s": [from, to]}
 
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
+#include "core/compensation/residual.h"
 #include "core/compensation/table.h"
 #include "core/flow/devices.h"
 #include "core/flow/steps/warmup_step.h"
@@ -26,6 +30,14 @@ acquisition::Plan verification_plan(const acquisition::Plan& warmup);
 
 Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devices, const VerifyOptions& options,
                                           const TaskContext& context);
+
+/// What was left in the latest verification, by axis, with the temperatures of each measurement.
+struct VerificationResiduals {
+  compensation::Table table;  // that was compensating
+  std::map<std::string, std::vector<compensation::ResidualSample>> samples;
+  std::map<std::string, std::vector<double>> time_s;  // of the samples
+};
+Result<VerificationResiduals> verification_residuals(const commissioning::Job& job);
 
 /// The corrected table an artefact "verification" proposes, if any.
 Result<std::optional<compensation::Table>> corrected_table(const commissioning::Artefact& artefact);

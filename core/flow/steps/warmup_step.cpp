@@ -89,6 +89,8 @@ Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Device
   ZD_TRY(const Input calibration, need(job, "warm-up", "calibration"));
   acquisition::RecorderOptions recorder_options;
   recorder_options.name = "warm-up";
+  // Errors from cameras count from the template, taken at rest (V1): what drifted since is thermal error, too.
+  if (calibration.body.value("source", "") == "camera") recorder_options.zero_um = std::array<double, 3>{};
   ZD_TRY(const RecordedRun run, record_run(job, devices, options, recorder_options, context));
   if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
   json body = run.body();
