@@ -45,7 +45,8 @@ class FlowTest : public testing::Test {
   StepStatus of(const std::string& id) { return status_of(*job, id); }
   Ids in(StepState state) {
     Ids ids;
-    for (const StepStatus& one : *flow.status(*job)) {
+    const auto status = flow.status(*job);
+    for (const StepStatus& one : *status) {
       if (one.state == state) ids.insert(one.step->id);
     }
     return ids;
