@@ -15,8 +15,8 @@ constexpr double default_rate_um_s = 2.0;
 
 }  // namespace
 
-Temperatures Follower::held(const Temperatures& temperatures, FollowerOutput& output) const {
-  Temperatures inside = temperatures;
+Temperatures Follower::held(const Temperatures& channels, FollowerOutput& output) const {
+  Temperatures inside = channels;
   for (const auto& [sensor, range] : m_table.valid) {
     const auto at = inside.find(sensor);
     if (at == inside.end() || !std::isfinite(at->second)) continue;
@@ -43,25 +43,36 @@ void Follower::limit(double dt_s, const std::array<double, 3>& wanted_um, Follow
   output.offset_um = m_offset_um;
 }
 
-FollowerOutput Follower::step(double dt_s, const Temperatures& temperatures,
-                              const std::map<std::string, double>& positions_mm) {
-  FollowerOutput output;
-  const Temperatures inside = held(temperatures, output);
-  std::array<double, 3> wanted_um{};
+Result<std::array<double, 3>> Follower::predict(double time_s, const Temperatures& channels,
+                                                const std::map<std::string, double>& positions_mm) const {
+  if (m_predictor) return m_predictor(time_s, channels);
+  std::array<double, 3> predicted_um{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto position = positions_mm.find(axis_names[i]);
-    const auto error =
-        error_um(m_table, axis_names[i], position == positions_mm.end() ? 0.0 : position->second, Approach::up, inside);
-    if (!error) {
-      output.mode = FollowerMode::safe_zero;
-      output.reasons.push_back(fmt::format("axis {}: {}", axis_names[i], describe(error.error())));
-      break;
-    }
-    output.predicted_um[i] = *error;
-    wanted_um[i] = compensation_from_error_um(*error);
+    const double x = position == positions_mm.end() ? 0.0 : position->second;
+    ZD_TRY(predicted_um[i], error_um(m_table, axis_names[i], x, Approach::up, channels));
   }
-  if (m_stopping) output.mode = FollowerMode::stopping;
-  if (output.mode == FollowerMode::safe_zero || m_stopping) wanted_um = {};
+  return predicted_um;
+}
+
+FollowerOutput Follower::step(double time_s, const Temperatures& channels,
+                              const std::map<std::string, double>& positions_mm) {
+  FollowerOutput output;
+  const double dt_s = m_time_s ? std::max(0.0, time_s - *m_time_s) : 0.0;
+  m_time_s = time_s;
+  std::array<double, 3> wanted_um{};
+  const auto predicted = predict(time_s, held(channels, output), positions_mm);
+  if (predicted) {
+    output.predicted_um = *predicted;
+    for (std::size_t i = 0; i < 3; ++i) wanted_um[i] = compensation_from_error_um((*predicted)[i]);
+  } else {
+    output.mode = FollowerMode::safe_zero;
+    output.reasons.push_back(describe(predicted.error()));
+  }
+  if (m_stopping) {
+    output.mode = FollowerMode::stopping;
+    wanted_um = {};
+  }
   limit(dt_s, wanted_um, output);
   return output;
 }

@@ -4,13 +4,20 @@
 // edge, where the model is still known - both with a reason in words.
 
 #include <array>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/compensation/table.h"
 
 namespace zerodrift::compensation {
+
+/// The error predicted now, X Y Z, from the machine's time and channels (temperatures and inputs); for models that
+/// remember.
+using Predictor =
+    std::function<Result<std::array<double, 3>>(double time_s, const std::map<std::string, double>& channels)>;
 
 struct FollowerOptions {
   double largest_step_um = 20.0;        // one write; the controller refuses more
@@ -33,10 +40,12 @@ struct FollowerOutput {
 
 class Follower {
  public:
-  explicit Follower(Table table, FollowerOptions options = {}) : m_table(std::move(table)), m_options(options) {}
+  /// Without a predictor the table predicts; with one the table gives limits and training ranges only.
+  explicit Follower(Table table, FollowerOptions options = {}, Predictor predictor = {})
+      : m_table(std::move(table)), m_options(options), m_predictor(std::move(predictor)) {}
 
-  /// One turn, dt_s after the last: temperatures by channel, positions by axis.
-  FollowerOutput step(double dt_s, const Temperatures& temperatures, const std::map<std::string, double>& positions_mm);
+  /// One turn at the machine's time: temperatures (and inputs) by channel, positions by axis.
+  FollowerOutput step(double time_s, const Temperatures& channels, const std::map<std::string, double>& positions_mm);
   /// From now on run to 0.
   void stop() { m_stopping = true; }
   /// What the controller holds now; it may have taken the offset out by itself (switch off, watchdog).
@@ -45,11 +54,15 @@ class Follower {
   const Table& table() const { return m_table; }
 
  private:
-  Temperatures held(const Temperatures& temperatures, FollowerOutput& output) const;
+  Temperatures held(const Temperatures& channels, FollowerOutput& output) const;
+  Result<std::array<double, 3>> predict(double time_s, const Temperatures& channels,
+                                        const std::map<std::string, double>& positions_mm) const;
   void limit(double dt_s, const std::array<double, 3>& wanted_um, FollowerOutput& output);
 
   Table m_table;
   FollowerOptions m_options;
+  Predictor m_predictor;
+  std::optional<double> m_time_s;
   bool m_stopping = false;
   std::array<double, 3> m_offset_um{};
 };

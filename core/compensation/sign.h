@@ -11,7 +11,7 @@ constexpr double error_from_positions_um(double actual_mm, double commanded_mm) 
   return 1000.0 * (actual_mm - commanded_mm);
 }
 constexpr double compensation_from_error_um(double error_um) {
-  return -error_um;
+  return 0.0 - error_um;  // not -0 for 0
 }
 constexpr double error_from_compensation_um(double compensation_um) {
   return -compensation_um;

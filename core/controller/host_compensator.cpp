@@ -19,7 +19,7 @@ class Loop {
         m_options(options),
         m_context(context),
         m_observer(observer),
-        m_follower(table, follower_options(machine, options)) {}
+        m_follower(table, follower_options(machine, options), options.predictor) {}
 
   Result<CompensatorSummary> run() {
     ZD_CHECK(prepare());
@@ -60,7 +60,7 @@ class Loop {
 
   bool ending() const {
     if (m_context.cancelled()) return true;
-    return m_options.duration_s && m_first_time_s && m_time_s - *m_first_time_s >= *m_options.duration_s;
+    return m_options.duration_s && m_clock.steady().count() >= *m_options.duration_s;
   }
 
   /// One turn. A lost link is not the end: the controller's watchdog takes the offset out, and we come back.
@@ -96,14 +96,21 @@ class Loop {
     }
   }
 
+  /// Temperatures, and the inputs a model that remembers may want, in the recording's names.
+  std::map<std::string, double> channels_of(const acquisition::MachineSample& sample) const {
+    std::map<std::string, double> channels{{"ambient_C", sample.ambient_C},
+                                           {"spindle_rpm", sample.spindle_rpm},
+                                           {"spindle_load_W", sample.spindle_load_W},
+                                           {"coolant_on", sample.coolant_on ? 1.0 : 0.0}};
+    for (const auto& [axis, feed] : sample.feed_mm_min) channels["feed_" + axis + "_mm_min"] = feed;
+    const auto& sensors = m_machine.profile().sensors;
+    for (std::size_t i = 0; i < sensors.size(); ++i) channels[sensors[i].channel] = sample.temperature_C[i];
+    return channels;
+  }
+
   Status exchange(CompensatorTurn& report) {
     ZD_TRY(const auto sample, m_machine.read());
-    if (!m_first_time_s) m_first_time_s = sample.machine_time_s;
-    const double dt_s = m_time_s == 0.0 ? 0.0 : std::max(0.0, sample.machine_time_s - m_time_s);
-    m_time_s = sample.machine_time_s;
-    compensation::Temperatures temperatures{{"ambient_C", sample.ambient_C}};
-    const auto& sensors = m_machine.profile().sensors;
-    for (std::size_t i = 0; i < sensors.size(); ++i) temperatures[sensors[i].channel] = sample.temperature_C[i];
+    const std::map<std::string, double> channels = channels_of(sample);
     report.machine_time_s = sample.machine_time_s;
     report.applied_um = sample.applied_um;
     report.switch_on = sample.compensation_on;
@@ -115,8 +122,10 @@ class Loop {
     ZD_TRY(const RegisterValues held, m_machine.read_values({"host_offset_um"}));
     const auto& values = held.at("host_offset_um");
     m_follower.start_from({values.at(0), values.at(1), values.at(2)});
-    report.output = m_follower.step(dt_s, temperatures, sample.axes);
-    m_summary.last_offset_um = report.output.offset_um;
+    report.output = m_follower.step(sample.machine_time_s, channels, sample.axes);
+    for (std::size_t i = 0; i < 3; ++i) {
+      m_summary.largest_offset_um[i] = std::max(m_summary.largest_offset_um[i], std::abs(report.output.offset_um[i]));
+    }
     return m_machine.write_host_offset(report.output.offset_um);
   }
 
@@ -137,8 +146,6 @@ class Loop {
   compensation::Follower m_follower;
   SystemClock m_clock;
   CompensatorSummary m_summary;
-  std::optional<double> m_first_time_s;
-  double m_time_s = 0.0;
   double m_last_good_s = 0.0;
 };
 

@@ -17,9 +17,10 @@ namespace zerodrift::controller {
 
 struct HostCompensatorOptions {
   double period_s = 1.0;             // host seconds
-  std::optional<double> duration_s;  // machine seconds; none: until stopped
+  std::optional<double> duration_s;  // host seconds; none: until stopped
   double give_up_s = 60.0;           // host seconds without the machine before it ends with the link's error
   compensation::FollowerOptions follower;
+  compensation::Predictor predictor;  // a model that remembers; none: the table predicts
 };
 
 struct CompensatorTurn {
@@ -35,7 +36,7 @@ struct CompensatorSummary {
   long late_turns = 0;  // turns that began more than half a period late
   long lost_turns = 0;  // without the machine
   double largest_jitter_s = 0.0;
-  std::array<double, 3> last_offset_um{};
+  std::array<double, 3> largest_offset_um{};  // absolute
 };
 
 /// Runs until stopped, or for the duration. data_does_not_fit when the controller's own table already compensates.

@@ -16,6 +16,7 @@ FormerTable read_one(JsonObject& o) {
   FormerTable table;
   table.time = o.text_or("time", "");
   table.sequence = o.integer_or("sequence", 0, 0, 65535);
+  table.replaced_by_crc = static_cast<std::uint32_t>(o.number_or("replaced_by_crc", 0.0, not_negative));
   for (const double word : o.numbers("words")) {
     if (word < 0.0 || word > 65535.0) o.reject("words", fmt::format("{}", word), "register words, 0 to 65535");
     table.words.push_back(static_cast<std::uint16_t>(word));
@@ -59,7 +60,10 @@ Status TableHistory::write(std::uint32_t serial, const std::vector<FormerTable>&
   }
   nlohmann::json list = nlohmann::json::array();
   for (const auto& table : tables) {
-    list.push_back({{"time", table.time}, {"sequence", table.sequence}, {"words", table.words}});
+    list.push_back({{"time", table.time},
+                    {"sequence", table.sequence},
+                    {"words", table.words},
+                    {"replaced_by_crc", table.replaced_by_crc}});
   }
   return write_json_file(file_of(serial),
                          {{"format", "zerodrift-table-history/1"}, {"serial", serial}, {"tables", list}});

@@ -16,6 +16,7 @@ struct FormerTable {
   std::string time;  // when it was replaced, UTC
   int sequence = 0;
   std::vector<std::uint16_t> words;
+  std::uint32_t replaced_by_crc = 0;  // of the table that took its place: only from there does one go back to it
 };
 
 class TableHistory {

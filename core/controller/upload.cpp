@@ -224,7 +224,7 @@ class Upload {
     ZD_CHECK(compare_tables(sample));
     if (m_options.dry_run) return {};
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-    if (m_options.keep_old) ZD_CHECK(m_options.keep_old(m_record.old_words, m_record.old_sequence));
+    if (m_options.keep_old) ZD_CHECK(m_options.keep_old(m_record));
     return write();
   }
 

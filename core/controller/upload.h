@@ -43,6 +43,8 @@ struct UploadStep {
   std::string detail;
 };
 
+struct UploadRecord;
+
 enum class Activation {
   on,         // the switch is on afterwards
   as_before,  // as it was found
@@ -54,8 +56,8 @@ struct UploadOptions {
   Activation activation = Activation::on;
   bool check_machine_name = true;
   std::function<void(const UploadStep&)> observer;
-  /// Called with the old table's words before anything is written; an error stops the upload.
-  std::function<Status(const std::vector<std::uint16_t>& old_words, int old_sequence)> keep_old;
+  /// Called with the old and the new words in the record before anything is written; an error stops the upload.
+  std::function<Status(const UploadRecord&)> keep_old;
 };
 
 /// What was done, for the audit trail.

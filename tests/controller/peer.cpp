@@ -86,4 +86,26 @@ Peer::~Peer() {
   ::unlink(m_profile.c_str());
 }
 
+SerialCable::SerialCable() {
+  const std::string base = testing::TempDir() + "serial_" + std::to_string(::getpid());
+  m_host = base + "_a";
+  m_device = base + "_b";
+  std::vector<std::string> words = {"socat", "pty,raw,echo=0,link=" + m_host, "pty,raw,echo=0,link=" + m_device};
+  std::vector<char*> arguments;
+  for (auto& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  if (::posix_spawnp(&m_pid, "socat", nullptr, nullptr, arguments.data(), environ) != 0) return;
+  for (int i = 0; i < 100 && !m_running; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    m_running = ::access(m_host.c_str(), F_OK) == 0 && ::access(m_device.c_str(), F_OK) == 0;
+  }
+}
+
+SerialCable::~SerialCable() {
+  if (m_pid > 0) {
+    ::kill(m_pid, SIGTERM);
+    ::waitpid(m_pid, nullptr, 0);
+  }
+}
+
 }  // namespace zerodrift::controller

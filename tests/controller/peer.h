@@ -27,4 +27,23 @@ class Peer {
   std::string m_profile;
 };
 
+/// Two pseudo-terminals joined like a serial cable (socat); running() is false where socat is not installed.
+class SerialCable {
+ public:
+  SerialCable();
+  ~SerialCable();
+  SerialCable(const SerialCable&) = delete;
+  SerialCable& operator=(const SerialCable&) = delete;
+
+  bool running() const { return m_running; }
+  const std::string& host_end() const { return m_host; }
+  const std::string& device_end() const { return m_device; }
+
+ private:
+  pid_t m_pid = -1;
+  bool m_running = false;
+  std::string m_host;
+  std::string m_device;
+};
+
 }  // namespace zerodrift::controller

@@ -276,13 +276,14 @@ def main():
     parser.add_argument("--profile")
     parser.add_argument("--speedup", type=float, default=1.0)
     parser.add_argument("--rtu", help="serve on this serial port instead of TCP")
+    parser.add_argument("--host-end", help="the serial port the profile names, the other end of the cable")
     parser.add_argument("--strict", action="store_true")
     options = parser.parse_args()
     port = options.port or free_port()
     if options.profile:
         document = profile(port, options.speedup)
         if options.rtu:
-            document["controller"] = {"kind": "modbus-rtu", "device": options.rtu, "baud": 115200, "parity": "N",
+            document["controller"] = {"kind": "modbus-rtu", "device": options.host_end or options.rtu, "baud": 115200, "parity": "N",
                                       "register_map": "zerodrift-virtual"}
         with open(options.profile, "w", encoding="utf-8") as file:
             json.dump(document, file, indent=1)

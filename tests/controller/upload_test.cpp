@@ -251,13 +251,27 @@ TEST(Upload, APymodbusPeerTakesTheTable) {
   EXPECT_EQ(read_active(*machine)->words, (std::vector<std::uint16_t>{1, 0}));
 }
 
+TEST(Upload, OverASerialLine) {
+  const SerialCable cable;
+  if (!cable.running()) GTEST_SKIP() << "socat is not installed";
+  const Peer peer({"--speedup", "60", "--rtu", cable.device_end(), "--host-end", cable.host_end()});
+  if (!peer.running()) GTEST_SKIP() << "python3-pymodbus is not installed";
+  auto machine = open(*read_profile(peer.profile_file()));
+  const auto sample_read = machine->read();
+  ASSERT_TRUE(sample_read) << describe(sample_read.error());
+  const auto record = upload_table(*machine, sample(), {}, {});
+  ASSERT_TRUE(record.result) << text_of(record.result);
+  EXPECT_EQ(read_active(*machine)->words, record.new_words);
+}
+
 TEST(TableHistory, KeepsAndForgets) {
   const TableHistory history(std::filesystem::path(testing::TempDir()) / "zd_table_history");
   std::filesystem::remove_all(std::filesystem::path(testing::TempDir()) / "zd_table_history");
   EXPECT_TRUE(history.read(5)->empty());
-  ASSERT_TRUE(history.push(5, {"2026-01-01T00:00:00.000Z", 3, {1, 0}}));
-  ASSERT_TRUE(history.push(5, {"2026-01-02T00:00:00.000Z", 4, {1, 1, 65535}}));
+  ASSERT_TRUE(history.push(5, {"2026-01-01T00:00:00.000Z", 3, {1, 0}, 11}));
+  ASSERT_TRUE(history.push(5, {"2026-01-02T00:00:00.000Z", 4, {1, 1, 65535}, 4294967295U}));
   EXPECT_EQ(history.read(5)->back().words, (std::vector<std::uint16_t>{1, 1, 65535}));
+  EXPECT_EQ(history.read(5)->back().replaced_by_crc, 4294967295U);
   EXPECT_TRUE(history.read(6)->empty());
   ASSERT_TRUE(history.pop(5));
   EXPECT_EQ(history.read(5)->back().sequence, 3);

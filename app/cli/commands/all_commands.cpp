@@ -3,6 +3,12 @@
 namespace zerodrift::cli {
 
 // void add_<command>(Cli& cli);
+void add_axis_table(Cli& cli);
+void add_compensate(Cli& cli);
+void add_export(Cli& cli);
+void add_machine_check(Cli& cli);
+void add_machine_table(Cli& cli);
+void add_table(Cli& cli);
 void add_calibrate(Cli& cli);
 void add_cluster(Cli& cli);
 void add_commission(Cli& cli);
@@ -16,6 +22,12 @@ void add_place(Cli& cli);
 void add_simulate(Cli& cli);
 
 void add_all_commands(Cli& cli) {
+  add_axis_table(cli);
+  add_compensate(cli);
+  add_export(cli);
+  add_machine_check(cli);
+  add_machine_table(cli);
+  add_table(cli);
   add_calibrate(cli);
   add_cluster(cli);
   add_commission(cli);

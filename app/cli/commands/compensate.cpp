@@ -1,0 +1,126 @@
+// compensate: the host compensator (C1), until stopped or for a time.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "app/cli/command.h"
+#include "core/analysis/predict.h"
+#include "core/compensation/model_table.h"
+#include "core/controller/host_compensator.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct Options {
+  std::string profile;
+  std::string model;
+  double seconds = 0.0;
+  double period_s = 0.5;
+  bool switch_on = false;
+  std::string log;
+};
+
+class Log {
+ public:
+  Status open(const std::string& file) {
+    if (file.empty()) return {};
+    m_stream.open(file);
+    if (!m_stream) return fail(ErrorCode::file_not_writable, {{"file", file}, {"detail", "cannot be opened"}});
+    m_stream << "time_s,predicted_X_um,predicted_Y_um,predicted_Z_um,offset_X_um,offset_Y_um,offset_Z_um,"
+                "applied_X_um,applied_Y_um,applied_Z_um,mode\n";
+    return {};
+  }
+  void add(const controller::CompensatorTurn& turn) {
+    if (!m_stream.is_open() || turn.link_lost) return;
+    m_stream << fmt::format("{:.2f},{:.3f},{:.3f},{:.3f},{}\n", turn.machine_time_s,
+                            fmt::join(turn.output.predicted_um, ","), fmt::join(turn.output.offset_um, ","),
+                            fmt::join(turn.applied_um, ","), static_cast<int>(turn.output.mode))
+             << std::flush;
+  }
+
+ private:
+  std::ofstream m_stream;
+};
+
+/// Says each reason once while it lasts.
+class Speaker {
+ public:
+  void hear(const controller::CompensatorTurn& turn) {
+    std::vector<std::string> reasons = turn.output.reasons;
+    if (turn.link_lost) reasons.emplace_back("no answer from the controller; its watchdog takes the offset out");
+    std::vector<std::string> kinds;
+    for (const auto& reason : reasons) kinds.push_back(reason.substr(0, 12));  // without the changing figures
+    if (kinds != m_last) {
+      for (const auto& reason : reasons) std::fprintf(stderr, "%s\n", reason.c_str());
+    }
+    m_last = std::move(kinds);
+  }
+
+ private:
+  std::vector<std::string> m_last;
+};
+
+/// A model that remembers, at work beside the machine; errors other than dX, dY, dZ are not compensated.
+compensation::Predictor live(const analysis::Model& model) {
+  auto predictor = std::make_shared<analysis::LivePredictor>(model);
+  return [predictor](double time_s, const std::map<std::string, double>& channels) -> Result<std::array<double, 3>> {
+    ZD_TRY(const auto sample, predictor->update(time_s, channels));
+    std::array<double, 3> out{};
+    for (const auto& value : sample.errors) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (value.error == fmt::format("d{}_um", "XYZ"[i])) out[i] = value.predicted_um;
+      }
+    }
+    return out;
+  };
+}
+
+Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+  CommandOutput output;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
+  ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
+  const compensation::ModelTableOptions limits{profile.name, profile.max_um, profile.max_um_per_s};
+  ZD_TRY(const auto table, compensation::table_from_model(model, limits));
+  Log log;
+  ZD_CHECK(log.open(options.log));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  if (options.switch_on) ZD_CHECK(machine->switch_compensation(true));
+  controller::HostCompensatorOptions how;
+  how.period_s = options.period_s;
+  if (options.seconds > 0.0) how.duration_s = options.seconds;
+  if (!model.is_static()) how.predictor = live(model);
+  Speaker speaker;
+  ZD_TRY(const auto summary, controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {
+           log.add(turn);
+           speaker.hear(turn);
+         }));
+  output.json = {{"turns", summary.turns},
+                 {"late_turns", summary.late_turns},
+                 {"lost_turns", summary.lost_turns},
+                 {"largest_jitter_s", summary.largest_jitter_s},
+                 {"largest_offset_um", summary.largest_offset_um},
+                 {"faults", machine->health().faults}};
+  output.text = fmt::format("{} turns, {} late, {} without the machine; the offset is back at 0", summary.turns,
+                            summary.late_turns, summary.lost_turns);
+  return output;
+}
+
+}  // namespace
+
+void add_compensate(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      cli.add("compensate", "Compensate from this computer: read temperatures, predict, write the offset",
+              [options](const TaskContext& context) { return run(*options, context); });
+  command->add_option("--profile", options->profile, "Connection profile")->required();
+  command->add_option("--model", options->model, "Model file of the fit")->required();
+  command->add_option("--for", options->seconds, "Seconds to run; without it until stopped")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--period", options->period_s, "Seconds between two turns")->check(CLI::Range(0.02, 10.0));
+  command->add_flag("--switch-on", options->switch_on, "Switch the compensation on first; otherwise it must be on");
+  command->add_option("--log", options->log, "CSV to write: what was predicted, written and applied");
+}
+
+}  // namespace zerodrift::cli

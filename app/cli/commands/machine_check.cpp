@@ -1,0 +1,120 @@
+// machine check: connects, and lists what there is - sensors, axes, cameras, switch - and how well it is.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/cli/command.h"
+#include "app/text/error_text.h"
+#include "core/controller/modbus_machine.h"
+#include "core/vision/camera.h"
+
+namespace zerodrift::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::chrono::milliseconds camera_timeout{8000};
+
+std::string sentence(const Error& error) {
+  return lineOf(error).toStdString();
+}
+
+void list_sensors(const acquisition::MachineIdentity& identity, const acquisition::MachineSample& sample,
+                  CommandOutput& output) {
+  json sensors = json::array();
+  output.text += fmt::format("ambient        {:.2f} C\n", sample.ambient_C);
+  for (std::size_t i = 0; i < identity.sensors.size(); ++i) {
+    const auto& sensor = identity.sensors[i];
+    const double value = sample.temperature_C[i];
+    const bool alive = std::isfinite(value);
+    json row = {{"channel", sensor.channel}, {"label", sensor.label}, {"ok", alive}};
+    row["temperature_C"] = alive ? json(value) : json(nullptr);
+    sensors.push_back(row);
+    output.text += fmt::format("{:<8} {:>8} C  {}\n", sensor.channel, alive ? fmt::format("{:.2f}", value) : "no value",
+                               sensor.label);
+    if (!alive) output.warnings.push_back(sentence(Error{ErrorCode::sensor_dead, {{"sensor", sensor.channel}}}));
+  }
+  output.json["sensors"] = sensors;
+  output.json["ambient_C"] = std::isfinite(sample.ambient_C) ? json(sample.ambient_C) : json(nullptr);
+}
+
+void list_state(const acquisition::MachineIdentity& identity, const acquisition::MachineSample& sample,
+                CommandOutput& output) {
+  output.json["name"] = identity.name;
+  output.json["serial"] = identity.serial;
+  output.json["map_version"] = identity.map_version;
+  output.json["accepts_table"] = identity.accepts_table;
+  output.json["accepts_host_offset"] = identity.accepts_host_offset;
+  output.json["has_probes"] = identity.has_probes;
+  output.json["compensation_on"] = sample.compensation_on;
+  output.json["referenced"] = sample.referenced;
+  output.json["moving"] = sample.moving;
+  output.json["alarm"] = sample.alarm;
+  output.json["spindle_rpm"] = sample.spindle_rpm;
+  output.json["coolant_on"] = sample.coolant_on;
+  output.json["axes"] = sample.axes;
+  output.text += fmt::format("{}, serial number {}\n", identity.name, identity.serial);
+  for (const auto& [axis, position] : sample.axes) {
+    output.text += fmt::format("{} {:.3f} {}  ", axis, position, axis < "D" ? "deg" : "mm");
+  }
+  output.text += fmt::format("\ncompensation {}, {}{}{}\n", sample.compensation_on ? "ON" : "OFF",
+                             sample.referenced ? "referenced" : "NOT referenced", sample.moving ? ", moving" : "",
+                             sample.alarm ? ", ALARM" : "");
+  output.text += fmt::format("table {}, host offset {}, probes {}\n", identity.accepts_table ? "yes" : "no",
+                             identity.accepts_host_offset ? "yes" : "no", identity.has_probes ? "yes" : "no");
+}
+
+/// A camera that is the source of errors must work; one beside probes is only warned of.
+Status look_at_cameras(const controller::Profile& profile, const TaskContext& context, CommandOutput& output) {
+  json cameras = json::array();
+  for (const auto& entry : profile.cameras) {
+    const vision::Camera camera(entry.url);
+    const auto frame = camera.fresh_frame(vision::Camera::Time::clock::now(), camera_timeout, context.stop);
+    json row = {{"id", entry.id}, {"url", entry.url}, {"ok", frame.has_value()}};
+    if (frame) {
+      row["width_px"] = (*frame)->image.width;
+      row["height_px"] = (*frame)->image.height;
+      output.text +=
+          fmt::format("camera {:<8} {} x {} px\n", entry.id, (*frame)->image.width, (*frame)->image.height);
+    } else {
+      if (profile.error_source == controller::ErrorSourceKind::camera) return fail(frame.error());
+      output.warnings.push_back(sentence(frame.error()));
+    }
+    cameras.push_back(row);
+  }
+  output.json["cameras"] = cameras;
+  return {};
+}
+
+Result<CommandOutput> run(const std::string& file, const TaskContext& context) {
+  CommandOutput output;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(file, &output.warnings));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto identity, machine->identify());
+  ZD_TRY(const auto sample, machine->read());
+  list_state(identity, sample, output);
+  list_sensors(identity, sample, output);
+  ZD_CHECK(look_at_cameras(profile, context, output));
+  const auto& health = machine->health();
+  output.json["link"] = {{"requests", health.requests}, {"retries", health.retries}, {"faults", health.faults}};
+  for (const auto& [fault, count] : health.faults) {
+    output.warnings.push_back(fmt::format("the link had {} x {}; the requests were repeated", count, fault));
+  }
+  if (!output.text.empty()) output.text.pop_back();
+  return output;
+}
+
+}  // namespace
+
+void add_machine_check(Cli& cli) {
+  auto file = std::make_shared<std::string>();
+  CLI::App* machine = cli.add("machine", "Look at the connected machine",
+                              [file](const TaskContext& context) { return run(*file, context); });
+  CLI::App* check = machine->add_subcommand("check", "Connect and list sensors, axes, cameras and the switch");
+  machine->require_subcommand(1);
+  check->add_option("--profile", *file, "Connection profile")->required();
+  check->add_flag("--json", cli.json_output, "Print the result as JSON on stdout");
+}
+
+}  // namespace zerodrift::cli

@@ -1,0 +1,190 @@
+// push, read-back, rollback: the table in the controller.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+
+#include "app/cli/command.h"
+#include "core/base/time_text.h"
+#include "core/controller/table_history.h"
+#include "core/controller/table_words.h"
+#include "core/controller/upload.h"
+
+namespace zerodrift::cli {
+namespace {
+
+using controller::UploadOptions;
+using controller::UploadRecord;
+
+struct Options {
+  std::string profile;
+  std::string table;
+  std::string out;
+  bool dry_run = false;
+  bool yes = false;
+};
+
+std::string text_of(const UploadRecord& record) {
+  std::string text;
+  for (const auto& axis : record.difference) {
+    text +=
+        fmt::format("axis {}: largest change {:.2f} um at {:g} mm\n", axis.axis, axis.largest_um, axis.largest_at_mm);
+    for (const auto& row : axis.curve) {
+      text += fmt::format("  {:>10.3f} mm   old {:>8.2f} {:>8.2f}   new {:>8.2f} {:>8.2f} um\n", row.position_mm,
+                          row.old_up_um, row.old_down_um, row.new_up_um, row.new_down_um);
+    }
+  }
+  text += fmt::format("{} registers, CRC {:08x}, version {} -> {}\n", record.new_words.size(), record.crc,
+                      record.old_sequence, record.sequence);
+  text += fmt::format("state: {}", name_of(record.reached));
+  if (record.dry_run) text += " (dry run: nothing was written)";
+  return text;
+}
+
+/// Asks on a terminal; without one only --yes will do.
+Status confirm(const std::string& operation, const UploadRecord& preview) {
+  const bool terminal = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
+  if (terminal) {
+    std::fprintf(stderr, "%s\n%s? Type yes: ", text_of(preview).c_str(), operation.c_str());
+    std::string answer;
+    if (std::getline(std::cin, answer) && answer == "yes") return {};
+  }
+  return fail(ErrorCode::not_confirmed, {{"operation", operation}});
+}
+
+using Transaction = std::function<UploadRecord(const UploadOptions&)>;
+
+/// Preview, question, then the transaction.
+Result<UploadRecord> confirmed(const std::string& operation, const Options& options, UploadOptions upload,
+                               const Transaction& transaction) {
+  if (options.dry_run || !options.yes) {
+    UploadOptions dry = upload;
+    dry.dry_run = true;
+    UploadRecord preview = transaction(dry);
+    if (!preview.result) return fail(preview.result.error());
+    if (options.dry_run) return preview;
+    ZD_CHECK(confirm(operation, preview));
+  }
+  upload.observer = [](const controller::UploadStep& step) {
+    if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r%-40s", std::string(name_of(step.state)).c_str());
+  };
+  UploadRecord record = transaction(upload);
+  if (!record.result) return fail(record.result.error());
+  return record;
+}
+
+CommandOutput output_of(const UploadRecord& record, std::vector<std::string> warnings) {
+  CommandOutput output;
+  output.json = to_json(record);
+  output.text = text_of(record);
+  output.warnings = std::move(warnings);
+  output.warnings.insert(output.warnings.end(), record.warnings.begin(), record.warnings.end());
+  return output;
+}
+
+Result<CommandOutput> push(const Options& options, const TaskContext& context) {
+  std::vector<std::string> warnings;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
+  ZD_TRY(const compensation::Table table, compensation::read_table_file(options.table, &warnings));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  const controller::TableHistory history;
+  bool kept = false;
+  UploadOptions upload;
+  upload.keep_old = [&](const UploadRecord& record) {
+    kept = true;
+    return history.push(record.serial, {to_text(record.started), record.old_sequence, record.old_words, record.crc});
+  };
+  const auto record =
+      confirmed("Writing the table into the controller", options, upload, [&](const UploadOptions& how) {
+        UploadRecord done = upload_table(*machine, table, how, context);
+        // The old table is active still: there is nothing to go back from.
+        if (kept && !done.result && done.reached != controller::UploadState::restore_failed) {
+          static_cast<void>(history.pop(done.serial));
+        }
+        return done;
+      });
+  if (!record) return fail(record.error());
+  return output_of(*record, std::move(warnings));
+}
+
+Result<CommandOutput> read_back(const Options& options, const TaskContext&) {
+  CommandOutput output;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_CHECK(machine->identify().map([](const auto&) {}));
+  ZD_TRY(const controller::ActiveTable active, controller::read_active(*machine));
+  ZD_TRY(compensation::Table table, controller::decode_table(active.words, profile));
+  table.version = active.sequence;
+  ZD_CHECK(compensation::write_table_file(options.out, table));
+  output.json = {{"version", active.sequence},
+                 {"crc32", fmt::format("{:08x}", active.crc)},
+                 {"registers", active.words.size()},
+                 {"words", active.words},
+                 {"table", compensation::to_json(table)}};
+  output.text =
+      fmt::format("version {}, {} registers, CRC {:08x}, axes:", active.sequence, active.words.size(), active.crc);
+  for (const auto& [name, axis] : table.axes) {
+    output.text += fmt::format(" {} ({} terms, {} points)", name, axis.terms.size(), axis.points.size());
+  }
+  return output;
+}
+
+Result<CommandOutput> rollback(const Options& options, const TaskContext& context) {
+  std::vector<std::string> warnings;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto identity, machine->identify());
+  const controller::TableHistory history;
+  ZD_TRY(const auto former, history.read(identity.serial));
+  if (former.empty()) {
+    return fail(
+        ErrorCode::not_enough_data,
+        {{"what", fmt::format("former tables of machine {}", identity.serial)}, {"found", "0"}, {"needed", "1"}});
+  }
+  ZD_TRY(const controller::ActiveTable active, controller::read_active(*machine));
+  const auto& last = former.back();
+  const bool interrupted = active.words == last.words;
+  if (!interrupted && controller::crc_of_words(active.words) != last.replaced_by_crc) {
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", "the active table"},
+                 {"found", fmt::format("version {}, not written from here", active.sequence)},
+                 {"expected", "the table that was pushed last"}});
+  }
+  UploadOptions upload;
+  upload.activation = controller::Activation::as_before;
+  ZD_TRY(const UploadRecord record,
+         confirmed(fmt::format("Going back to the table of {}", last.time), options, upload,
+                   [&](const UploadOptions& how) { return upload_words(*machine, last.words, how, context); }));
+  if (!record.dry_run) ZD_CHECK(history.pop(identity.serial));
+  return output_of(record, std::move(warnings));
+}
+
+}  // namespace
+
+void add_machine_table(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  const auto with_profile = [&](CLI::App* command) {
+    command->add_option("--profile", options->profile, "Connection profile")->required();
+  };
+  CLI::App* command = cli.add("push", "Write a table into the controller, as a transaction",
+                              [options](const TaskContext& context) { return push(*options, context); });
+  with_profile(command);
+  command->add_option("--table", options->table, "Table to write")->required();
+  command->add_flag("--dry-run", options->dry_run, "Check and compare only; write nothing");
+  command->add_flag("--yes", options->yes, "Do not ask");
+
+  command = cli.add("read-back", "Read the active table out of the controller",
+                    [options](const TaskContext& context) { return read_back(*options, context); });
+  with_profile(command);
+  command->add_option("--out", options->out, "Table file to write")->required();
+
+  command = cli.add("rollback", "Bring the table before the last push back",
+                    [options](const TaskContext& context) { return rollback(*options, context); });
+  with_profile(command);
+  command->add_flag("--dry-run", options->dry_run, "Check and compare only; write nothing");
+  command->add_flag("--yes", options->yes, "Do not ask");
+}
+
+}  // namespace zerodrift::cli

@@ -1,0 +1,57 @@
+// table: the controller's table from a model and axis tables.
+
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "core/compensation/model_table.h"
+#include "core/controller/table_words.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct Options {
+  std::string model;
+  std::vector<std::string> axis_tables;
+  std::string profile;
+  std::string out;
+};
+
+Result<CommandOutput> run(const Options& options, const TaskContext&) {
+  CommandOutput output;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
+  ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
+  const compensation::ModelTableOptions limits{profile.name, profile.max_um, profile.max_um_per_s};
+  ZD_TRY(compensation::Table table, compensation::table_from_model(model, limits, &output.warnings));
+  for (const auto& file : options.axis_tables) {
+    ZD_TRY(const auto axis_table, compensation::read_table_file(file, &output.warnings));
+    ZD_CHECK(compensation::add_axis_table(table, axis_table));
+  }
+  // What the controller could not take is said now, not at the upload.
+  ZD_TRY(const auto words, controller::encode_table(table, profile));
+  ZD_CHECK(compensation::write_table_file(options.out, table));
+  output.json = compensation::to_json(table);
+  for (const auto& [name, axis] : table.axes) {
+    output.text += fmt::format("axis {}: offset {:+.2f} um", name, axis.offset_um);
+    for (const auto& term : axis.terms) {
+      output.text += fmt::format(", {:+.3f} um/K x ({} - {:.2f} C)", term.um_per_K, term.sensor, term.reference_C);
+    }
+    if (!axis.points.empty()) output.text += fmt::format(", {} points", axis.points.size());
+    output.text += "\n";
+  }
+  output.text += fmt::format("{} registers", words.size());
+  return output;
+}
+
+}  // namespace
+
+void add_table(Cli& cli) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = cli.add("table", "Make the controller's table from a model and axis tables",
+                              [options](const TaskContext& context) { return run(*options, context); });
+  command->add_option("--model", options->model, "Model file of the fit")->required();
+  command->add_option("--axis-table", options->axis_tables, "Axis table to add; may be given several times");
+  command->add_option("--profile", options->profile, "Connection profile")->required();
+  command->add_option("--out", options->out, "Table file to write")->required();
+}
+
+}  // namespace zerodrift::cli

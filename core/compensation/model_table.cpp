@@ -1,0 +1,78 @@
+#include "core/compensation/model_table.h"
+
+#include <fmt/format.h>
+
+namespace zerodrift::compensation {
+namespace {
+
+/// "dZ_um" -> "Z"; empty for an error that is no direction of the nose.
+std::string axis_of(const std::string& error) {
+  for (const char* axis : {"X", "Y", "Z"}) {
+    if (error == fmt::format("d{}_um", axis)) return axis;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Table> table_from_model(const analysis::Model& model, const ModelTableOptions& options,
+                               std::vector<std::string>* warnings) {
+  const auto warn = [&](std::string text) {
+    if (warnings != nullptr) warnings->push_back(std::move(text));
+  };
+  Table table;
+  table.machine = options.machine;
+  table.version = 1;
+  for (const auto& error : model.table) {
+    const std::string name = axis_of(error.error);
+    if (name.empty()) {
+      warn(fmt::format("the error {} is no axis of the table and is left out", error.error));
+      continue;
+    }
+    AxisTable& axis = table.axes[name];
+    axis.offset_um = error.offset_um;
+    axis.max_um = options.max_um;
+    axis.max_um_per_s = options.max_um_per_s;
+    for (const auto& term : error.terms) axis.terms.push_back({term.sensor, term.um_per_K, term.reference_C, 0.0});
+  }
+  if (table.axes.empty()) {
+    return fail(ErrorCode::not_enough_data, {{"what", "the model's errors dX_um, dY_um, dZ_um with temperature terms"},
+                                             {"found", "none"},
+                                             {"needed", "1"}});
+  }
+  if (!model.is_static()) {
+    warn(fmt::format("the model is dynamic; its static approximation in the table leaves {:.0f} % more error",
+                     model.table_lost_percent));
+  }
+  const auto used = sensors_of(table);
+  for (std::size_t i = 0; i < model.domain.channels.size(); ++i) {
+    const std::string& channel = model.domain.channels[i];
+    if (std::find(used.begin(), used.end(), channel) == used.end()) continue;
+    table.valid[channel] = {model.domain.low[i], model.domain.high[i]};
+  }
+  ZD_CHECK(check(table));
+  return table;
+}
+
+Status add_axis_table(Table& table, const Table& axis_table) {
+  for (const auto& [name, axis] : axis_table.axes) {
+    const bool known = table.axes.contains(name);
+    AxisTable& into = table.axes[name];
+    if (!into.points.empty() && !axis.points.empty()) {
+      return fail(ErrorCode::bad_argument, {{"what", "the axis tables"},
+                                            {"found", "two with points for axis " + name},
+                                            {"expected", "one table for each axis"}});
+    }
+    if (!known) {
+      into = axis;
+      continue;
+    }
+    if (!axis.points.empty()) into.points = axis.points;
+    if (!axis.segments.empty()) into.segments = axis.segments;
+    into.offset_um += axis.offset_um;
+    into.max_um = std::max(into.max_um, axis.max_um);
+  }
+  return {};
+}
+
+}  // namespace zerodrift::compensation

@@ -1,0 +1,26 @@
+#pragma once
+// From a fitted model to a compensation table, and several tables into one.
+
+#include <string>
+#include <vector>
+
+#include "core/analysis/model.h"
+#include "core/base/result.h"
+#include "core/compensation/table.h"
+
+namespace zerodrift::compensation {
+
+struct ModelTableOptions {
+  std::string machine;
+  double max_um = 200.0;
+  double max_um_per_s = 2.0;
+};
+
+/// The table of the model's errors dX_um, dY_um, dZ_um (other errors are left out with a warning). A dynamic model
+/// gives its best static approximation, with a warning that says what is lost.
+Result<Table> table_from_model(const analysis::Model& model, const ModelTableOptions& options,
+                               std::vector<std::string>* warnings = nullptr);
+/// Adds the position points and segments of an axis table; bad_argument when an axis already has points.
+Status add_axis_table(Table& table, const Table& axis_table);
+
+}  // namespace zerodrift::compensation
