@@ -1,6 +1,7 @@
 #include "core/vision/error_view.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,6 +10,27 @@ namespace zerodrift::vision {
 namespace {
 
 constexpr double least_spacing_px = 120.0;  // marks closer than this cannot tell roll and scale better than none
+
+constexpr int mark_margin_px = 40;  // a fixed mark moves by the camera's own drift only
+
+/// The frame with everything beyond the mark's surroundings made even: marks of one plate look alike, and the one that
+/// is asked for stands where it stood.
+GrayImage surroundings_of(const Target& mark, const GrayImage& frame) {
+  const Region& region = mark.region();
+  const int left = std::max(0, region.x - mark_margin_px);
+  const int top = std::max(0, region.y - mark_margin_px);
+  const int right = std::min(frame.width, region.x + region.width + mark_margin_px);
+  const int bottom = std::min(frame.height, region.y + region.height + mark_margin_px);
+  GrayImage out = frame;
+  if (left >= right || top >= bottom) return out;
+  const std::uint8_t even = frame.at(left, top);
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (y < top || y >= bottom || x < left || x >= right) out.at(x, y) = even;
+    }
+  }
+  return out;
+}
 
 Location refused(Location location, std::string reason) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -58,7 +80,9 @@ Location locate_against(const Target& target, const std::vector<Target>& referen
                         std::vector<Location>* reference_locations) {
   Location at = target.locate(frame);
   std::vector<Location> found;
-  for (const Target& reference : references) found.push_back(reference.locate(frame));
+  for (const Target& reference : references) {
+    found.push_back(reference.locate(surroundings_of(reference, frame)));
+  }
   if (reference_locations != nullptr) *reference_locations = found;
   if (!at.ok || references.empty()) return at;
   for (const Location& one : found) {
