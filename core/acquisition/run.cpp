@@ -178,12 +178,13 @@ Status Run::measure() {
   publish(RunPhase::measuring);
   const std::size_t index = m_start.plan.index_at(plan_time_s(time_now_s()));
   const PlanStep& step = m_start.plan.steps[index];
-  m_next_measure_s = next_multiple(plan_time_s(time_now_s()), m_start.plan.measure_period_s);
   if (!m_paused_since_s) {
     ZD_CHECK(command(step.spindle_rpm, step.coolant_on, false));
   }
   ZD_CHECK(move_to_measuring_position());
   ZD_CHECK(measure_here());
+  // From its end: a measurement that takes longer than its period must leave the path time to run.
+  m_next_measure_s = next_multiple(plan_time_s(time_now_s()), m_start.plan.measure_period_s);
   if (step.path_cycle && !m_paused_since_s) m_commanded_step.reset();  // the path goes on
   return {};
 }

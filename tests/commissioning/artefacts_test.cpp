@@ -45,6 +45,22 @@ TEST(Artefacts, EqualResultsHaveEqualHashes) {
   EXPECT_NE(a->input_hash, e->input_hash);
 }
 
+TEST(Artefacts, ReadingsOfTheMomentDoNotCount) {
+  const TemporaryFolder folder;
+  auto job = Job::create(folder / "a.zdj");
+  ASSERT_OK(job);
+  const auto look = [&](double round_trip_ms, int serial) {
+    auto machine = NewArtefact::of("machine", {{"serial", serial}, {"round_trip_ms", round_trip_ms}});
+    machine.observed = {"round_trip_ms"};
+    return job->put(machine)->content_hash;
+  };
+  const std::string first = look(1.2, 7);
+  EXPECT_EQ(look(3.4, 7), first);
+  EXPECT_NE(look(1.2, 8), first);
+  EXPECT_TRUE(job->check()->ok());
+  EXPECT_EQ((*job->latest("machine"))->body, R"({"round_trip_ms":1.2,"serial":8})");
+}
+
 TEST(Artefacts, RedoingAdds) {
   const TemporaryFolder folder;
   auto job = Job::create(folder / "a.zdj");
@@ -66,7 +82,7 @@ TEST(Artefacts, CarryFiles) {
   auto job = Job::create(folder / "a.zdj");
   ASSERT_OK(job);
   const std::string picture("\x89PNG\0\r\n\xff", 8);
-  const auto made = job->put({"calibration", "{}", {}, {{"template.png", picture}, {"empty", ""}}});
+  const auto made = job->put({"calibration", "{}", {}, {{"template.png", picture}, {"empty", ""}}, {}});
   ASSERT_OK(made);
   EXPECT_EQ(made->blob_names, (std::vector<std::string>{"empty", "template.png"}));
   EXPECT_EQ(*job->blob(made->id, "template.png"), picture);
@@ -78,7 +94,7 @@ TEST(Artefacts, NeedInputsThatAreThere) {
   const TemporaryFolder folder;
   auto job = Job::create(folder / "a.zdj");
   ASSERT_OK(job);
-  EXPECT_EQ(code_of(job->put({"model", "{}", {17}, {}})), ErrorCode::bad_argument);
+  EXPECT_EQ(code_of(job->put({"model", "{}", {17}, {}, {}})), ErrorCode::bad_argument);
   EXPECT_TRUE(job->history("model")->empty());
 }
 
@@ -88,7 +104,7 @@ TEST(Artefacts, AreNotChangedBehindTheProgram) {
   {
     auto job = Job::create(file);
     ASSERT_OK(job);
-    ASSERT_OK(job->put({"model", R"({"a":1})", {}, {{"t.png", "picture"}}}));
+    ASSERT_OK(job->put({"model", R"({"a":1})", {}, {{"t.png", "picture"}}, {}}));
     EXPECT_TRUE(job->check()->ok());
   }
   run_sql(file,

@@ -26,7 +26,7 @@ void make_job(const std::filesystem::path& path) {
   ASSERT_OK(series);
   for (int i = 0; i < 3000; ++i) EXPECT_OK(job->append(*series, i, std::vector<double>{20.0 + i * 0.37, i * 1.7}));
   EXPECT_OK(job->flush());
-  ASSERT_OK(job->put({"model", R"({"a":1})", {}, {{"t.png", std::string(20000, 'x')}}}));
+  ASSERT_OK(job->put({"model", R"({"a":1})", {}, {{"t.png", std::string(20000, 'x')}}, {}}));
   ASSERT_OK(job->audit({}));
 }
 

@@ -35,7 +35,7 @@ TEST(Job, IsOneFileWhenClosed) {
   {
     auto job = Job::create(folder / "a.zdj");
     ASSERT_OK(job);
-    ASSERT_OK(job->put({"note", "{}", {}, {}}));
+    ASSERT_OK(job->put({"note", "{}", {}, {}, {}}));
   }
   { ASSERT_OK(Job::open(folder / "a.zdj")); }
   int files = 0;
@@ -72,24 +72,24 @@ TEST(Job, IsBusyWhileAnotherProgramHoldsTheDatabase) {
   sqlite3* other = nullptr;
   ASSERT_EQ(sqlite3_open((folder / "a.zdj").c_str(), &other), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
-  EXPECT_EQ(code_of(job->put({"note", "{}", {}, {}})), ErrorCode::job_busy);
+  EXPECT_EQ(code_of(job->put({"note", "{}", {}, {}, {}})), ErrorCode::job_busy);
   sqlite3_close(other);
-  EXPECT_OK(job->put({"note", "{}", {}, {}}));
+  EXPECT_OK(job->put({"note", "{}", {}, {}, {}}));
 }
 
 TEST(Job, IsReadBesideItsWriter) {
   const TemporaryFolder folder;
   auto writer = Job::create(folder / "a.zdj");
   ASSERT_OK(writer);
-  ASSERT_OK(writer->put({"note", R"({"n":1})", {}, {}}));
+  ASSERT_OK(writer->put({"note", R"({"n":1})", {}, {}, {}}));
   auto reader = Job::open_read_only(folder / "a.zdj");
   ASSERT_OK(reader);
-  ASSERT_OK(writer->put({"note", R"({"n":2})", {}, {}}));
+  ASSERT_OK(writer->put({"note", R"({"n":2})", {}, {}, {}}));
   const auto latest = reader->latest("note");
   ASSERT_OK(latest);
   ASSERT_TRUE(latest->has_value());
   EXPECT_EQ((*latest)->body, R"({"n":2})");
-  EXPECT_EQ(code_of(reader->put({"note", "{}", {}, {}})), ErrorCode::file_not_writable);
+  EXPECT_EQ(code_of(reader->put({"note", "{}", {}, {}, {}})), ErrorCode::file_not_writable);
   EXPECT_EQ(code_of(reader->set_header({})), ErrorCode::file_not_writable);
 }
 
@@ -98,7 +98,7 @@ TEST(Job, IsReadFromAReadOnlyFolder) {
   {
     auto job = Job::create(folder / "a %20?#.zdj");  // characters that mean something in a URI
     ASSERT_OK(job);
-    ASSERT_OK(job->put({"note", "{}", {}, {}}));
+    ASSERT_OK(job->put({"note", "{}", {}, {}, {}}));
   }
   using std::filesystem::perms;
   std::filesystem::permissions(folder.path(), perms::owner_read | perms::owner_exec);

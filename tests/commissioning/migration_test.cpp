@@ -12,7 +12,7 @@ class Migrations : public testing::Test {
   void SetUp() override {
     auto job = Job::create(file);
     ASSERT_OK(job);
-    ASSERT_OK(job->put({"model", "{}", {}, {}}));
+    ASSERT_OK(job->put({"model", "{}", {}, {}, {}}));
     const auto known = migrations();
     steps.assign(known.begin(), known.end());
     backup = file.string() + ".v" + std::to_string(steps.size()) + ".bak";
@@ -28,6 +28,24 @@ TEST_F(Migrations, NothingToDo) {
   ASSERT_OK(database);
   EXPECT_OK(migrate(**database, steps));
   EXPECT_FALSE(std::filesystem::exists(backup));
+}
+
+TEST_F(Migrations, FromTheFirstVersion) {
+  const auto old_file = folder / "old.zdj";
+  {
+    const auto database = Database::open(old_file, OpenMode::create);
+    ASSERT_OK(database);
+    ASSERT_OK(migrate(**database, std::span(steps).first(1)));
+    ASSERT_OK(
+        (*database)->execute("INSERT INTO artefact (kind, body, content_hash, input_hash, made_by, engineer, "
+                             "created_utc) VALUES ('model', '{}', 'c', 'i', 'zerodrift 0', 'Ann', 'then')"));
+  }
+  EXPECT_EQ(code_of(Job::open_read_only(old_file)), ErrorCode::file_not_writable);
+  const auto job = Job::open(old_file);
+  ASSERT_OK(job);
+  EXPECT_EQ((*job->latest("model"))->engineer, "Ann");
+  EXPECT_TRUE(std::filesystem::exists(old_file.string() + ".v1.bak"));
+  EXPECT_OK(Job::open_read_only(old_file));
 }
 
 TEST_F(Migrations, KeepACopyAndTheData) {

@@ -1,0 +1,328 @@
+#include "core/acquisition/recorder.h"
+
+#include <gtest/gtest.h>
+
+#include "fake_machine.h"
+#include "memory_sink.h"
+
+namespace zerodrift::acquisition {
+namespace {
+
+class RecorderTest : public testing::Test {
+ protected:
+  RecorderTest() {
+    plan.name = "test";
+    plan.sample_period_s = 10.0;
+    plan.measure_period_s = 60.0;
+    plan.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
+    plan.steps = {{1200.0, 3000.0, true, true}, {600.0, 1000.0, false, false}};
+  }
+
+  Result<RunSummary> run() {
+    Recorder recorder(machine, errors, clock, sink, options);
+    control = &recorder.control();
+    auto result = recorder.run(plan, {});
+    control = nullptr;
+    return result;
+  }
+  /// Calls once when the run has come to this time.
+  void at(double time_s, std::function<void()> act) {
+    options.observer = [time_s, act, done = false, before = options.observer](const RunUpdate& update) mutable {
+      if (before) before(update);
+      if (!done && update.time_s >= time_s) {
+        done = true;
+        act();
+      }
+    };
+  }
+
+  void expect_safe() const {
+    ASSERT_FALSE(machine.commands.empty());
+    EXPECT_EQ(machine.commands.back().spindle_rpm, 0.0);
+    EXPECT_FALSE(machine.commands.back().coolant_on);
+    EXPECT_FALSE(machine.commands.back().path_cycle);
+  }
+
+  ManualClock clock;
+  FakeMachine machine{clock};
+  FakeErrors errors{clock};
+  MemorySink sink;
+  Plan plan;
+  RecorderOptions options;
+  RunControl* control = nullptr;
+};
+
+TEST_F(RecorderTest, WorksThroughThePlan) {
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(summary->end, RunEnd::finished);
+  EXPECT_EQ(sink.ended, RunEnd::finished);
+  EXPECT_EQ(sink.committed, sink.times.size());
+  // Begins at rest, at zero; then the first step; the second; and in the end the machine stands.
+  EXPECT_EQ(sink.value(0, "spindle_rpm"), 0.0);
+  EXPECT_NEAR(sink.value(0, "dZ_um"), 0.0, 0.1);
+  EXPECT_EQ(sink.value(5, "spindle_rpm"), 3000.0);
+  EXPECT_EQ(sink.value(5, "coolant_on"), 1.0);
+  EXPECT_EQ(sink.value(sink.rows.size() - 2, "spindle_rpm"), 1000.0);
+  expect_safe();
+  // A row every 10 s, except those that measuring (5 s) has taken along; a measurement every 60 s and one at the end.
+  EXPECT_NEAR(double(sink.rows.size()), 181.0, 4.0);
+  EXPECT_EQ(summary->measurements, 31);
+  EXPECT_EQ(summary->lost_samples, 0);
+  EXPECT_NEAR(sink.times.back(), 1800.0, 5.0);
+  for (std::size_t i = 1; i < sink.times.size(); ++i) ASSERT_LE(sink.times[i] - sink.times[i - 1], 14.0) << i;
+  EXPECT_EQ(sink.count("step"), 2);
+  EXPECT_EQ(sink.count("problem"), 0);
+  EXPECT_GT(summary->trend.largest_error_um, 10.0);
+}
+
+TEST_F(RecorderTest, HasTheContractsChannels) {
+  options.with_compensation = true;
+  ASSERT_TRUE(run());
+  const std::vector<std::string> expected = {
+      "spindle_rpm",  "feed_X_mm_min", "feed_Y_mm_min", "feed_Z_mm_min", "coolant_on", "spindle_load_W",
+      "ambient_C",    "T1_C",          "T2_C",          "T3_C",          "T4_C",       "dX_um",
+      "dY_um",        "dZ_um",         "sigma_X_nm",    "sigma_Y_nm",    "sigma_Z_nm", "compensation_on",
+      "applied_X_nm", "applied_Y_nm",  "applied_Z_nm"};
+  EXPECT_EQ(sink.start.channels, expected);
+  EXPECT_TRUE(std::isnan(sink.value(1, "dZ_um")));
+  EXPECT_EQ(sink.value(0, "sigma_Z_nm"), 300.0);
+}
+
+TEST_F(RecorderTest, MeasuresAtRestAtItsPositionWithTheSpindleTurning) {
+  bool turning_and_still = true;
+  errors.failure = [&](double time_s) {
+    if (time_s > 30.0 && time_s < 1100.0) turning_and_still &= machine.rpm == 3000.0 && !machine.cycle;
+    return false;
+  };
+  ASSERT_TRUE(run());
+  EXPECT_TRUE(turning_and_still);
+  EXPECT_GE(machine.moves, 31);
+}
+
+TEST_F(RecorderTest, DoesNotStartOnACompensatedMachine) {
+  machine.change = [](MachineSample& sample) { sample.compensation_on = true; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::interlock_compensation_on);
+  EXPECT_TRUE(machine.commands.empty()) << "nothing moves";
+  EXPECT_TRUE(sink.rows.empty());
+}
+
+TEST_F(RecorderTest, StopsWhenCompensationIsSwitchedOn) {
+  machine.change = [&](MachineSample& sample) { sample.compensation_on = machine.now_s() > 300.0; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::interlock_compensation_on);
+  EXPECT_LT(sink.times.back(), 310.0);
+  EXPECT_FALSE(sink.ended) << "left open, to be resumed";
+  EXPECT_EQ(sink.count("problem", "interlock_compensation_on"), 1);
+  EXPECT_EQ(sink.committed, sink.times.size());
+  expect_safe();
+}
+
+TEST_F(RecorderTest, VerificationNeedsTheSwitchOn) {
+  options.guard = compensation_must_be_on("verification");
+  EXPECT_EQ(run().error().code, ErrorCode::interlock_compensation_off);
+}
+
+TEST_F(RecorderTest, WaitsForAPulledCable) {
+  machine.cable_is_out = [](double time_s) { return time_s > 305.0 && time_s < 500.0; };
+  std::vector<RunPhase> phases;
+  options.observer = [&](const RunUpdate& update) { phases.push_back(update.phase); };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(summary->gaps, 1);
+  EXPECT_GE(summary->lost_samples, 17);
+  EXPECT_LE(summary->lost_samples, 20);
+  EXPECT_EQ(sink.count("problem", "machine_link_lost"), 1);
+  EXPECT_EQ(sink.count("cleared", "link"), 1);
+  EXPECT_EQ(sink.count("gap", "link"), 1);
+  EXPECT_NE(std::find(phases.begin(), phases.end(), RunPhase::link_lost), phases.end());
+  EXPECT_NEAR(sink.times.back(), 1800.0, 5.0);
+  // The machine was told again what to do.
+  EXPECT_EQ(sink.value(80, "spindle_rpm"), 3000.0);
+}
+
+TEST_F(RecorderTest, GivesUpACableThatStaysOut) {
+  machine.cable_is_out = [](double time_s) { return time_s > 305.0; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::machine_link_lost);
+  EXPECT_EQ(summary.error().context.at("machine_stopped"), "no");
+  EXPECT_FALSE(sink.ended);
+  EXPECT_EQ(sink.committed, sink.times.size());
+}
+
+TEST_F(RecorderTest, NoticesThatTheMachineWasRestarted) {
+  machine.cable_is_out = [&](double time_s) {
+    if (time_s > 400.0) machine.clock_zero_s = 350.0;
+    return time_s > 305.0 && time_s < 500.0;
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(sink.count("clock", "restarted"), 1);
+  for (std::size_t i = 1; i < sink.times.size(); ++i) ASSERT_GT(sink.times[i], sink.times[i - 1]);
+  // While it was off the plan stood still: 1800 s and the gap.
+  EXPECT_NEAR(sink.times.back(), 2000.0, 20.0);
+}
+
+TEST_F(RecorderTest, PausesAndResumes) {
+  at(300.0, [&] { control->pause(); });
+  at(700.0, [&] {
+    EXPECT_EQ(machine.rpm, 0.0);
+    control->resume();
+  });
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(sink.count("pause"), 1);
+  EXPECT_EQ(sink.count("resume"), 1);
+  EXPECT_NEAR(sink.times.back(), 2200.0, 15.0) << "the plan stood still";
+  EXPECT_NEAR(double(sink.rows.size()), 220.0, 8.0) << "temperatures were recorded on";
+  EXPECT_EQ(summary->measurements, 31);
+}
+
+TEST_F(RecorderTest, FinishesEarlyWithALastMeasurement) {
+  at(300.0, [&] { control->finish(); });
+  const auto summary = run();
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->end, RunEnd::finished);
+  EXPECT_NEAR(sink.times.back(), 310.0, 15.0);
+  EXPECT_FALSE(std::isnan(sink.value(sink.rows.size() - 1, "dZ_um")));
+  expect_safe();
+}
+
+TEST_F(RecorderTest, Aborts) {
+  at(300.0, [&] { control->abort(); });
+  const auto summary = run();
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->end, RunEnd::aborted);
+  EXPECT_EQ(sink.ended, RunEnd::aborted);
+  expect_safe();
+}
+
+TEST_F(RecorderTest, StopsWithTheProgramAndStaysOpen) {
+  std::stop_source stop;
+  at(300.0, [&] { stop.request_stop(); });
+  Recorder recorder(machine, errors, clock, sink, options);
+  const auto summary = recorder.run(plan, {stop.get_token(), {}});
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::cancelled);
+  EXPECT_FALSE(sink.ended);
+  expect_safe();
+}
+
+TEST_F(RecorderTest, KeepsNotes) {
+  at(300.0, [&] { control->note("door opened"); });
+  ASSERT_TRUE(run());
+  EXPECT_EQ(sink.count("note", "door opened"), 1);
+}
+
+TEST_F(RecorderTest, ShowsACameraThatFailsAndGoesOn) {
+  errors.failure = [](double time_s) { return time_s > 300.0 && time_s < 500.0; };
+  std::size_t most = 0;
+  options.observer = [&](const RunUpdate& update) { most = std::max(most, update.problems.size()); };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(most, 1u);
+  EXPECT_EQ(sink.count("problem", "camera_silent"), 1);
+  EXPECT_EQ(sink.count("cleared", "errors"), 1);
+  EXPECT_LT(summary->measurements, 31);
+  EXPECT_EQ(summary->lost_samples, 0);
+}
+
+TEST_F(RecorderTest, GivesUpACameraThatStaysDead) {
+  errors.failure = [](double time_s) { return time_s > 300.0; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::camera_silent);
+  EXPECT_FALSE(sink.ended);
+}
+
+TEST_F(RecorderTest, DoesNotBeginWithoutAMeasurement) {
+  errors.failure = [](double) { return true; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::camera_silent);
+  EXPECT_LE(sink.rows.size(), 1u);
+}
+
+TEST_F(RecorderTest, CountsRefusedFrames) {
+  errors.refuse = true;
+  const auto summary = run();
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->refused, summary->measurements);
+  EXPECT_EQ(sink.count("problem", "target_refused"), 1);
+  EXPECT_TRUE(std::isnan(sink.value(0, "dY_um")));
+  EXPECT_FALSE(std::isnan(sink.value(0, "dZ_um")));
+}
+
+TEST_F(RecorderTest, NamesDeadAndStuckSensors) {
+  machine.change = [&](MachineSample& sample) {
+    if (machine.now_s() > 200.0) sample.temperature_C[1] = std::nan("");
+    if (machine.now_s() > 300.0) sample.temperature_C[2] = 21.0;
+  };
+  ASSERT_TRUE(run());
+  EXPECT_EQ(sink.count("problem", "sensor_dead"), 1);
+  EXPECT_EQ(sink.count("problem", "sensor_stuck"), 1);
+  EXPECT_TRUE(std::isnan(sink.value(sink.rows.size() - 1, "T2_C")));
+}
+
+TEST_F(RecorderTest, KeepsRowsWhileTheDiskIsFull) {
+  at(300.0, [&] { sink.full = true; });
+  at(600.0, [&] { sink.full = false; });
+  bool shown = false;
+  options.observer = [&, before = options.observer](const RunUpdate& update) {
+    before(update);
+    for (const Error& error : update.problems) shown |= error.code == ErrorCode::disk_full;
+  };
+  ASSERT_TRUE(run());
+  EXPECT_TRUE(shown);
+  EXPECT_EQ(sink.committed, sink.times.size());
+}
+
+TEST_F(RecorderTest, SurvivesAClockThatStandsStill) {
+  machine.change = [&](MachineSample& sample) {
+    const double now = machine.now_s();
+    if (now > 300.0 && now < 500.0) sample.machine_time_s = 1300.0;
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(sink.count("problem", "machine_bad_reply"), 1);
+  for (std::size_t i = 1; i < sink.times.size(); ++i) ASSERT_GT(sink.times[i], sink.times[i - 1]);
+}
+
+TEST_F(RecorderTest, StopsOnAnAlarm) {
+  machine.change = [&](MachineSample& sample) { sample.alarm = machine.now_s() > 300.0; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::machine_not_ready);
+  expect_safe();
+}
+
+TEST_F(RecorderTest, GivesEachReadingToTheCompensator) {
+  int readings = 0;
+  options.each_sample = [&](const MachineSample&) -> Status {
+    ++readings;
+    return {};
+  };
+  ASSERT_TRUE(run());
+  EXPECT_EQ(readings, machine.reads);
+}
+
+TEST_F(RecorderTest, TellsProgress) {
+  double fraction = 0.0;
+  double left = 1e9;
+  options.observer = [&](const RunUpdate& update) {
+    if (update.phase == RunPhase::starting) return;
+    EXPECT_GE(update.fraction, fraction);
+    EXPECT_LE(update.seconds_left, left);
+    fraction = update.fraction;
+    left = update.seconds_left;
+  };
+  ASSERT_TRUE(run());
+  EXPECT_NEAR(fraction, 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace zerodrift::acquisition
