@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "app/machine/faults.h"
 #include "app/machine/register_bank.h"
 #include "core/base/hash.h"
 
@@ -342,6 +343,26 @@ TEST_F(ControllerTest, RepeatsItselfExactly) {
     return seen;
   };
   EXPECT_EQ(history(), history());
+}
+
+TEST(Faults, ComeNowAndThenOrAlways) {
+  const auto named = [](const std::string& text) { return std::vector<Fault>{*parse_fault(text)}; };
+  EXPECT_FALSE(parse_fault("busy:"));
+  EXPECT_FALSE(parse_fault(""));
+  ReplyFaults rare(named("drop"));
+  int dropped = 0;
+  for (int i = 0; i < 250; ++i) dropped += rare.next().kind == controller::ReplyFault::Kind::drop ? 1 : 0;
+  EXPECT_EQ(dropped, 10);
+  ReplyFaults steady(named("late:always"));
+  EXPECT_EQ(steady.next().kind, controller::ReplyFault::Kind::late);
+  EXPECT_GT(steady.next().delay.count(), 1000);
+  EXPECT_EQ(sensor_fault(named("stuck-sensor")).kind, SensorFault::Kind::stuck);
+  EXPECT_EQ(sensor_fault(named("busy")).kind, SensorFault::Kind::none);
+  const CameraFault spell = camera_fault(named("camera-occluded"), 4000.0);
+  EXPECT_EQ(spell.kind, CameraFault::Kind::occluded);
+  EXPECT_EQ(spell.from_machine_s, 5100.0);
+  EXPECT_EQ(spell.until_machine_s, 5400.0);
+  EXPECT_EQ(camera_fault(named("camera-freeze:always"), 4000.0).from_machine_s, 0.0);
 }
 
 TEST(Motion, GeometricErrorIsZeroAtTheMeasuringPosition) {
