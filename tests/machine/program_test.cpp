@@ -74,7 +74,7 @@ class Running {
   std::string err() const { return *read_file(m_err); }
   int modbus_port() const {
     const std::regex ready(R"(ready modbus=(\d+) camera=http://127\.0\.0\.1:\d+/\n)");
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 600; ++i) {
       std::smatch match;
       const std::string text = fs::exists(m_out) ? out() : "";
       if (std::regex_match(text, match, ready)) return std::stoi(match[1]);
