@@ -6,7 +6,9 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
+#include "ui/widgets/legend_row.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 
@@ -47,6 +49,8 @@ Card* AxisPage::makePlotCard() {
   m_views = new QStackedWidget(m_plotCard);
   m_views->addWidget(m_measurement);
   m_views->addWidget(m_segmentPlot);
+  m_legend = new LegendRow(m_plotCard);
+  m_plotCard->body()->addWidget(m_legend);
   m_plotCard->body()->addWidget(m_views, 1);
   connect(m_axis, &ToggleSegment::currentChanged, this, &AxisPage::axisChosen);
   connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
@@ -82,9 +86,8 @@ Card* AxisPage::makeRuleCard() {
     m_names.append(name);
   }
   grid->setColumnStretch(1, 1);
-  m_check = new QLabel(m_ruleCard);
+  m_check = new WrapLabel(m_ruleCard);
   m_check->setProperty("role", "caption");
-  m_check->setWordWrap(true);
   m_ruleCard->body()->addLayout(grid);
   m_ruleCard->body()->addWidget(m_check);
   const auto changed = [this] {
@@ -215,6 +218,17 @@ void AxisPage::render() {
                                             : tr("Lost in this format: %1").arg(m_state.formatLoss));
   m_check->setText(check.join(' '));
   m_filling = false;
+  const bool cut = m_views->currentIndex() == 1;
+  if (cut) {
+    m_legend->setItems({{tr("mean, upwards"), colors().muted, false, false, true},
+                        {tr("segments used"), colors().accent},
+                        {tr("the other rule"), mix(colors().panel, colors().warn, 0.7), true}});
+  } else {
+    m_legend->setItems({{tr("mean upwards"), axisColor(2)},
+                        {tr("mean downwards"), axisColor(0)},
+                        {tr("± 2 s"), colors().muted, false, true},
+                        {tr("single runs"), colors().muted, false, false, true}});
+  }
   renderMeasurement();
   renderSegments();
   renderTables();

@@ -16,6 +16,7 @@ namespace zerodrift::ui {
 
 class Card;
 class DataTable;
+class LegendRow;
 class ToggleSegment;
 class XyPlot;
 
@@ -117,6 +118,7 @@ class AxisPage : public Page {
   ToggleSegment* m_axis;
   ToggleSegment* m_view;
   QStackedWidget* m_views;
+  LegendRow* m_legend;
   XyPlot* m_measurement;
   XyPlot* m_segmentPlot;
   ToggleSegment* m_standard;

@@ -8,6 +8,7 @@
 #include "ui/widgets/level_bar.h"
 #include "ui/widgets/progress_strip.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -92,9 +93,8 @@ Card* CalibratePage::makePlanCard() {
   m_plots = new QStackedWidget(m_planCard);
   m_plots->addWidget(m_plan);
   m_plots->addWidget(m_residuals);
-  m_planNote = new QLabel(m_planCard);
+  m_planNote = new WrapLabel(m_planCard);
   m_planNote->setProperty("role", "caption");
-  m_planNote->setWordWrap(true);
   m_planNote->setContentsMargins(10, 0, 10, 0);
   m_planCard->body()->addWidget(m_plots, 1);
   m_planCard->body()->addWidget(m_planNote);

@@ -1,13 +1,13 @@
 #include "ui/pages/explanation_card.h"
 
 #include "ui/widgets/sparkline.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
 
 QLabel* wrapped(QWidget* parent, const char* role) {
-  auto* label = new QLabel(parent);
-  label->setWordWrap(true);
+  auto* label = new WrapLabel(parent);
   if (role != nullptr) label->setProperty("role", role);
   return label;
 }

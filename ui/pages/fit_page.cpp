@@ -6,7 +6,9 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
+#include "ui/widgets/legend_row.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -43,6 +45,8 @@ FitPage::FitPage(QWidget* parent) : Page("fit", parent) {
   m_views = new QStackedWidget(m_plotCard);
   m_views->addWidget(m_prediction);
   m_views->addWidget(residuals);
+  m_legend = new LegendRow(m_plotCard);
+  m_plotCard->body()->addWidget(m_legend);
   m_plotCard->body()->addWidget(m_views, 1);
 
   m_methodCard = new Card(this);
@@ -50,12 +54,10 @@ FitPage::FitPage(QWidget* parent) : Page("fit", parent) {
   m_methods = new DataTable(m_methodCard);
   m_methodCard->body()->addWidget(m_methods, 1);
   m_wordCard = new Card(this);
-  m_headline = new QLabel(m_wordCard);
+  m_headline = new WrapLabel(m_wordCard);
   m_headline->setProperty("role", "strong");
-  m_headline->setWordWrap(true);
-  m_advice = new QLabel(m_wordCard);
+  m_advice = new WrapLabel(m_wordCard);
   m_advice->setProperty("role", "muted");
-  m_advice->setWordWrap(true);
   m_wordCard->body()->addWidget(m_headline);
   m_wordCard->body()->addWidget(m_advice);
 
@@ -156,6 +158,8 @@ void FitPage::render() {
 
 void FitPage::renderPrediction(const FitSeries& series) {
   const Colors& c = colors();
+  m_legend->setItems(
+      {{tr("measured"), c.text}, {tr("predicted"), c.accent}, {tr("prediction band"), c.accent, false, true}});
   m_prediction->setSpans(spans());
   m_prediction->setBand("0band", series.time_s, series.low_um, series.high_um, c.accent);
   PartStyle measured = curve(tr("Measured"), c.text, 1.2);
@@ -171,6 +175,7 @@ void FitPage::renderResiduals(const FitSeries& series) {
   for (int i = 0; i < series.measured_um.size() && i < series.predicted_um.size(); ++i) {
     residuals.append(series.measured_um[i] - series.predicted_um[i]);
   }
+  m_legend->setItems({{tr("measured - predicted"), c.accent}});
   m_overTime->setSpans(spans());
   m_overTime->setAxisLabels(tr("time"), {});
   m_overTime->setPart("residual", series.time_s, residuals, curve(tr("Residual"), c.accent, 1.2));

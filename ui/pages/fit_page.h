@@ -14,6 +14,7 @@ namespace zerodrift::ui {
 
 class Card;
 class DataTable;
+class LegendRow;
 class ToggleSegment;
 class XyPlot;
 
@@ -101,6 +102,7 @@ class FitPage : public Page {
   ToggleSegment* m_direction;
   ToggleSegment* m_view;
   QStackedWidget* m_views;
+  LegendRow* m_legend;
   XyPlot* m_prediction;
   XyPlot* m_overTime;
   XyPlot* m_overTemperature;

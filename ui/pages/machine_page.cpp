@@ -7,6 +7,7 @@
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/machine_drawing.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -14,6 +15,34 @@ namespace {
 QString htmlColor(const QColor& color) {
   return color.name();
 }
+
+/// A job in the list: its name, below it how far it is.
+class TwoLines : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    const Colors& c = colors();
+    painter->save();
+    painter->setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
+    const bool over = option.state & (QStyle::State_MouseOver | QStyle::State_Selected);
+    if (over) {
+      painter->setPen(Qt::NoPen);
+      painter->setBrush(c.soft(c.accent));
+      painter->drawRoundedRect(option.rect, 4, 4);
+    }
+    drawIcon(*painter, QRectF(option.rect.x() + 8, option.rect.center().y() - 11, 22, 22), Icon::file, c.muted);
+    const QRect inside = option.rect.adjusted(42, 4, -8, -4);
+    const QString text = index.data().toString();
+    painter->setFont(uiFont(13, QFont::DemiBold));
+    painter->setPen(c.text);
+    painter->drawText(inside, Qt::AlignTop, text.section('\n', 0, 0));
+    painter->setFont(uiFont(12));
+    painter->setPen(c.muted);
+    painter->drawText(inside, Qt::AlignBottom, text.section('\n', 1));
+    painter->restore();
+  }
+};
 
 /// The number in a channel's tag, which fits a disc: "T12" -> "12".
 QString shortTag(const QString& tag) {
@@ -46,9 +75,8 @@ QWidget* MachinePage::makeStart() {
     button->setProperty("big", true);
     button->setIconSize({20, 20});
     button->setStyleSheet("text-align: left");
-    auto* note = new QLabel(m_startCard);
+    auto* note = new WrapLabel(m_startCard);
     note->setProperty("role", "muted");
-    note->setWordWrap(true);
     m_startCard->body()->addWidget(button);
     m_startCard->body()->addWidget(note);
     m_startCard->body()->addSpacing(8);
@@ -65,9 +93,8 @@ QWidget* MachinePage::makeStart() {
   m_recent = new QListWidget(m_recentCard);
   m_recent->setObjectName("recentJobs");
   m_recent->setSpacing(1);
-  m_noRecent = new QLabel(m_recentCard);
+  m_noRecent = new WrapLabel(m_recentCard);
   m_noRecent->setProperty("role", "muted");
-  m_noRecent->setWordWrap(true);
   m_recentCard->body()->addWidget(m_noRecent);
   m_recentCard->body()->addWidget(m_recent, 1);
   m_recentCard->body()->addStretch();
@@ -76,11 +103,24 @@ QWidget* MachinePage::makeStart() {
   connect(m_recent, &QListWidget::itemClicked, this,
           [this](QListWidgetItem* item) { Q_EMIT openJobRequested(item->data(Qt::UserRole).toString()); });
 
+  m_recent->setItemDelegate(new TwoLines(m_recent));
+
+  m_wayCard = new Card(view);
+  for (int i = 0; i < 9; ++i) {
+    auto* line = new QLabel(m_wayCard);
+    line->setTextFormat(Qt::RichText);
+    m_wayCard->body()->addWidget(line);
+    m_way.append(line);
+  }
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(m_recentCard, 1);
+  right->addWidget(m_wayCard);
   auto* all = new QHBoxLayout(view);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(16);
   all->addWidget(m_startCard, 2);
-  all->addWidget(m_recentCard, 3);
+  all->addLayout(right, 3);
   return view;
 }
 
@@ -89,7 +129,8 @@ QWidget* MachinePage::makeMachine() {
   m_drawingCard = new Card(view);
   m_profile = new QComboBox(m_drawingCard);
   m_profile->setObjectName("profile");
-  m_profile->setMinimumWidth(190);
+  m_profile->setMinimumWidth(150);
+  m_profile->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   m_view = new ToggleSegment(m_drawingCard);
   m_drawingCard->tools()->addWidget(m_profile);
   m_drawingCard->tools()->addWidget(m_view);
@@ -104,16 +145,15 @@ QWidget* MachinePage::makeMachine() {
   m_drawingViews = new QStackedWidget(m_drawingCard);
   m_drawingViews->addWidget(m_drawing);
   m_drawingViews->addWidget(m_registers);
-  m_parts = new QLabel(m_drawingCard);
+  m_parts = new WrapLabel(m_drawingCard);
   m_parts->setObjectName("partHealth");
   m_parts->setTextFormat(Qt::RichText);
-  m_parts->setWordWrap(true);
   m_drawingCard->body()->addWidget(m_drawingViews, 1);
   m_drawingCard->body()->addWidget(m_parts);
 
   m_sensorCard = new Card(view);
   m_sensorCard->setBodyMargins(1, 0, 1, 6);
-  m_sensorCard->setFixedWidth(392);
+  m_sensorCard->setFixedWidth(416);
   m_table = new ChannelTable(m_sensorCard);
   m_table->setColumnWidths(70, 130);
   m_sensorCard->body()->addWidget(m_table);
@@ -231,6 +271,23 @@ void MachinePage::renderStart() {
   }
   m_startButtons[2]->setVisible(m_state.sampleAvailable);
   m_startNotes[2]->setVisible(m_state.sampleAvailable);
+  m_wayCard->setTitle(tr("The way through"));
+  const QStringList way = {
+      tr("Machine") + '|' + tr("connect, see that all sensors live and the machine is cold"),
+      tr("Calibrate") + '|' + tr("teach the camera what a micrometre is"),
+      tr("Warm-up") + '|' + tr("record temperatures and errors while the machine warms"),
+      tr("Sensors") + '|' + tr("keep the few that carry the error"),
+      tr("Fit") + '|' + tr("make the model and judge it on what it has not seen"),
+      tr("Physics") + '|' + tr("find what the simulation lacks"),
+      tr("Upload") + '|' + tr("write the table as one transaction, old one saved"),
+      tr("Verify") + '|' + tr("prove on the machine that the error is gone"),
+      tr("Report") + '|' + tr("hand it over, every figure traceable"),
+  };
+  for (int i = 0; i < way.size(); ++i) {
+    m_way[i]->setText(QStringLiteral("<b>%1&nbsp; %2</b> &nbsp;<span style='color:%3'>%4</span>")
+                          .arg(i + 1)
+                          .arg(way[i].section('|', 0, 0), htmlColor(colors().muted), way[i].section('|', 1)));
+  }
   m_noRecent->setText(tr("No jobs yet. Jobs that you make or open are listed here."));
   m_noRecent->setVisible(m_state.recent.isEmpty());
   m_recent->setVisible(!m_state.recent.isEmpty());
@@ -239,7 +296,7 @@ void MachinePage::renderStart() {
     auto* item = new QListWidgetItem(job.name + '\n' + job.detail, m_recent);
     item->setData(Qt::UserRole, job.path);
     item->setToolTip(job.path);
-    item->setSizeHint({100, 48});
+    item->setSizeHint({100, 46});
   }
 }
 

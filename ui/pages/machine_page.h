@@ -126,6 +126,8 @@ class MachinePage : public Page {
   QVector<QLabel*> m_startNotes;
   QListWidget* m_recent;
   QLabel* m_noRecent;
+  Card* m_wayCard;
+  QVector<QLabel*> m_way;
   Card* m_drawingCard;
   Card* m_sensorCard;
   MachineDrawing* m_drawing;

@@ -8,7 +8,9 @@
 #include "ui/widgets/channel_table.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
+#include "ui/widgets/legend_row.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 
@@ -39,19 +41,20 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   m_channelPlot = new LivePlot(compare);
   m_residualPlot = new LivePlot(compare);
   m_channelPlot->linkTime(m_residualPlot);
+  m_channelLegend = new LegendRow(compare);
+  plots->addWidget(m_channelLegend);
   plots->addWidget(m_channelPlot, 3);
   plots->addWidget(m_residualPlot, 2);
   m_channelTable = new ChannelTable(compare);
-  m_channelTable->setFixedWidth(230);
-  m_channelTable->setColumnWidths(76, 64);
+  m_channelTable->setFixedWidth(246);
+  m_channelTable->setColumnWidths(70, 66);
   compareLayout->addLayout(plots, 1);
   compareLayout->addWidget(m_channelTable);
   connect(m_channelTable, &ChannelTable::selected, this, [this] { renderChannel(); });
 
   auto* trial = new QWidget(m_mapCard);
   auto* trialLayout = new QVBoxLayout(trial);
-  m_trialWords = new QLabel(trial);
-  m_trialWords->setWordWrap(true);
+  m_trialWords = new WrapLabel(trial);
   m_trials = new DataTable(trial);
   trialLayout->addWidget(m_trialWords);
   trialLayout->addWidget(m_trials, 1);
@@ -63,10 +66,10 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   m_sideCard = new Card(this);
   m_sideCard->setFixedWidth(372);
   m_sideCard->setBodyMargins(12, 0, 4, 8);
-  m_verdict = new QLabel(m_sideCard);
-  m_verdict->setWordWrap(true);
+  m_verdict = new WrapLabel(m_sideCard);
   m_scroll = new QScrollArea(m_sideCard);
   m_scroll->setWidgetResizable(true);
+  m_scroll->setProperty("role", "plain");
   m_scroll->setFrameShape(QFrame::NoFrame);
   m_scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* list = new QWidget;
@@ -80,8 +83,7 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   m_sideCard->body()->addWidget(m_scroll, 1);
   m_experiment = new Card(this);
   m_experiment->setFixedWidth(372);
-  m_experimentText = new QLabel(m_experiment);
-  m_experimentText->setWordWrap(true);
+  m_experimentText = new WrapLabel(m_experiment);
   m_experimentButton = new QPushButton(m_experiment);
   m_experimentButton->setObjectName("experiment");
   m_experiment->body()->addWidget(m_experimentText);
@@ -222,7 +224,14 @@ void PhysicsPage::renderChannels() {
   }
   m_channelTable->setHeaders(tr("Channel"), tr("rms"), tr("State"));
   m_channelTable->setRows(rows);
-  if (m_channelTable->selectedId().isEmpty() && !rows.isEmpty()) m_channelTable->select(rows.first().id);
+  if (m_channelTable->selectedId().isEmpty() && !rows.isEmpty()) {
+    // The channel that disagrees most is the one to look at first.
+    const auto worst = std::max_element(m_state.channels.begin(), m_state.channels.end(),
+                                        [](const SimulatedChannel& a, const SimulatedChannel& b) {
+                                          return a.rmse / std::max(a.noise, 1e-9) < b.rmse / std::max(b.noise, 1e-9);
+                                        });
+    m_channelTable->select(worst->id);
+  }
   renderChannel();
 }
 
@@ -248,6 +257,8 @@ void PhysicsPage::renderChannel() {
   m_channelPlot->setData("recorded", found->time_s, found->recorded);
   m_channelPlot->setData("simulated", found->time_s, found->simulated);
   m_channelPlot->setData("refined", found->time_s, found->refined);
+  m_channelLegend->setItems(
+      {{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}, {tr("with adopted effects"), c.ok}});
   const auto difference = [&](const QVector<double>& model) {
     QVector<double> d;
     for (int i = 0; i < model.size() && i < found->recorded.size(); ++i) d.append(found->recorded[i] - model[i]);

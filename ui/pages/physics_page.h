@@ -21,6 +21,7 @@ class Card;
 class ChannelTable;
 class DataTable;
 class ExplanationCard;
+class LegendRow;
 class LivePlot;
 class ToggleSegment;
 
@@ -132,6 +133,7 @@ class PhysicsPage : public Page {
   HeatMap* m_map;
   LivePlot* m_channelPlot;
   LivePlot* m_residualPlot;
+  LegendRow* m_channelLegend;
   ChannelTable* m_channelTable;
   DataTable* m_trials;
   QLabel* m_trialWords;

@@ -78,6 +78,7 @@ Card* ReportPage::makeSectionCard() {
   m_doubtful->setObjectName("doubtful");
   m_doubtful->setWordWrap(true);
   m_doubtful->setIconSize({16, 16});
+  m_doubtful->setSpacing(3);
   m_sections = new QListWidget(m_sectionCard);
   m_sections->setObjectName("sections");
   m_signature = new SignaturePad(m_sectionCard);
@@ -207,6 +208,7 @@ void ReportPage::renderPreview() {
         QPixmap::fromImage(m_state.pages[i].scaledToWidth(static_cast<int>(width * ratio), Qt::SmoothTransformation));
     picture.setDevicePixelRatio(ratio);
     m_sheets[i]->setPixmap(picture);
+    m_sheets[i]->setMinimumHeight(static_cast<int>(picture.height() / ratio));
     m_sheets[i]->setAccessibleName(tr("Page %1").arg(i + 1));
   }
 }

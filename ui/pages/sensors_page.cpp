@@ -8,6 +8,7 @@
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -50,9 +51,8 @@ SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
        {static_cast<QWidget*>(m_clusterPlot), m_seriesPanel, matrixPanel, static_cast<QWidget*>(m_budget)}) {
     m_views->addWidget(view);
   }
-  m_plotNote = new QLabel(m_plotCard);
+  m_plotNote = new WrapLabel(m_plotCard);
   m_plotNote->setProperty("role", "caption");
-  m_plotNote->setWordWrap(true);
   m_plotNote->setContentsMargins(10, 0, 10, 0);
   m_plotCard->body()->addWidget(m_views, 1);
   m_plotCard->body()->addWidget(m_plotNote);
@@ -72,7 +72,7 @@ SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
   m_table = new DataTable(m_tableCard);
   m_table->setRowHeight(22);
   m_tableCard->body()->addWidget(m_table);
-  m_tableCard->setFixedWidth(528);
+  m_tableCard->setFixedWidth(548);
 
   auto* row = new QHBoxLayout;
   row->setSpacing(16);
@@ -288,13 +288,13 @@ void SensorsPage::renderTable() {
   m_tableCard->setTitle(tr("Choice"));
   m_table->setColumns(
       {{tr("Sensor"), 0, false, {}},
-       {"X", 44, true, tr("Correlation with the error in X")},
-       {"Y", 44, true, tr("Correlation with the error in Y")},
-       {"Z", 44, true, tr("Correlation with the error in Z")},
+       {"X", 46, true, tr("Correlation with the error in X")},
+       {"Y", 46, true, tr("Correlation with the error in Y")},
+       {"Z", 46, true, tr("Correlation with the error in Z")},
        {tr("Sum"), 50, true, tr("Largest in its cluster: thermally sensitive point")},
-       {tr("Lag"), 58, true, tr("The error follows this sensor after so many minutes")},
+       {tr("Lag"), 64, true, tr("The error follows this sensor after so many minutes")},
        {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
-       {tr("Price"), 72, true, tr("Error on unseen lost when this sensor is dropped, or won when it is added")}});
+       {tr("Price"), 74, true, tr("Error on unseen lost when this sensor is dropped, or won when it is added")}});
   QVector<QVector<DataCell>> rows;
   for (const SensorRow& s : m_state.sensors) {
     DataCell name;

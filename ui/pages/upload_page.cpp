@@ -6,7 +6,9 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
+#include "ui/widgets/legend_row.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 
@@ -19,10 +21,11 @@ UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
   m_curves->setIncludeZero(true);
   m_terms = new DataTable(m_tableCard);
   m_terms->setMinimumHeight(96);
-  m_loss = new QLabel(m_tableCard);
+  m_loss = new WrapLabel(m_tableCard);
   m_loss->setProperty("role", "caption");
-  m_loss->setWordWrap(true);
   m_loss->setContentsMargins(10, 0, 10, 0);
+  m_legend = new LegendRow(m_tableCard);
+  m_tableCard->body()->addWidget(m_legend);
   m_tableCard->body()->addWidget(m_curves, 3);
   m_tableCard->body()->addWidget(m_terms, 2);
   m_tableCard->body()->addWidget(m_loss);
@@ -169,6 +172,7 @@ void UploadPage::renderAxis() {
   if (index < 0 || index >= m_state.axes.size()) return m_terms->setRows({});
   const AxisTable& axis = m_state.axes[index];
   const Colors& c = colors();
+  m_legend->setItems({{tr("old"), c.muted, true}, {tr("new"), c.accent}, {tr("change"), axisColor(0)}});
   m_curves->setTimeAxis(axis.overTime);
   m_curves->setAxisLabels(axis.abscissa, {});
   PartStyle style;

@@ -17,6 +17,7 @@ namespace zerodrift::ui {
 
 class Card;
 class DataTable;
+class LegendRow;
 class ToggleSegment;
 class XyPlot;
 
@@ -104,6 +105,7 @@ class UploadPage : public Page {
   ToggleSegment* m_axis;
   ToggleSegment* m_side;
   XyPlot* m_curves;
+  LegendRow* m_legend;
   DataTable* m_terms;
   QLabel* m_loss;
   QStackedWidget* m_sides;

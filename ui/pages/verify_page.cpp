@@ -6,8 +6,10 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
+#include "ui/widgets/legend_row.h"
 #include "ui/widgets/progress_strip.h"
 #include "ui/widgets/toggle_segment.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 
@@ -37,7 +39,9 @@ QWidget* VerifyPage::makeCorrection() {
   m_plot = new XyPlot(m_plotCard);
   m_plot->setTimeAxis(true);
   m_plot->setIncludeZero(true);
-  m_plotCard->body()->addWidget(m_plot);
+  m_legend = new LegendRow(m_plotCard);
+  m_plotCard->body()->addWidget(m_legend);
+  m_plotCard->body()->addWidget(m_plot, 1);
   m_tableCard = new Card(view);
   m_tableCard->setFixedWidth(500);
   m_tableCard->setBodyMargins(1, 0, 1, 12);
@@ -52,8 +56,7 @@ QWidget* VerifyPage::makeCorrection() {
   m_tableCard->tools()->addWidget(m_thresholdName);
   m_tableCard->tools()->addWidget(m_threshold);
   m_table = new DataTable(m_tableCard);
-  m_words = new QLabel(m_tableCard);
-  m_words->setWordWrap(true);
+  m_words = new WrapLabel(m_tableCard);
   m_words->setContentsMargins(15, 4, 15, 0);
   m_tableCard->body()->addWidget(m_table, 1);
   m_tableCard->body()->addWidget(m_words);
@@ -177,7 +180,11 @@ void VerifyPage::renderCorrection() {
     rows.append({name, kappa, DataCell{axis.evidence}, um(axis.peakBefore_um), um(axis.peakAfter_um)});
   }
   m_table->setRows(rows);
-  if (m_table->currentRow() < 0 && !rows.isEmpty()) m_table->selectRow(0);
+  if (m_table->currentRow() < 0 && !rows.isEmpty()) {
+    int first = 0;
+    while (first < rows.size() - 1 && !m_state.corrections[first].proposed) ++first;
+    m_table->selectRow(m_state.corrections[first].proposed ? first : 0);
+  }
   m_words->setText(
       m_state.corrections.isEmpty() ? tr("The correction is computed from the verification run when it is finished.")
       : m_state.correctionProposed
@@ -195,6 +202,7 @@ void VerifyPage::renderResiduals() {
   if (row < 0 || row >= m_state.corrections.size()) return m_plot->clear();
   const AxisCorrection& axis = m_state.corrections[row];
   PartStyle style;
+  m_legend->setItems({{tr("as measured"), colors().bad}, {tr("with the correction"), colors().ok}});
   style.unit = "µm";
   style.tag = tr("%1, measured").arg(axis.axis);
   style.color = colors().bad;

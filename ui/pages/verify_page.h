@@ -14,6 +14,7 @@ namespace zerodrift::ui {
 
 class Card;
 class DataTable;
+class LegendRow;
 class ToggleSegment;
 class XyPlot;
 
@@ -95,6 +96,7 @@ class VerifyPage : public Page {
   Card* m_plotCard;
   DataTable* m_table;
   XyPlot* m_plot;
+  LegendRow* m_legend;
   QLabel* m_thresholdName;
   QDoubleSpinBox* m_threshold;
   QLabel* m_words;

@@ -6,6 +6,7 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/progress_strip.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 
@@ -108,9 +109,8 @@ void WarmupPage::makeStepEditor(QVBoxLayout* into) {
   }
   grid->setColumnStretch(1, 1);
   into->addLayout(grid);
-  m_hint = new QLabel(m_stepCard);
+  m_hint = new WrapLabel(m_stepCard);
   m_hint->setProperty("role", "caption");
-  m_hint->setWordWrap(true);
   into->addWidget(m_hint);
   into->addStretch();
   connect(m_minutes, &QSpinBox::valueChanged, this, &WarmupPage::stepEdited);

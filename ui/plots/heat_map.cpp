@@ -75,7 +75,6 @@ void HeatMap::setData(const HeatMapData& map) {
   }
   // Zero must stay in the middle of the colours, whatever the data does.
   m_scale->setDataRange(QCPRange(-std::max(largest, 1e-9), std::max(largest, 1e-9)));
-  m_scale->setLabel(map.unit);
   fit();
 }
 

@@ -275,7 +275,9 @@ void LivePlot::scaleOrdinate() {
     high += lack / 2.0;
   }
   const double margin = 0.06 * (high - low);
-  yAxis()->setRange(low - margin, high + margin);
+  // The names of the regimes stand at the top: the curves keep below them.
+  const double words = hasSpanLabels() ? 20.0 * (high - low) / std::max(60, height() - 60) : 0.0;
+  yAxis()->setRange(low - margin, high + margin + words);
 }
 
 qsizetype LivePlot::sampleCount(const QString& id) const {

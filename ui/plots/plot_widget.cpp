@@ -344,6 +344,13 @@ void PlotWidget::exportAs(const QString& kind) {
   if (kind == "csv") saveCsv(path);
 }
 
+void PlotWidget::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  // Labels need room: about one tick every 42 px upwards and 90 px sideways.
+  yAxis()->ticker()->setTickCount(std::clamp((height() - 40) / 42, 2, 9));
+  xAxis()->ticker()->setTickCount(std::clamp((width() - 90) / 90, 2, 9));
+}
+
 void PlotWidget::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {
     restyle();

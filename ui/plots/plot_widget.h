@@ -105,7 +105,10 @@ class PlotWidget : public QWidget {
   bool isTimeAxis() const { return m_time; }
   void replot();
   void showPlaceholder(bool shown);
+  const QVector<Limit>& limits() const { return m_limits; }
+  bool hasSpanLabels() const { return !m_spanTexts.isEmpty(); }
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   bool event(QEvent* event) override;
 
  private:

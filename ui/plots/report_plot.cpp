@@ -1,10 +1,10 @@
 #include "ui/plots/report_plot.h"
 
-#include "ui/plots/custom_plot.h"
-
 #include <QBuffer>
 #include <QSvgGenerator>
 #include <cmath>
+
+#include "ui/plots/custom_plot.h"
 
 namespace zerodrift::ui {
 namespace {

@@ -170,6 +170,15 @@ void XyPlot::fit() {
     for (const double v : part->y) yLow = std::fmin(yLow, v), yHigh = std::fmax(yHigh, v);
     for (const double v : part->high) yLow = std::fmin(yLow, v), yHigh = std::fmax(yHigh, v);
   }
+  // A limit belongs into the picture unless it is so far away that it would press the curves flat.
+  const double reach = 4.0 * std::max(std::abs(yLow), std::abs(yHigh));
+  for (const Limit& limit : limits()) {
+    if (std::abs(limit.value) > reach) continue;
+    yLow = std::fmin(yLow, limit.value);
+    yHigh = std::fmax(yHigh, limit.value);
+  }
+  bool labelled = false;
+  for (const Part* part : std::as_const(m_parts)) labelled = labelled || (part->visible && !part->labels.isEmpty());
   showPlaceholder(m_parts.isEmpty());
   if (std::isnan(xLow) || std::isnan(yLow)) return replot();
   if (m_includeZero) {
@@ -183,6 +192,8 @@ void XyPlot::fit() {
   };
   widen(&xLow, &xHigh, m_equal ? 0.08 : 0.03);
   widen(&yLow, &yHigh, 0.08);
+  if (labelled) xHigh += 0.12 * (xHigh - xLow);
+  if (hasSpanLabels()) yHigh += 20.0 * (yHigh - yLow) / std::max(60, height() - 60);
   xAxis()->setRange(m_fixedX ? m_xLow : xLow, m_fixedX ? m_xHigh : xHigh);
   yAxis()->setRange(m_fixedY ? m_yLow : yLow, m_fixedY ? m_yHigh : yHigh);
   if (m_equal) {

@@ -30,6 +30,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   all->addWidget(m_rail);
   all->addLayout(right, 1);
   setCentralWidget(centre);
+  // No control starts with the focus: a ring around the first one would look like a choice.
+  centre->setFocusPolicy(Qt::ClickFocus);
+  centre->setFocus();
   m_palette = new CommandPalette(centre);
 
   connect(m_rail, &StepRail::stepRequested, this, &MainWindow::stepRequested);

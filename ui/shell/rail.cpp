@@ -168,6 +168,7 @@ StepRail::StepRail(QWidget* parent) : QWidget(parent) {
   const auto foot = [this](const char* name) {
     auto* button = new QPushButton(this);
     button->setObjectName(name);
+    button->setFocusPolicy(Qt::TabFocus);
     return button;
   };
   m_job = foot("railJob");

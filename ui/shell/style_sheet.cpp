@@ -57,6 +57,15 @@ QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus, QPlainTe
 QDateEdit:focus { border: 2px solid @accent; }
 QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus, QDateEdit:focus { min-height: 28px; padding: 0 7px; }
 QLineEdit:disabled, QSpinBox:disabled, QDoubleSpinBox:disabled, QComboBox:disabled { color: @off; background: @window; }
+QComboBox::drop-down { border: 0; width: 24px; }
+QComboBox::down-arrow { image: url(:/icons/down-@theme.png); width: 16px; height: 16px; }
+QSpinBox::up-button, QDoubleSpinBox::up-button { border: 0; width: 22px; subcontrol-position: top right; }
+QSpinBox::down-button, QDoubleSpinBox::down-button { border: 0; width: 22px; subcontrol-position: bottom right; }
+QSpinBox::up-arrow, QDoubleSpinBox::up-arrow { image: url(:/icons/up-@theme.png); width: 14px; height: 14px; }
+QSpinBox::down-arrow, QDoubleSpinBox::down-arrow { image: url(:/icons/down-@theme.png); width: 14px; height: 14px; }
+QCheckBox::indicator, QListView::indicator { width: 16px; height: 16px; border: 1px solid @buttonLine; border-radius: 3px; background: @panel; }
+QCheckBox::indicator:checked, QListView::indicator:checked { background: @accent; border-color: @accent; image: url(:/icons/check-@theme.png); }
+QCheckBox::indicator:disabled { border-color: @line; background: @window; }
 QComboBox QAbstractItemView { background: @panel; color: @text; border: 1px solid @line; selection-background-color: @accentSoft;
   selection-color: @text; outline: 0; }
 QCheckBox, QRadioButton { spacing: 8px; min-height: 28px; outline: 0; }
@@ -75,6 +84,7 @@ QHeaderView::section { background: @panel; color: @muted; border: 0; border-bott
 QTableCornerButton::section { background: @panel; border: 0; }
 
 QScrollArea, QScrollArea > QWidget > QWidget[role="body"] { background: @window; border: 0; }
+QScrollArea[role="plain"], QScrollArea[role="plain"] > QWidget, #explanations { background: @panel; border: 0; }
 QScrollBar:vertical { background: transparent; width: 12px; margin: 0; }
 QScrollBar:horizontal { background: transparent; height: 12px; margin: 0; }
 QScrollBar::handle { background: @handle; border-radius: 4px; margin: 2px; min-height: 28px; min-width: 28px; }
@@ -123,6 +133,7 @@ QString styleSheet(const Colors& c) {
   };
   // Longer names first where one begins another.
   QString text = sheet;
+  text.replace("@theme", c.dark ? "dark" : "light");
   for (const auto& [name, color] : names) text.replace('@' + name, color.name());
   return text;
 }

@@ -138,7 +138,8 @@ void CameraView::paintRegions(QPainter& painter, const QTransform& view) const {
     QPainterPath path;
     path.addRect(view.mapRect(region));
     strokeOnImage(painter, color, 1.4, path, Qt::DashLine);
-    label(painter, view.mapRect(region).bottomLeft() + QPointF(0, 4), name, color);
+    // In a thumbnail the words would cover what they name.
+    if (width() > 360) label(painter, view.mapRect(region).bottomLeft() + QPointF(0, 4), name, color);
   };
   box(m_marks.referenceRegion, referenceColor, tr("Reference"));
   box(m_drawn.isEmpty() ? m_marks.targetRegion : view.inverted().mapRect(m_drawn), targetColor, tr("Target"));
@@ -161,7 +162,7 @@ void CameraView::paintTrail(QPainter& painter, const QTransform& view) const {
   painter.setBrush(trailColor);
   painter.drawEllipse(path.currentPosition(), 3.5, 3.5);
   if (m_marks.trailEnlargement > 1.0) {
-    label(painter, {10, height() - 30.0}, tr("Drift drawn %1 times larger").arg(m_marks.trailEnlargement), trailColor);
+    label(painter, {10, height() - 30.0}, tr("drift × %1").arg(m_marks.trailEnlargement), trailColor);
   }
 }
 
@@ -192,8 +193,11 @@ void CameraView::paintTarget(QPainter& painter, const QTransform& view) const {
   QPainterPath ellipse;
   ellipse.addEllipse(QPointF(), m_marks.sigmaMajor_px * scale, m_marks.sigmaMinor_px * scale);
   strokeOnImage(painter, QColor("#FFFFFF"), 1.4, place.map(ellipse));
-  label(painter, view.map(*m_marks.target) + QPointF(14, -34),
-        tr("± %1 px, drawn %2 ×").arg(m_marks.sigmaMajor_px, 0, 'f', 4).arg(m_marks.enlargement), Qt::white);
+  if (width() <= 360) return;
+  const QPointF beside = m_marks.targetRegion.isEmpty() ? view.map(*m_marks.target) + QPointF(14, -34)
+                                                        : view.mapRect(m_marks.targetRegion).topLeft() - QPointF(0, 28);
+  label(painter, beside, tr("± %1 px, drawn %2 ×").arg(m_marks.sigmaMajor_px, 0, 'f', 4).arg(m_marks.enlargement),
+        Qt::white);
 }
 
 void CameraView::wheelEvent(QWheelEvent* event) {

@@ -1,12 +1,29 @@
 #include "ui/widgets/card.h"
 
 namespace zerodrift::ui {
+namespace {
+
+/// Gives way when the heading is crowded, with an ellipsis instead of a cut letter.
+class ElidedLabel : public QLabel {
+ public:
+  using QLabel::QLabel;
+  QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setPen(palette().color(QPalette::WindowText));
+    painter.drawText(rect(), Qt::AlignVCenter, fontMetrics().elidedText(text(), Qt::ElideRight, width()));
+  }
+};
+
+}  // namespace
 
 Card::Card(QWidget* parent) : QFrame(parent) {
   setProperty("card", true);
   m_title = new QLabel(this);
   m_title->setProperty("role", "cardTitle");
-  m_subtitle = new QLabel(this);
+  m_subtitle = new ElidedLabel(this);
   m_subtitle->setProperty("role", "caption");
   m_title->hide();
   m_subtitle->hide();
@@ -41,6 +58,7 @@ void Card::setTitle(const QString& title) {
 
 void Card::setSubtitle(const QString& subtitle) {
   m_subtitle->setText(subtitle);
+  m_subtitle->setToolTip(subtitle);
   m_subtitle->setVisible(!subtitle.isEmpty());
 }
 

@@ -1,5 +1,7 @@
 #include "ui/widgets/data_table.h"
 
+#include "ui/widgets/icons.h"
+
 namespace zerodrift::ui {
 namespace {
 
@@ -28,14 +30,16 @@ class CellPainter : public QStyledItemDelegate {
     painter->setPen(c.grid);
     painter->drawLine(option.rect.bottomLeft(), option.rect.bottomRight());
 
-    QRect inside = option.rect.adjusted(7, 0, -7, 0);
+    const bool number = filled.displayAlignment & Qt::AlignRight;
+    QRect inside = option.rect.adjusted(number ? 3 : 7, 0, -6, 0);
     const QVariant check = index.data(Qt::CheckStateRole);
     if (check.isValid()) {
-      QStyleOptionButton box;
-      box.state = QStyle::State_Enabled | (check.toInt() == Qt::Checked ? QStyle::State_On : QStyle::State_Off);
-      box.rect = QRect(inside.x(), inside.center().y() - 7, 15, 15);
-      box.palette = option.palette;
-      QApplication::style()->drawPrimitive(QStyle::PE_IndicatorCheckBox, &box, painter, option.widget);
+      const bool on = check.toInt() == Qt::Checked;
+      const QRectF box(inside.x() + 0.5, inside.center().y() - 6.5, 14, 14);
+      painter->setPen(on ? c.accent : mix(c.line, c.muted, 0.45));
+      painter->setBrush(on ? c.accent : c.panel);
+      painter->drawRoundedRect(box, 3, 3);
+      if (on) drawIcon(*painter, box.adjusted(1, 1, -1, -1), Icon::tick, c.onAccent, 2.0);
       inside.setLeft(inside.left() + 22);
     }
     const QColor swatch = index.data(swatchItem).value<QColor>();

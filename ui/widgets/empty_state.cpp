@@ -1,6 +1,7 @@
 #include "ui/widgets/empty_state.h"
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -29,12 +30,10 @@ EmptyState::EmptyState(QWidget* parent) : QWidget(parent) {
   m_icon->setFixedSize(56, 56);
   m_heading = new QLabel(this);
   m_heading->setProperty("role", "heading");
-  m_sentence = new QLabel(this);
+  m_sentence = new WrapLabel(this);
   m_sentence->setProperty("role", "muted");
-  m_sentence->setWordWrap(true);
   m_sentence->setAlignment(Qt::AlignHCenter);
-  m_sentence->setMinimumWidth(280);
-  m_sentence->setMaximumWidth(460);
+  m_sentence->setFixedWidth(460);
   m_action = new QPushButton(this);
   m_action->setObjectName("emptyAction");
   connect(m_action, &QPushButton::clicked, this, &EmptyState::actionTriggered);

@@ -131,7 +131,7 @@ QPointF project(const Point3& p) {
 }
 
 QRectF machineBounds() {
-  return {-640, -1270, 1330, 1520};
+  return {-620, -1310, 1240, 1600};
 }
 
 void paintMachine(QPainter& painter, double strength) {

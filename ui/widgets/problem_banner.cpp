@@ -2,6 +2,7 @@
 
 #include "ui/widgets/colors.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -29,11 +30,10 @@ QColor colorOf(ProblemKind kind) {
 
 ProblemBanner::ProblemBanner(QWidget* parent) : QFrame(parent) {
   setObjectName("problemBanner");
-  m_sentence = new QLabel(this);
+  m_sentence = new WrapLabel(this);
   m_sentence->setProperty("role", "strong");
-  m_remedy = new QLabel(this);
+  m_remedy = new WrapLabel(this);
   for (QLabel* label : {m_sentence, m_remedy}) {
-    label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
   m_action = new QPushButton(this);

@@ -1,5 +1,7 @@
 #include "ui/widgets/toggle_segment.h"
 
+#include "ui/widgets/colors.h"
+
 namespace zerodrift::ui {
 
 ToggleSegment::ToggleSegment(QWidget* parent) : QWidget(parent) {
@@ -37,6 +39,8 @@ void ToggleSegment::setItems(const QStringList& items) {
     buttons[i]->setProperty("segment", first && last ? "only" : first ? "first" : last ? "last" : "middle");
     buttons[i]->style()->unpolish(buttons[i]);
     buttons[i]->style()->polish(buttons[i]);
+    // The chosen one is set heavier: all get the room for that, so that nothing moves or is cut.
+    buttons[i]->setMinimumWidth(QFontMetrics(uiFont(12, QFont::DemiBold)).horizontalAdvance(items[i]) + 28);
   }
   if (!buttons.isEmpty()) buttons[std::min<qsizetype>(current, buttons.size() - 1)]->setChecked(true);
 }

@@ -1,0 +1,83 @@
+#include "tests/ui/gallery/page_samples.h"
+#include "ui/pages/machine_page.h"
+
+namespace zerodrift::ui::samples {
+
+struct Place {
+  const char* label;
+  const char* place;
+  double along;
+};
+
+static const Place places[] = {
+    {"Spindle front bearing", "spindle", 0.86},
+    {"Spindle between front bearing and motor", "spindle", 0.65},
+    {"Spindle motor, front end", "spindle", 0.45},
+    {"Spindle motor, rear end", "spindle", 0.25},
+    {"Spindle rear bearing", "spindle", 0.06},
+    {"Headstock", "headstock", -1},
+    {"Column front, top", "column_front", -1},
+    {"Column rear, top", "column_rear", -1},
+    {"X screw nut", "screw_x", -1},
+    {"X screw support bearing", "screw_x", -1},
+    {"Y screw nut", "screw_y", -1},
+    {"Y screw support bearing", "screw_y", -1},
+    {"Z screw nut", "screw_z", -1},
+    {"Z screw support bearing", "screw_z", -1},
+    {"X guide", "guide_x", -1},
+    {"A trunnion drive", "trunnion", -1},
+    {"C table drive", "table_drive", -1},
+    {"Table", "table", -1},
+    {"Bed", "bed", -1},
+    {"Coolant tank", "coolant", -1},
+};
+
+void fillMachine(Page* page, const QString& scene) {
+  auto* machine = qobject_cast<MachinePage*>(page);
+  MachineState s;
+  s.recent = {{"/jobs/vmc850-3.zdj", "VMC-850 #3", "Warm-up recorded, 20 November 2026"},
+              {"/jobs/dmu65-11.zdj", "DMU 65 #11", "Report saved, 14 November 2026"},
+              {"/jobs/haas-umc.zdj", "UMC-500 cell 2", "Stale: sensors changed after the fit, 2 November 2026"}};
+  if (scene == "start") return machine->setState(s);
+  s.jobOpen = true;
+  s.connected = true;
+  s.machineName = "Virtual five-axis";
+  s.address = "Modbus TCP 127.0.0.1:1502, unit 1";
+  s.profiles = {"Virtual five-axis", "VMC-850 shop floor", "Import a profile"};
+  s.profile = 0;
+  s.spread_K = 0.62;
+  s.roundTrip_ms = 1.8;
+  s.clockDifference_s = 0.4;
+  for (int i = 0; i < 20; ++i) {
+    SensorHealth h;
+    h.tag = QStringLiteral("T%1").arg(i + 1);
+    h.id = h.tag + "_C";
+    h.label = places[i].label;
+    h.place = places[i].place;
+    h.along = places[i].along;
+    h.value_C = 20.1 + 0.05 * ((i * 37) % 13);
+    h.age_s = 0.2 + 0.1 * (i % 4);
+    h.noise_K = 0.04 + 0.01 * (i % 3);
+    h.judgement = Judgement::ok;
+    h.state = "OK";
+    if (i == 13) {
+      h.judgement = Judgement::warn;
+      h.state = "Noisy 0.21 K";
+    }
+    s.sensors.append(h);
+  }
+  s.parts = {{"X", "X", "0.000 mm", Judgement::ok},
+             {"Y", "Y", "0.000 mm", Judgement::ok},
+             {"Z", "Z", "0.000 mm", Judgement::ok},
+             {"A", "A", "0.000°", Judgement::ok},
+             {"C", "C", "0.000°", Judgement::ok},
+             {"spindle", "Spindle", "0 rpm", Judgement::ok},
+             {"front", "Camera front", "25 frames/s", Judgement::ok},
+             {"side", "Camera side", "25 frames/s", Judgement::ok},
+             {"switch", "Compensation", "OFF", Judgement::ok}};
+  s.registers = {{0, "uint16", "R", "Magic", "0x5A44"}, {96, "int16", "R", "Ambient air, 1/16 °C", "20.3 °C"}};
+  machine->setState(s);
+  machine->selectSensor("T1_C");
+}
+
+}  // namespace zerodrift::ui::samples

@@ -1,0 +1,252 @@
+// Pages: what they are told they show, what the user does they tell; without data they say how to get it.
+
+#include <QSignalSpy>
+#include <QTest>
+#include <QtWidgets>
+
+#include "tests/ui/gallery/page_samples.h"
+#include "tests/ui/gallery/samples.h"
+#include "ui/pages/axis_page.h"
+#include "ui/pages/calibrate_page.h"
+#include "ui/pages/fit_page.h"
+#include "ui/pages/machine_page.h"
+#include "ui/pages/physics_page.h"
+#include "ui/pages/report_page.h"
+#include "ui/pages/sensors_page.h"
+#include "ui/pages/upload_page.h"
+#include "ui/pages/verify_page.h"
+#include "ui/pages/warmup_page.h"
+#include "ui/shell/main_window.h"
+#include "ui/widgets/channel_table.h"
+#include "ui/widgets/empty_state.h"
+#include "ui/widgets/figure_card.h"
+#include "ui/widgets/machine_drawing.h"
+
+using namespace zerodrift::ui;
+
+class PagesTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void figuresAreJudgedWithWords();
+  void emptyPagesSayHowToGetThere();
+  void machineStartsJobsAndSelectsSensors();
+  void compensationOnLocksStart();
+  void calibrationNeedsConfirmation();
+  void planIsEditedByFieldsAndTimeline();
+  void warmupButtonsFollowThePhase();
+  void sensorsAreTickedInAndOut();
+  void uploadIsLockedWhileCompensationIsOn();
+  void uploadIsLockedByAWrongSign();
+  void verifyProposesTheCorrection();
+  void physicsAdoptsAndRejects();
+  void axisRefusesATableThatTurnsBack();
+  void everyPageSurvivesNewLanguageAndNothing();
+};
+
+template <class P>
+static P* shown(P* page) {
+  page->resize(1044, 584);
+  page->show();
+  return page;
+}
+
+void PagesTest::figuresAreJudgedWithWords() {
+  QCOMPARE(figureAtMost("a", 0.4, 2, "K", 0.5).judgement, Judgement::ok);
+  QCOMPARE(figureAtMost("a", 0.55, 2, "K", 0.5).judgement, Judgement::warn);
+  QCOMPARE(figureAtMost("a", -2.0, 2, "K", 0.5).judgement, Judgement::bad);
+  QCOMPARE(figureAtLeast("a", 92.0, 0, "%", 85).judgement, Judgement::ok);
+  QCOMPARE(figureAtLeast("a", 40.0, 0, "%", 85).judgement, Judgement::bad);
+  const Figure none = figureAtMost("a", std::nan(""), 2, "K", 0.5);
+  QCOMPARE(none.judgement, Judgement::none);
+  QVERIFY(none.value.isEmpty());
+  QVERIFY(!none.word.isEmpty());
+  FigureCard card;
+  card.setFigure(figureAtMost("Spread", 0.4, 2, "K", 0.5));
+  QVERIFY(card.accessibleName().contains("0.40 K"));
+  QVERIFY(card.accessibleName().contains("good"));
+}
+
+void PagesTest::emptyPagesSayHowToGetThere() {
+  MainWindow window;
+  samples::addPages(window);
+  window.show();
+  for (const char* id : {"calibrate", "warmup", "sensors", "fit", "physics", "upload", "verify", "report", "axis_errors"}) {
+    samples::play(window, {id, "empty"});
+    auto* empty = window.currentPage()->findChild<EmptyState*>();
+    QVERIFY2(empty->isVisible(), id);
+    if (QString(id) != "axis_errors") QVERIFY2(!window.currentPage()->primaryAction().enabled, id);
+    QVERIFY2(!window.currentPage()->primaryAction().text.isEmpty(), id);
+  }
+}
+
+void PagesTest::machineStartsJobsAndSelectsSensors() {
+  MachinePage page;
+  shown(&page);
+  QSignalSpy made(&page, &MachinePage::newJobRequested);
+  QSignalSpy virtualMachine(&page, &MachinePage::virtualMachineRequested);
+  page.findChild<QPushButton*>("startNew")->click();
+  page.findChild<QPushButton*>("startVirtual")->click();
+  QCOMPARE(made.count(), 1);
+  QCOMPARE(virtualMachine.count(), 1);
+  samples::fillMachine(&page, "filled");
+  QSignalSpy selected(&page, &MachinePage::sensorSelected);
+  auto* drawing = page.findChild<MachineDrawing*>();
+  Q_EMIT drawing->selected("T7_C");
+  QCOMPARE(page.findChild<ChannelTable*>()->selectedId(), QString("T7_C"));
+  QVERIFY(selected.count() >= 1);
+}
+
+void PagesTest::compensationOnLocksStart() {
+  MachinePage page;
+  samples::fillMachine(&page, "filled");
+  QVERIFY(page.primaryAction().enabled);
+  MachineState state = page.state();
+  state.compensationOn = true;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+  QVERIFY(page.primaryAction().reason.contains("ON"));
+}
+
+void PagesTest::calibrationNeedsConfirmation() {
+  CalibratePage page;
+  samples::fillCalibrate(&page, "planned");
+  CalibrateState state = page.state();
+  state.running = false;
+  page.clearProgress();
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+  page.findChild<QCheckBox*>("areaClear")->setChecked(true);
+  QVERIFY(page.primaryAction().enabled);
+  state.solved = true;
+  state.rms_um = 5.0;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);  // the residual is above its limit
+}
+
+void PagesTest::planIsEditedByFieldsAndTimeline() {
+  WarmupPage page;
+  shown(&page);
+  samples::fillWarmup(&page, "plan");
+  QSignalSpy edited(&page, &WarmupPage::planEdited);
+  page.findChild<QSpinBox*>("stepSpeed")->setValue(1200);
+  QCOMPARE(edited.count(), 1);
+  QCOMPARE(page.state().plan.first().speed_rpm, 1200.0);
+  const auto steps = page.state().plan.size();
+  page.findChild<QPushButton*>("addStep")->click();
+  QCOMPARE(page.state().plan.size(), steps + 1);
+  auto* timeline = page.findChild<PlanTimeline*>();
+  const double before = timeline->steps()[timeline->selectedStep()].duration_s;
+  QTest::keyClick(timeline, Qt::Key_Right, Qt::ShiftModifier);
+  QCOMPARE(page.state().plan[timeline->selectedStep()].duration_s, before + 300.0);
+}
+
+void PagesTest::warmupButtonsFollowThePhase() {
+  WarmupPage page;
+  WarmupState state;
+  state.plan = {PlanStepRow{}};
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Start"));
+  state.compensationOn = true;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+  state.compensationOn = false;
+  state.phase = RunPhase::running;
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Pause"));
+  state.phase = RunPhase::interrupted;
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Resume"));
+}
+
+void PagesTest::sensorsAreTickedInAndOut() {
+  SensorsPage page;
+  samples::fillSensors(&page, "filled");
+  QSignalSpy changed(&page, &SensorsPage::keptChanged);
+  auto* table = page.findChild<QTableWidget*>();
+  table->item(1, 0)->setCheckState(Qt::Checked);
+  QCOMPARE(changed.count(), 1);
+  QCOMPARE(changed.first().first().toString(), QString("T2_C"));
+  QVERIFY(page.state().sensors[1].kept);
+  SensorsState state = page.state();
+  for (auto& sensor : state.sensors) sensor.kept = false;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+}
+
+void PagesTest::uploadIsLockedWhileCompensationIsOn() {
+  UploadPage page;
+  samples::fillUpload(&page, "ready");
+  QVERIFY(page.primaryAction().enabled);
+  UploadState state = page.state();
+  state.compensationOn = true;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+}
+
+void PagesTest::uploadIsLockedByAWrongSign() {
+  UploadPage page;
+  samples::fillUpload(&page, "ready");
+  UploadState state = page.state();
+  state.sign.judgement = Judgement::bad;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+  QVERIFY(page.primaryAction().reason.contains("direction"));
+}
+
+void PagesTest::verifyProposesTheCorrection() {
+  VerifyPage page;
+  samples::fillVerify(&page, "correction");
+  QCOMPARE(page.primaryAction().text, QString("Apply correction"));
+  QSignalSpy threshold(&page, &VerifyPage::thresholdChanged);
+  page.findChild<QDoubleSpinBox*>("threshold")->setValue(4.5);
+  QCOMPARE(threshold.count(), 1);
+}
+
+void PagesTest::physicsAdoptsAndRejects() {
+  PhysicsPage page;
+  samples::fillPhysics(&page, "where");
+  QSignalSpy adopted(&page, &PhysicsPage::adopted);
+  page.findChildren<QPushButton*>("adopt").first()->click();
+  QCOMPARE(adopted.count(), 1);
+  QCOMPARE(adopted.first().first().toString(), QString("extra_heat_source"));
+  QSignalSpy experiment(&page, &PhysicsPage::experimentRequested);
+  page.findChild<QPushButton*>("experiment")->click();
+  QCOMPARE(experiment.count(), 1);
+}
+
+void PagesTest::axisRefusesATableThatTurnsBack() {
+  AxisPage page;
+  samples::fillAxis(&page, "segments");
+  QVERIFY(page.primaryAction().enabled);
+  AxisState state = page.state();
+  state.monotonic = false;
+  page.setState(state);
+  QVERIFY(!page.primaryAction().enabled);
+}
+
+void PagesTest::everyPageSurvivesNewLanguageAndNothing() {
+  MainWindow window;
+  samples::fillWindow(window);
+  window.show();
+  for (const auto& scene : samples::scenes()) {
+    samples::play(window, scene);
+    QEvent language(QEvent::LanguageChange);
+    QCoreApplication::sendEvent(window.currentPage(), &language);
+    QVERIFY(!window.currentPage()->title().isEmpty());
+    QVERIFY(!window.currentPage()->sentence().isEmpty());
+  }
+  CalibratePage().setState({});
+  WarmupPage().setState({});
+  SensorsPage().setState({});
+  FitPage().setState({});
+  PhysicsPage().setState({});
+  UploadPage().setState({});
+  VerifyPage().setState({});
+  ReportPage().setState({});
+  AxisPage().setState({});
+  MachinePage().setState({});
+}
+
+QTEST_MAIN(PagesTest)
+#include "pages_test.moc"

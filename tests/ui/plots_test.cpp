@@ -1,0 +1,204 @@
+// Curves: no peak is lost in the pyramid, gaps stay gaps, appending is cheap, exports hold what is seen.
+
+#include <QSignalSpy>
+#include <QTest>
+#include <QtWidgets>
+#include <cmath>
+
+#include "ui/plots/heat_map.h"
+#include "ui/plots/live_plot.h"
+#include "ui/plots/series.h"
+#include "ui/plots/xy_plot.h"
+
+using namespace zerodrift::ui;
+
+class PlotsTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void pyramidKeepsEveryPeak();
+  void gapsStayGaps();
+  void timesMustAscend();
+  void appendedSamplesArrive();
+  void linkedPlotsShareTime();
+  void aDayIsDrawnQuickly();
+  void csvHoldsWhatIsSeen();
+  void svgAndPngAreWritten();
+  void pointsCanBeClicked();
+  void heatMapPutsZeroInTheMiddle();
+};
+
+static QVector<double> ramp(int count, double step) {
+  QVector<double> values(count);
+  for (int i = 0; i < count; ++i) values[i] = i * step;
+  return values;
+}
+
+void PlotsTest::pyramidKeepsEveryPeak() {
+  Series series;
+  const auto time = ramp(100000, 0.1);
+  QVector<double> values(time.size(), 0.0);
+  values[54321] = 7.0;
+  values[77777] = -3.0;
+  series.append(time.constData(), values.constData(), time.size());
+  // Against a plain scan, over stretches that begin and end anywhere.
+  for (const auto& [first, last] :
+       {std::pair<int, int>{0, 100000}, {54321, 54322}, {54322, 77777}, {1, 99999}, {300, 300}}) {
+    double low = std::nan("");
+    double high = std::nan("");
+    for (int i = first; i < last; ++i) low = std::fmin(low, values[i]), high = std::fmax(high, values[i]);
+    const auto [a, b] = series.extremes(first, last);
+    QVERIFY((std::isnan(a) && std::isnan(low)) || a == low);
+    QVERIFY((std::isnan(b) && std::isnan(high)) || b == high);
+  }
+  QVector<double> x;
+  QVector<double> y;
+  series.view(0.0, 1e9, 900, &x, &y);
+  QVERIFY(x.size() <= 2000);
+  QCOMPARE(*std::max_element(y.begin(), y.end()), 7.0);
+  QCOMPARE(*std::min_element(y.begin(), y.end()), -3.0);
+  QVERIFY(std::is_sorted(x.begin(), x.end()));
+}
+
+void PlotsTest::gapsStayGaps() {
+  Series series;
+  const auto time = ramp(1000, 1.0);
+  QVector<double> values(time.size(), 1.0);
+  for (int i = 400; i < 600; ++i) values[i] = std::nan("");
+  series.append(time.constData(), values.constData(), time.size());
+  QVERIFY(std::isnan(series.extremes(400, 600).first));
+  QCOMPARE(series.extremes(399, 600).first, 1.0);
+}
+
+void PlotsTest::timesMustAscend() {
+  Series series;
+  const double time[] = {0, 1, 1, 0.5, 2};
+  const double values[] = {1, 2, 3, 4, 5};
+  series.append(time, values, 5);
+  QCOMPARE(series.size(), 3);
+  QCOMPARE(series.value(2), 5.0);
+}
+
+void PlotsTest::appendedSamplesArrive() {
+  LivePlot plot;
+  plot.setCurves({{"a", "A", "K"}, {"b", "B", "K"}});
+  plot.append("a", {0, 1, 2}, {1, 2, 3});
+  plot.append("a", {2, 3}, {9, 4});
+  plot.append("unknown", {0}, {0});
+  QCOMPARE(plot.sampleCount("a"), 4);
+  QCOMPARE(plot.sampleCount("b"), 0);
+  // A curve whose id stays keeps its data.
+  plot.setCurves({{"a", "A again", "K"}});
+  QCOMPARE(plot.sampleCount("a"), 4);
+  plot.clearData();
+  QCOMPARE(plot.sampleCount("a"), 0);
+}
+
+void PlotsTest::linkedPlotsShareTime() {
+  LivePlot upper;
+  LivePlot lower;
+  upper.resize(600, 300);
+  lower.resize(600, 300);
+  upper.linkTime(&lower);
+  upper.setCurves({{"a", "A", "K"}});
+  lower.setCurves({{"b", "B", "K"}});
+  upper.append("a", {0, 1000}, {0, 1});
+  lower.append("b", {0, 4000}, {0, 1});
+  upper.flush();
+  lower.flush();
+  // Both now reach to the newest sample of either.
+  QTemporaryDir folder;
+  QVERIFY(upper.saveCsv(folder.filePath("u.csv")));
+  Q_EMIT upper.viewChanged(100, 200);
+  lower.flush();
+  QVERIFY(lower.saveCsv(folder.filePath("l.csv")));
+  QFile file(folder.filePath("l.csv"));
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  // Nothing of b lies between 100 and 200 s: only the heading is left.
+  QCOMPARE(file.readAll().count('\n'), 1);
+}
+
+void PlotsTest::aDayIsDrawnQuickly() {
+  LivePlot plot;
+  plot.resize(1100, 700);
+  QVector<Curve> curves;
+  for (int i = 0; i < 24; ++i) curves.append({QString::number(i), QString::number(i), "K"});
+  plot.setCurves(curves);
+  const auto time = ramp(86400, 1.0);
+  QVector<double> values(time.size());
+  for (int k = 0; k < 24; ++k) {
+    for (int i = 0; i < values.size(); ++i) values[i] = 20 + k + std::sin(i * 0.001 + k);
+    plot.setData(QString::number(k), time, values);
+  }
+  plot.flush();
+  QElapsedTimer clock;
+  clock.start();
+  for (int i = 0; i < 5; ++i) plot.flush();
+  qInfo("24 curves of a day at 1 Hz: %lld ms a redraw", clock.elapsed() / 5);
+  QCOMPARE(plot.sampleCount("7"), 86400);
+}
+
+void PlotsTest::csvHoldsWhatIsSeen() {
+  XyPlot plot;
+  PartStyle style;
+  plot.setPart("line", {0, 1, 2}, {5, 6, 7}, style);
+  QTemporaryDir folder;
+  QVERIFY(plot.saveCsv(folder.filePath("p.csv")));
+  QFile file(folder.filePath("p.csv"));
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  QVERIFY(file.readAll().contains("line,1,6,"));
+}
+
+void PlotsTest::svgAndPngAreWritten() {
+  XyPlot plot;
+  plot.resize(400, 300);
+  plot.setPart("line", {0, 1, 2}, {5, 6, 7}, {});
+  QTemporaryDir folder;
+  QVERIFY(plot.saveSvg(folder.filePath("p.svg")));
+  QVERIFY(plot.savePng(folder.filePath("p.png")));
+  QVERIFY(QFileInfo(folder.filePath("p.svg")).size() > 500);
+  QVERIFY(!QImage(folder.filePath("p.png")).isNull());
+}
+
+void PlotsTest::pointsCanBeClicked() {
+  XyPlot plot;
+  plot.resize(400, 300);
+  plot.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&plot));
+  PartStyle style;
+  style.points = true;
+  style.tag = "P";
+  plot.setXRange(0, 10);
+  plot.setYRange(0, 10);
+  plot.setPart("points", {5}, {5}, style);
+  plot.flush();
+  QSignalSpy hit(&plot, &XyPlot::pointClicked);
+  // The middle of the ranges is the middle of the axis rectangle: look for it along the diagonal.
+  QWidget* canvas = plot.findChild<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
+  for (int x = 150; x < 300 && hit.isEmpty(); x += 8) {
+    for (int y = 80; y < 220 && hit.isEmpty(); y += 8) QTest::mouseClick(canvas, Qt::LeftButton, {}, {x, y});
+  }
+  QVERIFY(!hit.isEmpty());
+  QCOMPARE(hit.first().at(1).toInt(), 0);
+}
+
+void PlotsTest::heatMapPutsZeroInTheMiddle() {
+  HeatMap map;
+  map.resize(500, 300);
+  HeatMapData data;
+  data.to_s = 100;
+  data.to_mm = 400;
+  data.columns = 2;
+  data.rows = 2;
+  data.values = {0, 0, 0, 10};
+  map.setData(data);
+  map.flush();
+  const QImage image = map.image(500, 300);
+  QVERIFY(!image.isNull());
+  // The empty quarter has the neutral colour, not the cold end.
+  const QColor corner = image.pixelColor(80, 200);
+  QVERIFY2(corner.hslSaturation() < 60, qPrintable(corner.name()));
+}
+
+QTEST_MAIN(PlotsTest)
+#include "plots_test.moc"
