@@ -13,6 +13,7 @@ void add_calibrate(Cli& cli);
 void add_cluster(Cli& cli);
 void add_commission(Cli& cli);
 void add_record(Cli& cli);
+void add_recording(Cli& cli);
 void add_report(Cli& cli);
 void add_verify(Cli& cli);
 void add_predict(Cli& cli);
@@ -32,6 +33,7 @@ void add_all_commands(Cli& cli) {
   add_cluster(cli);
   add_commission(cli);
   add_record(cli);
+  add_recording(cli);
   add_report(cli);
   add_verify(cli);
   add_predict(cli);
