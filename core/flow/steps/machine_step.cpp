@@ -58,7 +58,11 @@ Result<commissioning::NewArtefact> check_machine(Devices& devices, const json& p
                      {"compensation_on", found.last.compensation_on},
                      {"problems", problems}};
   if (health != nullptr) *health = found;
-  return commissioning::NewArtefact::of("machine", body);
+  auto made = commissioning::NewArtefact::of("machine", body);
+  // What a look shows anew each time makes no later step stale: the machine is still the same one.
+  made.observed = {"health",          "sensors_alive", "spread_K", "round_trip_ms", "clock_difference_s",
+                   "compensation_on", "problems"};
+  return made;
 }
 
 }  // namespace zerodrift::flow
