@@ -178,7 +178,7 @@ LinkPath tightest_minimum_link_path(const std::vector<double>& x_mm, const std::
   const std::size_t fewest = best.lines.size();
   double low = 0.0;
   double high = tolerance_um;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const double middle = 0.5 * (low + high);
     LinkPath path = minimum_link_path(x_mm, e_um, middle);
     if (path.lines.size() > fewest) {

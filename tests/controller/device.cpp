@@ -7,12 +7,18 @@
 
 namespace zerodrift::controller {
 
-Device::Device() : m_words(6000, 0) {
+void Device::reset_state() {
+  const std::scoped_lock guard(m_lock);
+  std::fill(m_words.begin(), m_words.begin() + 200, std::uint16_t{0});
   for (const auto& [address, value] : std::vector<std::pair<int, int>>{
            {0, 0x5A44}, {1, 1}, {2, 15}, {3, 2000}, {5, 77}, {6, 20}, {16, 4}, {146, 10}, {213, 100}}) {
     m_words[static_cast<std::size_t>(address)] = static_cast<std::uint16_t>(value);
   }
   for (std::size_t i = 96; i < 120; ++i) m_words[i] = 16 * 25;
+}
+
+Device::Device() : m_words(6000, 0) {
+  reset_state();
   ModbusServerOptions options;
   options.read = [this](int address, int count) -> RegisterReply {
     const std::scoped_lock guard(m_lock);

@@ -28,6 +28,8 @@ class Device {
   void spoil(int n, ReplyFault fault, bool lasting = false);
   /// From on_write, where the lock is held.
   void set_unlocked(int address, std::uint16_t value) { m_words[static_cast<std::size_t>(address)] = value; }
+  /// Referenced, standing, identity as shipped: a corrupted write may have hit any of it.
+  void reset_state();
   int requests() const { return m_requests; }
   /// Called on each write, with the lock held; may refuse.
   std::function<std::optional<ModbusException>(int address, std::span<const std::uint16_t>)> on_write;

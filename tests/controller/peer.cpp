@@ -44,12 +44,12 @@ bool answers(int port) {
 
 }  // namespace
 
-Peer::Peer(const std::vector<std::string>& options) {
+Peer::Peer(const std::vector<std::string>& options, const std::string& npm_package) {
   static int number = 0;
   m_profile = testing::TempDir() + "peer_" + std::to_string(::getpid()) + "_" + std::to_string(++number) + ".json";
-  std::vector<std::string> words = {"/usr/bin/python3",
-                                    std::string(ZERODRIFT_SOURCE_DIR) + "/tests/controller/peer_server.py", "--profile",
-                                    m_profile};
+  const std::string folder = std::string(ZERODRIFT_SOURCE_DIR) + "/tests/controller/";
+  std::vector<std::string> words = {"/usr/bin/python3", folder + "peer_server.py", "--profile", m_profile};
+  if (!npm_package.empty()) words = {"node", folder + "peer_server.js", npm_package, m_profile};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());
@@ -60,7 +60,7 @@ Peer::Peer(const std::vector<std::string>& options) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
   posix_spawn_file_actions_addclose(&actions, pipe[0]);
-  const int failed = ::posix_spawn(&m_pid, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int failed = ::posix_spawnp(&m_pid, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   ::close(pipe[1]);
   if (failed != 0) m_pid = -1;

@@ -1,5 +1,6 @@
 #pragma once
-// Starts the pymodbus peer (peer_server.py) as a child process for a test and stops it again.
+// Starts a controller that is not ours as a child process for a test and stops it again: peer_server.py on pymodbus, or
+// peer_server.js on npm modbus-serial or jsmodbus (found through NODE_PATH).
 
 #include <sys/types.h>
 
@@ -10,8 +11,8 @@ namespace zerodrift::controller {
 
 class Peer {
  public:
-  /// Starts and waits until it serves; running() is false where python3-pymodbus is not installed.
-  explicit Peer(const std::vector<std::string>& options = {});
+  /// Starts and waits until it serves; running() is false where the stack is not installed.
+  explicit Peer(const std::vector<std::string>& options = {}, const std::string& npm_package = {});
   ~Peer();
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "bad_cable.h"
 #include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
 #include "device.h"
@@ -221,6 +222,47 @@ TEST_P(UploadFault, ForGoodFromEachRequest) {
 INSTANTIATE_TEST_SUITE_P(Device, UploadFault,
                          testing::Values(Kind::busy, Kind::late, Kind::wrong_transaction, Kind::truncated, Kind::drop));
 
+class BadCableUpload : public testing::TestWithParam<BadCable::Fault> {};
+
+// A fault at any byte of the whole exchange: afterwards the old or the new table is active, whole, and the record tells
+// the truth about it. (A corrupted byte of a request can write another register: what is read back decides.)
+TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
+  Device device;
+  Profile profile = device.profile();
+  BadCable cable(profile.controller.port);
+  profile.controller.port = cable.port();
+  profile.controller.timeout_ms = 60;
+  auto machine = open(profile);
+  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  const auto one = device.active();
+  cable.strike(GetParam(), -1);
+  ASSERT_TRUE(upload_table(*machine, sample(2.0), {}, {}).result);
+  const long all = cable.passed();
+  const auto two = device.active();
+  int failed = 0;
+  int tried = 0;
+  for (long n = 0; n < all; n += 13, ++tried) {
+    const bool to_two = device.active() == one;
+    cable.strike(GetParam(), n);
+    const auto record = upload_table(*machine, sample(to_two ? 2.0 : 1.0), {}, {});
+    const auto now = device.active();
+    ASSERT_TRUE(now == one || now == two) << "byte " << n << ": " << text_of(record.result);
+    if (record.result) {
+      ASSERT_EQ(now, to_two ? two : one) << "byte " << n;
+    } else if (record.reached != UploadState::restore_failed) {
+      ASSERT_EQ(now, to_two ? one : two) << "byte " << n << ": " << text_of(record.result);
+    }
+    failed += record.result ? 0 : 1;
+    device.reset_state();
+  }
+  RecordProperty("tried", tried);
+  RecordProperty("failed", failed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cable, BadCableUpload,
+                         testing::Values(BadCable::Fault::cut, BadCable::Fault::corrupt, BadCable::Fault::duplicate,
+                                         BadCable::Fault::stall));
+
 TEST(Upload, CommitIsNeverSentTwiceBlindly) {
   Device device;
   auto machine = open(device.profile());
@@ -249,6 +291,20 @@ TEST(Upload, APymodbusPeerTakesTheTable) {
   const auto back = upload_words(*machine, record.old_words, {}, {});
   ASSERT_TRUE(back.result) << text_of(back.result);
   EXPECT_EQ(read_active(*machine)->words, (std::vector<std::uint16_t>{1, 0}));
+}
+
+TEST(Upload, NpmPeersTakeTheTable) {
+  int tried = 0;
+  for (const char* package : {"modbus-serial", "jsmodbus"}) {
+    const Peer peer({}, package);
+    if (!peer.running()) continue;
+    ++tried;
+    auto machine = open(*read_profile(peer.profile_file()));
+    const auto record = upload_table(*machine, sample(), {}, {});
+    ASSERT_TRUE(record.result) << package << ": " << text_of(record.result);
+    EXPECT_EQ(read_active(*machine)->words, record.new_words) << package;
+  }
+  if (tried == 0) GTEST_SKIP() << "neither npm modbus-serial nor jsmodbus is found through NODE_PATH";
 }
 
 TEST(Upload, OverASerialLine) {
