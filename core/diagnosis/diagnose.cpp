@@ -94,7 +94,11 @@ class Diagnoser {
     m_facts = facts_of(m_machine, recording());
     const bool lumps_only = std::all_of(m_machine.components.begin(), m_machine.components.end(),
                                         [](const auto& component) { return component.lump; });
-    if (lumps_only) m_limits.most_effects = 5;
+    // Few parts, long chains of small effects: evidence alone decides.
+    if (lumps_only) {
+      m_limits.most_effects = 5;
+      m_limits.excess_must_fall = false;
+    }
   }
 
   /// The slow discrepancy is as large as the evidence says: with the default an imperfect model looks certain of
@@ -104,7 +108,7 @@ class Diagnoser {
     if (excess.largest <= 3.0) return {};
     double best_factor = 1.0;
     double best_evidence = m_selection.best->log_evidence_total();
-    for (const double factor : {2.0, 4.0, 8.0, 16.0}) {
+    for (const double factor : {2.0, 4.0, 8.0, 16.0, 32.0}) {
       Model wider(m_selection.best->machine(), std::make_shared<Dataset>(with_drift(*m_default_data, factor)));
       wider.start_from(*m_selection.best, false);
       wider.fit({12, 0.05, true});
@@ -113,10 +117,9 @@ class Diagnoser {
       best_factor = factor;
     }
     if (best_factor == 1.0) return {};
-    m_default_base_excess = excess_of(*m_selection.base);
     m_out.drift_factor = best_factor;
     m_data = std::make_shared<Dataset>(with_drift(*m_default_data, best_factor));
-    ZD_TRY(m_selection, select_effects(m_machine, m_data, m_facts, m_limits, m_context));
+    ZD_TRY(m_selection, reconsider(m_selection, m_data, m_facts, m_limits, m_context));
     return {};
   }
 
@@ -133,7 +136,7 @@ class Diagnoser {
       m_used = m_selection.base;
     } else {
       const double share = 1.0 - (after.largest - 1.0) / std::max(1e-9, before.largest - 1.0);
-      const bool poor = after.largest > 3.0 && share < 0.97;
+      const bool poor = after.largest > 3.0 && share < 0.95;
       m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
       // A wrong effect can worsen the prediction of another run: it is used only if it really helps.
       const bool helps = after.mean < 0.7 * before.mean;
@@ -340,19 +343,29 @@ class Diagnoser {
 
   void rivals() {
     if (m_out.verdict != Verdict::missing_effect || m_selection.effects().empty()) return;
-    const std::size_t size = m_selection.best->machine().effects.size();
     const double best = m_selection.best->log_evidence();
     const double margin = std::max(8.0, 0.02 * (best - m_selection.base->log_evidence()));
-    std::map<std::string, std::shared_ptr<Model>> families;
-    for (const auto& level : m_selection.levels) {
-      for (const auto& fit : level) {
-        if (fit->machine().effects.size() != size || fit == m_selection.best) continue;
-        const std::string& id = fit->machine().effects.back().id;
-        const bool own = std::any_of(m_out.effects.begin(), m_out.effects.end(), [&](auto& e) { return e.id == id; });
-        if (own || best - fit->log_evidence() > margin) continue;
-        auto& kept = families[id];
-        if (kept == nullptr || fit->log_evidence() > kept->log_evidence()) kept = fit;
+    std::vector<std::shared_ptr<Model>> others;
+    const bool one_by_one = m_options.details && (m_out.effects.size() > 1 || m_out.drift_factor > 1.0);
+    if (one_by_one) {
+      for (const std::size_t index : m_selection.effects()) {
+        for (auto& fit : rivals_of(*m_selection.best, index, m_facts)) others.push_back(std::move(fit));
       }
+    } else {
+      const std::size_t size = m_selection.best->machine().effects.size();
+      for (const auto& level : m_selection.levels) {
+        for (const auto& fit : level) {
+          if (fit->machine().effects.size() == size && fit != m_selection.best) others.push_back(fit);
+        }
+      }
+    }
+    std::map<std::string, std::shared_ptr<Model>> families;
+    for (const auto& fit : others) {
+      const std::string& id = fit->machine().effects.back().id;
+      const bool own = std::any_of(m_out.effects.begin(), m_out.effects.end(), [&](auto& e) { return e.id == id; });
+      if (own || best - fit->log_evidence() > margin) continue;
+      auto& kept = families[id];
+      if (kept == nullptr || fit->log_evidence() > kept->log_evidence()) kept = fit;
     }
     for (const auto& [id, fit] : families) {
       Rival rival;
@@ -434,7 +447,6 @@ class Diagnoser {
   DataPtr m_data, m_default_data;
   physics::RunFacts m_facts;
   Selection m_selection;
-  Excess m_default_base_excess;
   std::shared_ptr<Model> m_used;
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;

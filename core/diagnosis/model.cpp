@@ -8,12 +8,14 @@ namespace zerodrift::diagnosis {
 
 using Eigen::Index;
 
-Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data)
+Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool own_start_only)
     : m_machine(std::move(machine)), m_data(std::move(data)) {
   m_network = physics::build_network(m_machine, *m_data->recording);
   m_inputs = physics::make_inputs(m_network, *m_data->recording);
   for (std::size_t p = 0; p < m_network.parameters.size(); ++p) {
-    if (m_network.parameters[p].sigma > 0.0) m_free.push_back(static_cast<int>(p));
+    const physics::Parameter& parameter = m_network.parameters[p];
+    const bool fixed = own_start_only && !parameter.per_recording;
+    if (parameter.sigma > 0.0 && !fixed) m_free.push_back(static_cast<int>(p));
   }
   const Index n = static_cast<Index>(m_free.size());
   m_z.setZero(n);
@@ -206,7 +208,9 @@ std::vector<double> block_excess(const Dataset& data, const Eigen::VectorXd& res
   std::vector<double> excess(data.channels.size(), 0.0);
   if (data.rows() < 8) return excess;
   const double period_s = (data.time_s.back() - data.time_s.front()) / static_cast<double>(data.rows() - 1);
-  const std::size_t block = std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(900.0 / period_s)));
+  // Short runs have fewer minutes in a block, so that there are blocks to compare.
+  const double block_s = std::min(900.0, 0.1 * (data.time_s.back() - data.time_s.front()));
+  const std::size_t block = std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(block_s / period_s)));
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
     double sum = 0.0;
     int blocks = 0;

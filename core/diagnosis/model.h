@@ -22,7 +22,8 @@ struct FitOptions {
 class Model {
  public:
   /// The machine's effects with `candidate` set are the hypothesis.
-  Model(physics::Machine machine, std::shared_ptr<const Dataset> data);
+  /// `own_start_only`: only what is new in each recording (room, start temperatures, offsets) is free.
+  Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool own_start_only = false);
 
   const physics::Machine& machine() const { return m_machine; }
   const physics::Network& network() const { return m_network; }

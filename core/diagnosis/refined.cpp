@@ -1,5 +1,6 @@
 #include "core/diagnosis/refined.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace zerodrift::diagnosis {
@@ -32,6 +33,16 @@ void take(Machine& machine, const physics::Parameter& p, double value) {
       coupling.conductance_W_K = value;
     }
   }
+}
+
+/// A room that nobody logged is new in each recording and has to be estimated from it, with the start and the offsets.
+physics::Prediction predict_with_own_room(const Machine& refined, const recording::Recording& recording,
+                                          const physics::Network& network, const physics::InputSet& inputs) {
+  Dataset data = make_dataset(recording, network);
+  set_timing_noise(data, network, inputs);
+  Model own(refined, std::make_shared<Dataset>(with_drift(std::move(data), 4.0)), true);
+  own.fit({});
+  return own.prediction();
 }
 
 }  // namespace
@@ -71,6 +82,10 @@ Machine refined_machine(const Model& model) {
 physics::Prediction predict_other(const Machine& refined, const recording::Recording& recording) {
   const physics::Network network = physics::build_network(refined, recording);
   const physics::InputSet inputs = physics::make_inputs(network, recording);
+  const auto& notes = network.notes;
+  if (std::find(notes.begin(), notes.end(), "room_is_initial_temperature") != notes.end()) {
+    return predict_with_own_room(refined, recording, network, inputs);
+  }
   std::vector<double> values = network.start_values();
   values[network.hold_parameter] = network.parameters[network.hold_parameter].mean;
   physics::Prediction prediction = predict(network, inputs, values);

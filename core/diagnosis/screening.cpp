@@ -63,6 +63,17 @@ bool conflicts(const Machine& machine, const EffectSpec& have, const EffectSpec&
   return true;
 }
 
+/// What cannot be there without a plain film is not offered before one is in the model.
+bool premature(const Machine& machine, const EffectSpec& spec) {
+  static constexpr std::string_view refinements[] = {"radiation", "speed_convection", "draught", "casting_core"};
+  if (std::find(std::begin(refinements), std::end(refinements), spec.id) == std::end(refinements)) return false;
+  const std::string component = spec.word_or("component", "");
+  return std::none_of(machine.effects.begin(), machine.effects.end(), [&](const EffectSpec& have) {
+    const std::string other = have.word_or("component", "");
+    return have.id == "convection" && (component.empty() || other.empty() || component == other);
+  });
+}
+
 /// A form that replaces part of the network cannot stand beside its rivals in one simulation.
 bool stands_alone(const EffectSpec& spec) {
   return spec.id == "heater_body";
@@ -193,7 +204,7 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts)
     for (auto& spec : effect->candidates(base.machine(), facts)) {
       const bool taken = std::any_of(base.machine().effects.begin(), base.machine().effects.end(),
                                      [&](const EffectSpec& have) { return conflicts(base.machine(), have, spec); });
-      if (taken || !measured(spec)) continue;
+      if (taken || !measured(spec) || premature(base.machine(), spec)) continue;
       if (stands_alone(spec)) {
         alone.push_back({Candidate{std::move(spec), 0, 0, {}}});
       } else {

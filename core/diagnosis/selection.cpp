@@ -118,6 +118,27 @@ class Selector {
     return m_result;
   }
 
+  Result<Selection> again(const Selection& selection, const std::shared_ptr<const Dataset>& data) {
+    m_result.described = selection.described;
+    m_result.screened = selection.screened;
+    m_result.base = std::make_shared<Model>(selection.base->machine(), data);
+    m_result.base->start_from(*selection.base, false);
+    m_result.base->fit({});
+    m_result.best = std::make_shared<Model>(selection.best->machine(), data);
+    m_result.best->start_from(*selection.best, false);
+    m_result.best->fit({20, 0.05, true});
+    if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+    eliminate();
+    for (int round = 0; round < 2 && swap_one(); ++round) {
+    }
+    // The last effect of all is judged against none.
+    const double gained = m_result.best->log_evidence() - m_result.base->log_evidence();
+    if (m_result.best->machine().effects.size() == m_result.described + 1 && gained <= m_options.first) {
+      m_result.best = m_result.base;
+    }
+    return m_result;
+  }
+
  private:
   /// The two best first effects of different families.
   std::vector<ModelPtr> beam_of(const std::vector<ModelPtr>& first) const {
@@ -129,6 +150,17 @@ class Selector {
       if (beam.size() == 2) break;
     }
     return beam;
+  }
+
+  /// Another family in the place of one effect, where it is clearly better.
+  bool swap_one() {
+    for (std::size_t i = m_result.described; i < m_result.best->machine().effects.size(); ++i) {
+      const auto rivals = rivals_of(*m_result.best, i, m_facts);
+      if (rivals.empty() || rivals.front()->log_evidence() < m_result.best->log_evidence() + 3.0) continue;
+      m_result.best = rivals.front();
+      return true;
+    }
+    return false;
   }
 
   void add_one(const std::vector<ModelPtr>& beam) {
@@ -155,6 +187,7 @@ class Selector {
     if (before.largest < 1.6) return gained > m_options.second_clean;
     const double so_far = m_result.best->log_evidence() - m_result.base->log_evidence();
     if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
+    if (!m_options.excess_must_fall) return true;
     const Excess after = excess_of(fit);
     return after.largest - 1.0 < 0.6 * (before.largest - 1.0) || after.mean - 1.0 < 0.6 * (before.mean - 1.0);
   }
@@ -203,6 +236,22 @@ std::vector<std::size_t> Selection::effects() const {
   std::vector<std::size_t> list;
   for (std::size_t i = described; i < best->machine().effects.size(); ++i) list.push_back(i);
   return list;
+}
+
+Result<Selection> reconsider(const Selection& selection, std::shared_ptr<const Dataset> data,
+                             const physics::RunFacts& facts, const SelectionOptions& options,
+                             const TaskContext& context) {
+  return Selector(facts, options, context).again(selection, data);
+}
+
+std::vector<std::shared_ptr<Model>> rivals_of(const Model& best, std::size_t effect, const physics::RunFacts& facts) {
+  const ModelPtr without = reduced(best, effect);
+  without->fit({10, 0.05, true});
+  std::vector<Candidate> screened = screen(*without, facts);
+  const std::string& own = best.machine().effects[effect].id;
+  std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
+  if (screened.size() > 40) screened.resize(40);
+  return refine(without, screened, {1, 6.0, 6});
 }
 
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,

@@ -16,6 +16,7 @@ struct SelectionOptions {
   double second = 25;         // a second effect where it does
   double second_relative = 0.002;
   int most_effects = 3;
+  bool excess_must_fall = true;  // a second effect must also remove much of what is slow in some channel
 };
 
 struct Excess {
@@ -38,5 +39,12 @@ struct Selection {
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,
                                  const physics::RunFacts& facts, const SelectionOptions& options,
                                  const TaskContext& context);
+
+/// The same effects under other noise: refitted, and dropped where that noise no longer asks for them.
+Result<Selection> reconsider(const Selection& selection, std::shared_ptr<const Dataset> data,
+                             const physics::RunFacts& facts, const SelectionOptions& options,
+                             const TaskContext& context);
+/// Rivals of one effect: the best other families in its place, fitted, best first.
+std::vector<std::shared_ptr<Model>> rivals_of(const Model& best, std::size_t effect, const physics::RunFacts& facts);
 
 }  // namespace zerodrift::diagnosis

@@ -469,8 +469,13 @@ void NetworkBuilder::add_couplings() {
       g.logarithmic = true;
       g.sigma = m_machine.tolerances.conductance;
     } else {
-      g.low = 0.0;
-      g.sigma = 2.0;
+      // Unknown: somewhere around a time constant of an hour and a half, a factor of five either way.
+      const Component& inner = first.prescribed ? second : first;
+      const double capacity_J_K = inner.heat_capacity_J_K.value_or(stand_in_capacity_J_K);
+      g.mean = g.start = capacity_J_K / 5000.0;
+      g.logarithmic = true;
+      g.sigma = 1.6;
+      m_network.notes.push_back("conductance_unknown:" + g.component);
     }
     Term term;
     term.label = g.component;
@@ -563,41 +568,6 @@ void NetworkBuilder::add_displacements() {
   }
 }
 
-/// Where films act, the ends lose heat too; how much, the data say (0 in the nominal simulation).
-void NetworkBuilder::add_end_loss() {
-  const EffectSpec* convection = m_machine.effect("convection");
-  if (convection == nullptr || convection->candidate) return;
-  for (const auto& component : m_machine.components) {
-    if (component.lump) continue;
-    Parameter h;
-    h.key = "end_film_W_m2K";
-    h.component = component.id;
-    h.low = 0.0;
-    h.sigma = 0.7 * std::max(1.0, convection->number_or("h_W_m2K", 10.0));
-    h.high = 8.0 * h.sigma;
-    h.start = h.mean = 0.0;
-    const int parameter = add_parameter(h);
-    const auto at = place(component.id);
-    for (const int node : {at.first, at.first + at.count - 1}) {
-      Term term;
-      term.kind = TermKind::film;
-      term.law_kind = LawKind::constant;
-      term.label = component.id + "/end";
-      term.first_node = node;
-      term.weights = {component.section_m2()};
-      term.environment = room();
-      term.parameters = {parameter};
-      term.law = [](const LawPoint& point) {
-        Strength s;
-        s.value = point.values[0];
-        s.by_parameter[0] = 1.0;
-        return s;
-      };
-      add(std::move(term));
-    }
-  }
-}
-
 void NetworkBuilder::build() {
   m_initial_C = initial_temperatures(m_machine, m_inputs);
   double sum = 0.0;
@@ -622,7 +592,6 @@ void NetworkBuilder::build() {
   }
   add_sources();
   add_couplings();
-  add_end_loss();
 }
 
 Network build_network(const Machine& machine, const recording::Recording& inputs, const BuildOptions& options) {

@@ -77,7 +77,6 @@ class NetworkBuilder {
   void add_couplings();
   void add_sensors();
   void add_displacements();
-  void add_end_loss();
 
   const Machine& m_machine;
   const recording::Recording& m_inputs;

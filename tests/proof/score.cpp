@@ -157,7 +157,16 @@ int main(int argc, char** argv) {
           fmt::format("{}{}{} [{:.2f}, {:.0f}] ", e.id, e.channel.empty() ? "" : "(" + e.channel + ")",
                       e.position_mm ? fmt::format("@{:.0f}", *e.position_mm) : "", e.confidence, e.log_evidence_gain);
     }
-    std::string rivals;
+    double in = 0, held = 0, rise = 0;
+    int channels = 0;
+    for (const auto& c : d->channels) {
+      if (!c.temperature) continue;
+      in += c.rms_explained;
+      held += d->held_out[0].explained.at(c.channel);
+      rise = std::max(rise, *std::max_element(c.explained.begin(), c.explained.end()) - c.explained.front());
+      ++channels;
+    }
+    std::string rivals = fmt::format("rise {:.0f} K in {:.3f} held {:.3f} | ", rise, in / channels, held / channels);
     for (const auto& r : d->ambiguous_with) rivals += fmt::format("{}({:.1f}) ", r.id, r.behind);
     fmt::print("{:5} {:<40} -> {:<14} {:<50} a {:.2f}->{:.2f} f{} ch {} ({}) {:.1f} s | {}\n",
                seed + static_cast<std::uint64_t>(i), one.hidden.empty() ? "none" : truth,

@@ -5,6 +5,32 @@
 namespace zerodrift::physics {
 namespace {
 
+/// Where a film acts the ends lose heat too; how much, the data say (0 unless the description knows it).
+void add_end_loss(NetworkBuilder& builder, const Component& component, const EffectSpec& spec, int index) {
+  Parameter h;
+  h.key = "end_h_W_m2K";
+  h.component = component.id;
+  h.effect = index;
+  h.low = 0.0;
+  h.sigma = spec.candidate ? 10.0 : 0.7 * std::max(1.0, spec.number_or("h_W_m2K", 10.0));
+  h.high = 8.0 * h.sigma;
+  h.start = spec.number_or(h.key, 0.0);
+  const int parameter = builder.add_parameter(h);
+  const auto at = builder.place(component.id);
+  for (const int node : {at.first, at.first + at.count - 1}) {
+    Term term;
+    term.kind = TermKind::film;
+    term.law_kind = LawKind::constant;
+    term.label = component.id + "/end";
+    term.first_node = node;
+    term.weights = {component.section_m2()};
+    term.environment = builder.room();
+    term.parameters = {parameter};
+    term.law = proportional_law;
+    builder.add(std::move(term));
+  }
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
   const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
@@ -18,6 +44,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     film.parameters = {strength};
     film.law = proportional_law;
     builder.add(std::move(film));
+    if (!component.lump) add_end_loss(builder, component, spec, index);
   });
 }
 
