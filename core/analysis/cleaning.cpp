@@ -9,10 +9,8 @@
 namespace zerodrift::analysis {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 double median_of(std::vector<double> values) {
-  if (values.empty()) return missing;
+  if (values.empty()) return missing_sample;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -35,7 +33,7 @@ double start_value(const std::vector<double>& values) {
 /// First row of the stretch of equal or missing samples that the series ends with.
 std::size_t frozen_from(const std::vector<double>& values) {
   std::size_t from = values.size();
-  double last = missing;
+  double last = missing_sample;
   for (std::size_t i = values.size(); i-- > 0;) {
     if (std::isfinite(values[i])) {
       if (std::isfinite(last) && values[i] != last) break;
@@ -50,7 +48,7 @@ std::size_t frozen_from(const std::vector<double>& values) {
 bool is_noisy(const std::vector<double>& values, std::size_t end) {
   int moves = 0;
   int steps = 0;
-  double last = missing;
+  double last = missing_sample;
   for (std::size_t i = 0; i < end; ++i) {
     if (!std::isfinite(values[i])) continue;
     if (std::isfinite(last)) {
@@ -66,7 +64,7 @@ bool is_noisy(const std::vector<double>& values, std::size_t end) {
 
 int remove_spikes(std::vector<double>& values) {
   for (double& v : values) {
-    if (!std::isfinite(v)) v = missing;
+    if (!std::isfinite(v)) v = missing_sample;
   }
   constexpr int reach = 5;
   constexpr double smallest_spike_K = 0.8;
@@ -85,7 +83,7 @@ int remove_spikes(std::vector<double>& values) {
     for (const double v : around) deviation.push_back(std::abs(v - middle));
     const double sigma = 1.4826 * median_of(std::move(deviation));
     if (std::abs(original[i] - middle) > std::max(6.0 * sigma, smallest_spike_K)) {
-      values[i] = missing;
+      values[i] = missing_sample;
       ++removed;
     }
   }

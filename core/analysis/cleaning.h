@@ -1,6 +1,7 @@
 #pragma once
 // Faults of one temperature series: found, named, repaired where that is honest.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "core/analysis/findings.h"
 
 namespace zerodrift::analysis {
+
+inline constexpr double missing_sample = std::numeric_limits<double>::quiet_NaN();
 
 /// Infinite becomes missing; isolated spikes (Hampel 1974: far from the median of the neighbours, in units of their
 /// median absolute deviation) become missing. Returns how many spikes there were.

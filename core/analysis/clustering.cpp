@@ -175,6 +175,9 @@ Result<ClusterAnalysis> cluster(const recording::Recording& recording, const Clu
   if (options.stability) out.stability = stability_of(items, out.clustering, first, options.seed);
   describe_sensors(items, pc, series, out);
   mark_sensitive(series, out);
+  for (const int s : spread_of(series.temperature_C)) {
+    out.spread_order.push_back(data.sensors[static_cast<std::size_t>(s)]);
+  }
   out.merges = dendrogram(items);
   context.progress(1.0, "clustering");
   return out;

@@ -5,6 +5,7 @@
 // clusters.json ("zerodrift-clusters/1"):
 //   recording, errors [names], distance "raw|rise|standardised", seed, seed_sensor, iterations, inertia,
 //   criterion {used "signed|absolute", why}, sensitive_points [one a cluster], sensitive_points_signed, ..._absolute,
+//   spread_order (all sensors, each saying most that those before it do not: its first five suit a static model),
 //   clusters [{id from 1, sensors, sensitive_point, silhouette}],
 //   sensors [{sensor, cluster, sensitive, correlation {error: r}, sum, sum_absolute, lag_s {error: s}, vif, silhouette,
 //             range_K, pc [first, second principal component]}],
@@ -75,6 +76,7 @@ struct ClusterAnalysis {
   std::vector<std::string> sensitive_points;  // one for each cluster, in cluster order
   std::vector<std::string> sensitive_points_signed;
   std::vector<std::string> sensitive_points_absolute;
+  std::vector<std::string> spread_order;  // sensors, each saying most that those before it do not (statistics.h)
   CountSuggestion suggestion;
   double stability = 0.0;
   std::vector<double> explained;

@@ -68,6 +68,7 @@ nlohmann::json to_json(const ClusterAnalysis& analysis) {
           {"sensitive_points", analysis.sensitive_points},
           {"sensitive_points_signed", analysis.sensitive_points_signed},
           {"sensitive_points_absolute", analysis.sensitive_points_absolute},
+          {"spread_order", analysis.spread_order},
           {"clusters", clusters_json(analysis)},
           {"sensors", std::move(sensors)},
           {"suggested_clusters",

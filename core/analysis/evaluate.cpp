@@ -7,26 +7,26 @@
 #include <cmath>
 #include <limits>
 
+#include "core/analysis/cleaning.h"
+
 namespace zerodrift::analysis {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 /// Textbook multiple linear regression in the clothes of the other methods.
-RidgeFit multiple_linear(const Rows& rows) {
+RidgeFit multiple_linear(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   RidgeFit fit;
-  const auto n = static_cast<double>(rows.size());
-  fit.mean = rows.x.colwise().mean().transpose();
-  Eigen::MatrixXd z = rows.x.rowwise() - fit.mean.transpose();
+  const auto n = static_cast<double>(y.size());
+  fit.mean = x.colwise().mean().transpose();
+  Eigen::MatrixXd z = x.rowwise() - fit.mean.transpose();
   fit.scale = (z.colwise().squaredNorm().transpose() / n).cwiseSqrt();
   for (double& s : fit.scale) {
     if (!(s > 1e-9)) s = 1e9;
   }
   z = z * fit.scale.cwiseInverse().asDiagonal();
-  fit.intercept = rows.y.mean();
-  const LeastSquares solution = least_squares(z, Eigen::VectorXd(rows.y.array() - fit.intercept));
+  fit.intercept = y.mean();
+  const LeastSquares solution = least_squares(z, Eigen::VectorXd(y.array() - fit.intercept));
   fit.beta = solution.coefficient;
-  const double residual = (rows.y.array() - fit.intercept - (z * fit.beta).array()).matrix().squaredNorm();
+  const double residual = (y.array() - fit.intercept - (z * fit.beta).array()).matrix().squaredNorm();
   fit.sigma_um = std::sqrt(residual / std::max(n - static_cast<double>(z.cols()) - 1.0, 1.0));
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(z, Eigen::ComputeThinV);
   const Eigen::ArrayXd s = svd.singularValues().array();
@@ -76,53 +76,89 @@ Recipe make_recipe(Method method, const std::vector<std::string>& sensors, const
   return recipe;
 }
 
-Result<RidgeFit> fit_rows(const Rows& rows, Method method, double duration_s) {
+Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const std::vector<int>& samples) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(samples.size()), static_cast<Eigen::Index>(group.errors.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t e = 0; e < group.errors.size(); ++e) {
+      out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(e)) = set.error_um(samples[i], group.errors[e]);
+    }
+  }
+  return out;
+}
+
+Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, Method method,
+                                       double duration_s) {
   const Eigen::Index needed = method == Method::mlr ? rows.x.cols() + 2 : 6;
   if (rows.size() < needed) {
     return fail(ErrorCode::not_enough_data, {{"what", "the regression"},
                                              {"found", fmt::format("{} measurements", rows.size())},
                                              {"needed", fmt::format("at least {}", needed)}});
   }
-  return method == Method::mlr ? multiple_linear(rows) : fit_ridge(rows, default_choice(duration_s));
+  if (method != Method::mlr) return fit_ridge(rows, errors_um, default_choice(duration_s));
+  std::vector<RidgeFit> fits;
+  for (Eigen::Index e = 0; e < errors_um.cols(); ++e) fits.push_back(multiple_linear(rows.x, errors_um.col(e)));
+  return fits;
 }
+
+namespace {
+
+/// Residuals of the left-out samples of one error, for its band.
+struct BandData {
+  std::vector<FoldResult> folds;
+  std::vector<double> deviations;
+  std::vector<double> studentised;
+};
+
+/// Leaves one fold out of one group of errors and predicts it.
+Status leave_out(const TrainingSet& set, const Recipe& recipe, const Eigen::MatrixXd& x, const ErrorGroup& group,
+                 int fold, Evaluation& out, std::vector<BandData>& bands) {
+  std::vector<int> in;
+  std::vector<int> left_out;
+  for (const int s : group.samples) {
+    (set.folds.fold_of[static_cast<std::size_t>(s)] == fold ? left_out : in).push_back(s);
+  }
+  if (left_out.empty()) return {};
+  Rows train = rows_of(set, x, in, group.errors.front());
+  Rows test = rows_of(set, x, left_out, group.errors.front());
+  ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(train, errors_at(set, group, in), recipe.method, set.duration_s()));
+  for (std::size_t g = 0; g < group.errors.size(); ++g) {
+    const Eigen::Index e = group.errors[g];
+    train = rows_of(set, x, in, e);
+    test = rows_of(set, x, left_out, e);
+    const Eigen::VectorXd predicted =
+        recipe.method == Method::dynamic ? predict_left_out(fits[g], train, test) : fits[g].predict(test.x);
+    const Eigen::VectorXd deviation = fits[g].deviation(test.x);
+    BandData& band = bands[static_cast<std::size_t>(e)];
+    for (Eigen::Index i = 0; i < test.size(); ++i) {
+      out.predicted_um(left_out[static_cast<std::size_t>(i)], e) = predicted(i);
+      band.deviations.push_back(deviation(i));
+      band.studentised.push_back(std::abs(test.y(i) - predicted(i)) / std::max(deviation(i), 1e-9));
+      band.folds[static_cast<std::size_t>(fold)].studentised.push_back(band.studentised.back());
+    }
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double coverage, const TaskContext& context) {
   ZD_TRY(const Eigen::MatrixXd x, design(set, recipe.features));
   Evaluation out;
-  out.predicted_um = Eigen::MatrixXd::Constant(set.error_um.rows(), set.error_um.cols(), missing);
-  for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
-    std::vector<int> which;
-    const Rows rows = rows_of(set, x, e, which);
-    std::vector<FoldResult> folds(static_cast<std::size_t>(set.folds.count));
-    std::vector<double> deviations;
-    std::vector<double> studentised;
+  out.predicted_um = Eigen::MatrixXd::Constant(set.error_um.rows(), set.error_um.cols(), missing_sample);
+  std::vector<BandData> bands(set.errors.size());
+  for (auto& b : bands) b.folds.resize(static_cast<std::size_t>(set.folds.count));
+  for (const auto& group : error_groups(set)) {
     for (int k = 0; k < set.folds.count; ++k) {
       if (context.cancelled()) return fail(ErrorCode::cancelled);
-      std::vector<int> in;
-      std::vector<int> left_out;
-      for (std::size_t i = 0; i < which.size(); ++i) {
-        const bool out_now = set.folds.fold_of[static_cast<std::size_t>(which[i])] == k;
-        (out_now ? left_out : in).push_back(static_cast<int>(i));
-      }
-      if (left_out.empty()) continue;
-      const Rows train = pick(rows, in);
-      const Rows test = pick(rows, left_out);
-      ZD_TRY(const RidgeFit fit, fit_rows(train, recipe.method, set.duration_s()));
-      const Eigen::VectorXd predicted =
-          recipe.method == Method::dynamic ? predict_left_out(fit, train, test) : fit.predict(test.x);
-      const Eigen::VectorXd deviation = fit.deviation(test.x);
-      for (Eigen::Index i = 0; i < test.size(); ++i) {
-        const int sample = which[static_cast<std::size_t>(left_out[static_cast<std::size_t>(i)])];
-        out.predicted_um(sample, e) = predicted(i);
-        deviations.push_back(deviation(i));
-        studentised.push_back(std::abs(test.y(i) - predicted(i)) / std::max(deviation(i), 1e-9));
-        folds[static_cast<std::size_t>(k)].studentised.push_back(studentised.back());
-      }
+      ZD_CHECK(leave_out(set, recipe, x, group, k, out, bands));
     }
-    out.held_out.push_back(residual_figures(set.error_um.col(e), out.predicted_um.col(e)));
-    out.bands.push_back(band_of(folds, deviations, studentised, coverage, set.folds.cycles));
-    out.rms_um += out.held_out.back().rms_um / static_cast<double>(set.error_um.cols());
-    out.peak_um += out.held_out.back().peak_um / static_cast<double>(set.error_um.cols());
+  }
+  for (std::size_t e = 0; e < set.errors.size(); ++e) {
+    const auto column = static_cast<Eigen::Index>(e);
+    out.held_out.push_back(residual_figures(set.error_um.col(column), out.predicted_um.col(column)));
+    out.bands.push_back(band_of(bands[e].folds, bands[e].deviations, bands[e].studentised, coverage, set.folds.cycles));
+    out.rms_um += out.held_out.back().rms_um / static_cast<double>(set.errors.size());
+    out.peak_um += out.held_out.back().peak_um / static_cast<double>(set.errors.size());
   }
   return out;
 }

@@ -26,8 +26,11 @@ struct Evaluation {
   double peak_um = 0.0;          // mean over the errors
 };
 
-/// One error with the given method. Fewer rows than mlr needs is not_enough_data.
-Result<RidgeFit> fit_rows(const Rows& rows, Method method, double duration_s);
+/// Every error of a group (one column each) with the given method. Too few rows for it is not_enough_data.
+Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, Method method,
+                                       double duration_s);
+/// The errors of a group at some of its samples, one column each.
+Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const std::vector<int>& samples);
 
 Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double coverage,
                             const TaskContext& context = {});

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/analysis/clustering.h"
+#include "core/analysis/budget.h"
 #include "core/analysis/evaluate.h"
 #include "core/analysis/training.h"
 
@@ -22,35 +22,38 @@ struct Trial {
   Candidate summary;
 };
 
-std::vector<std::string> sensitive_points(const std::vector<recording::Recording>& recordings, const TrainingSet& set) {
-  ClusterOptions options;
-  options.errors = set.errors;
-  options.clusters = 0;
-  options.stability = false;
-  options.suggest = false;
-  options.clusters = std::min<int>(5, static_cast<int>(set.runs.front().sensors.size()));
-  const auto clusters = cluster(recordings.front(), options);
-  if (!clusters) return set.sensors;
-  std::vector<std::string> out;
-  for (const auto& sensor : set.sensors) {
-    const auto& points = clusters->sensitive_points;
-    if (std::find(points.begin(), points.end(), sensor) != points.end()) out.push_back(sensor);
-  }
-  return out.empty() ? set.sensors : out;
+/// How many sensors a static model gets when nobody says: as many as the published pipeline takes.
+constexpr std::size_t few_sensors = 5;
+
+std::vector<std::string> first_of(std::vector<std::string> names, std::size_t count) {
+  if (names.size() > count) names.resize(count);
+  return names;
 }
 
 /// From simple to complex: the order in which ties are broken.
-std::vector<Recipe> recipes(const std::vector<recording::Recording>& recordings, const FitOptions& options,
-                            const TrainingSet& set) {
-  std::vector<std::vector<std::string>> choices;
-  if (options.sensors.empty()) choices.push_back(sensitive_points(recordings, set));
-  if (choices.empty() || choices.front() != set.sensors) choices.push_back(set.sensors);
+std::vector<Recipe> recipes(const FitOptions& options, const TrainingSet& set) {
+  const bool choose_sensors = options.sensors.empty();
+  const auto most =
+      choose_sensors && options.max_sensors > 0 ? static_cast<std::size_t>(options.max_sensors) : set.sensors.size();
+  const auto best = [&](Method method, std::size_t count) {
+    return count < set.sensors.size() ? first_of(spread_order(set, method), count) : set.sensors;
+  };
+  const auto all = best(Method::ridge, most);
+  std::vector<std::vector<std::string>> choices{all};
+  if (choose_sensors && all.size() > few_sensors) choices.insert(choices.begin(), best(Method::ridge, few_sensors));
   const bool any = options.method == Method::automatic;
   std::vector<Recipe> out;
-  // The plain regression only on few sensors: on many it fits noise, and ridge is the same where there is none.
+  // Ridge first: on the controller it is as simple as the plain regression, and never worse for correlated sensors. The
+  // plain one is tried on few sensors only: on many it fits noise.
+  if (options.method != Method::mlr) {
+    for (const auto& sensors : choices) out.push_back(make_recipe(Method::ridge, sensors, set));
+  }
   if (any || options.method == Method::mlr) out.push_back(make_recipe(Method::mlr, choices.front(), set));
-  for (const auto& sensors : choices) out.push_back(make_recipe(Method::ridge, sensors, set));
-  if (any || options.method == Method::dynamic) out.push_back(make_recipe(Method::dynamic, set.sensors, set));
+  // One cycle cannot tell the answer to speed from the answer to time.
+  const bool can_judge_dynamics = set.folds.cycles >= 2;
+  if ((any && can_judge_dynamics) || options.method == Method::dynamic) {
+    out.push_back(make_recipe(Method::dynamic, best(Method::dynamic, most), set));
+  }
   return out;
 }
 
@@ -107,16 +110,24 @@ struct Fitted {
 Result<Fitted> fit_all(const TrainingSet& set, const Recipe& recipe) {
   ZD_TRY(const Eigen::MatrixXd x, design(set, recipe.features));
   Fitted out;
+  const std::size_t errors = set.errors.size();
+  out.regressions.resize(errors);
+  out.fit.resize(errors);
+  out.remembered_um.resize(errors);
   const int last_run = static_cast<int>(set.runs.size()) - 1;
-  for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
-    std::vector<int> which;
-    const Rows rows = rows_of(set, x, e, which);
-    ZD_TRY(RidgeFit regression, fit_rows(rows, recipe.method, set.duration_s()));
-    out.fit.push_back(residual_figures(rows.y, regression.predict(rows.x)));
-    out.remembered_um.push_back(recipe.method == Method::dynamic
-                                    ? remembered_um(regression, rows, set.runs.back().time_s.back(), last_run)
-                                    : 0.0);
-    out.regressions.push_back(std::move(regression));
+  for (const auto& group : error_groups(set)) {
+    Rows rows = rows_of(set, x, group.samples, group.errors.front());
+    ZD_TRY(std::vector<RidgeFit> fits,
+           fit_rows(rows, errors_at(set, group, group.samples), recipe.method, set.duration_s()));
+    for (std::size_t g = 0; g < fits.size(); ++g) {
+      const auto e = static_cast<std::size_t>(group.errors[g]);
+      rows.y = rows_of(set, x, group.samples, group.errors[g]).y;
+      out.fit[e] = residual_figures(rows.y, fits[g].predict(rows.x));
+      if (recipe.method == Method::dynamic) {
+        out.remembered_um[e] = remembered_um(fits[g], rows, set.runs.back().time_s.back(), last_run);
+      }
+      out.regressions[e] = std::move(fits[g]);
+    }
   }
   return out;
 }
@@ -305,7 +316,7 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
   prepare_options.errors = options.errors;
   ZD_TRY(const TrainingSet set, make_training(recordings, prepare_options));
   std::vector<Trial> trials;
-  const std::vector<Recipe> list = recipes(recordings, options, set);
+  const std::vector<Recipe> list = recipes(options, set);
   for (const auto& recipe : list) {
     context.progress(0.9 * static_cast<double>(trials.size()) / static_cast<double>(list.size()), "fitting");
     auto trial = try_out(set, recipe, options.coverage, context);

@@ -1,17 +1,19 @@
 #include "core/analysis/linear.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/analysis/statistics.h"
 
 namespace zerodrift::analysis {
 namespace {
 
 Eigen::MatrixXd noise_matrix(const NoiseModel& noise, const Rows& rows) {
-  const Eigen::Index n = rows.size();
+  const Eigen::Index n = rows.x.rows();
   Eigen::MatrixXd k = Eigen::MatrixXd::Identity(n, n);
   if (noise.memory_s <= 0.0) return k;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -25,45 +27,79 @@ Eigen::MatrixXd noise_matrix(const NoiseModel& noise, const Rows& rows) {
   return k;
 }
 
-/// The regression after the noise is made white and the intercept is taken out: features a, error y, in the singular
-/// basis of a, where every penalty is a division.
+/// The regression after the noise is made white and the intercept is taken out: features a, errors y, in the basis v of
+/// eigenvectors of a'a, where every penalty is a division.
 struct Whitened {
   Eigen::VectorXd ones;
-  Eigen::VectorXd y;
+  Eigen::MatrixXd y;  // one column an error
   Eigen::MatrixXd x;
-  Eigen::BDCSVD<Eigen::MatrixXd> svd;
-  Eigen::VectorXd uy;
-  double y_square = 0.0;
+  Eigen::MatrixXd v;
+  Eigen::ArrayXd square;  // eigenvalues
+  Eigen::MatrixXd vay;    // v'a'y
+  Eigen::VectorXd y_square;
   double log_determinant = 0.0;
   double ones_square = 0.0;
 };
 
-Whitened whiten(const NoiseModel& noise, const Rows& rows, const Eigen::MatrixXd& standardised) {
+Whitened whiten(const NoiseModel& noise, const Rows& rows, const Eigen::MatrixXd& standardised,
+                const Eigen::MatrixXd& errors_um) {
   Whitened w;
   const Eigen::LLT<Eigen::MatrixXd> cholesky(noise_matrix(noise, rows));
-  w.ones = cholesky.matrixL().solve(Eigen::VectorXd::Ones(rows.size()));
+  w.ones = cholesky.matrixL().solve(Eigen::VectorXd::Ones(rows.x.rows()));
   w.ones_square = w.ones.squaredNorm();
-  w.y = cholesky.matrixL().solve(rows.y);
+  w.y = cholesky.matrixL().solve(errors_um);
   w.x = cholesky.matrixL().solve(standardised);
   w.log_determinant = 2.0 * Eigen::MatrixXd(cholesky.matrixL()).diagonal().array().log().sum();
-  const Eigen::VectorXd y = w.y - w.ones * (w.ones.dot(w.y) / w.ones_square);
+  const Eigen::MatrixXd y = w.y - w.ones * ((w.ones.transpose() * w.y) / w.ones_square);
   const Eigen::MatrixXd a = w.x - w.ones * ((w.ones.transpose() * w.x) / w.ones_square);
-  w.svd.compute(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  w.uy = w.svd.matrixU().transpose() * y;
-  w.y_square = y.squaredNorm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a.transpose() * a);
+  w.v = eigen.eigenvectors();
+  // What rounding leaves of directions without any excitation counts as none.
+  w.square = eigen.eigenvalues().array().max(1e-13 * eigen.eigenvalues().maxCoeff());
+  w.vay = w.v.transpose() * (a.transpose() * y);
+  w.y_square = y.colwise().squaredNorm().transpose();
   return w;
 }
 
-double noise_variance(const Whitened& w, double penalty, Eigen::Index rows) {
-  const Eigen::ArrayXd shrink = 1.0 + w.svd.singularValues().array().square() / penalty;
-  const double outside = std::max(w.y_square - w.uy.squaredNorm(), 0.0);
-  return std::max((outside + (w.uy.array().square() / shrink).sum()) / static_cast<double>(rows - 1), 1e-20);
+double noise_variance(const Whitened& w, Eigen::Index error, double penalty) {
+  const double explained = (w.vay.col(error).array().square() / (w.square + penalty)).sum();
+  return std::max((w.y_square(error) - explained) / static_cast<double>(w.y.rows() - 1), 1e-20);
 }
 
-double log_likelihood(const Whitened& w, double penalty, Eigen::Index rows) {
-  const Eigen::ArrayXd shrink = 1.0 + w.svd.singularValues().array().square() / penalty;
-  return -0.5 * (static_cast<double>(rows - 1) * std::log(noise_variance(w, penalty, rows)) + shrink.log().sum() +
+double log_likelihood(const Whitened& w, Eigen::Index error, double penalty) {
+  const auto freedom = static_cast<double>(w.y.rows() - 1);
+  return -0.5 * (freedom * std::log(noise_variance(w, error, penalty)) + (1.0 + w.square / penalty).log().sum() +
                  w.log_determinant + std::log(w.ones_square));
+}
+
+/// Variance that white noise can have at most, from second differences of neighbouring rows (6 times its variance for
+/// white noise alone; a smooth error adds little). Robust against steps.
+double white_variance(const Rows& rows, const Eigen::VectorXd& y) {
+  std::vector<double> differences;
+  for (Eigen::Index i = 1; i + 1 < y.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (rows.run[at - 1] != rows.run[at + 1]) continue;
+    differences.push_back(std::abs(y(i - 1) - 2.0 * y(i) + y(i + 1)));
+  }
+  const double deviation = 1.4826 * median(std::move(differences));
+  return deviation * deviation / 6.0;
+}
+
+/// A noise model is out when it calls more of the residual white than neighbouring measurements can scatter.
+bool contradicts(const NoiseModel& noise, double variance, double largest_white) {
+  constexpr double generous = 4.0;
+  constexpr double always_allowed = 0.001;
+  if (noise.memory_s > 0.0 && noise.nugget <= always_allowed) return false;
+  return (noise.memory_s > 0.0 ? noise.nugget : 1.0) * variance > generous * largest_white;
+}
+
+/// Coefficients and their uncertainty, with the noise model and the penalty already chosen.
+void solve(const Whitened& w, Eigen::Index error, RidgeFit& fit) {
+  fit.beta = w.v * (w.vay.col(error).array() / (w.square + fit.penalty)).matrix();
+  fit.intercept = w.ones.dot(w.y.col(error) - w.x * fit.beta) / w.ones_square;
+  fit.sigma_um = std::sqrt(noise_variance(w, error, fit.penalty));
+  // Prior variance 1 / penalty, reduced in the directions that the run excited.
+  fit.covariance = w.v * (w.square + fit.penalty).inverse().matrix().asDiagonal() * w.v.transpose();
 }
 
 }  // namespace
@@ -121,47 +157,48 @@ RidgeChoice default_choice(double duration_s) {
   choice.noises.push_back({0.0, 0.0});
   for (const double hours : {0.5, 1.0, 2.0, 4.0, 8.0}) {
     if (hours * 3600.0 * 3.0 > duration_s && hours > 0.5) continue;
-    for (const double nugget : {0.01, 0.3}) choice.noises.push_back({hours * 3600.0, nugget});
+    for (const double nugget : {0.001, 0.01, 0.1}) choice.noises.push_back({hours * 3600.0, nugget});
   }
   for (int k = -8; k <= 8; ++k) choice.penalties.push_back(std::pow(10.0, 0.5 * k));
   return choice;
 }
 
-RidgeFit fit_ridge(const Rows& rows, const RidgeChoice& choice) {
-  RidgeFit fit;
-  const Eigen::Index n = rows.size();
-  fit.mean = rows.x.colwise().mean().transpose();
-  Eigen::MatrixXd z = rows.x.rowwise() - fit.mean.transpose();
-  fit.scale = (z.colwise().squaredNorm().transpose() / static_cast<double>(n)).cwiseSqrt();
-  for (double& s : fit.scale) {
+std::vector<RidgeFit> fit_ridge(const Rows& rows, const Eigen::MatrixXd& errors_um, const RidgeChoice& choice) {
+  const Eigen::Index n = rows.x.rows();
+  RidgeFit start;
+  start.mean = rows.x.colwise().mean().transpose();
+  Eigen::MatrixXd z = rows.x.rowwise() - start.mean.transpose();
+  start.scale = (z.colwise().squaredNorm().transpose() / static_cast<double>(n)).cwiseSqrt();
+  for (double& s : start.scale) {
     if (!(s > 1e-9)) s = 1e9;  // a feature that never moved says nothing about states where it does
   }
-  z = z * fit.scale.cwiseInverse().asDiagonal();
-  fit.likelihood = -std::numeric_limits<double>::infinity();
-  std::optional<Whitened> best;
+  z = z * start.scale.cwiseInverse().asDiagonal();
+  start.likelihood = -std::numeric_limits<double>::infinity();
+  std::vector<RidgeFit> fits(static_cast<std::size_t>(errors_um.cols()), start);
+  std::vector<double> white;
+  for (Eigen::Index e = 0; e < errors_um.cols(); ++e) white.push_back(white_variance(rows, errors_um.col(e)));
   for (const auto& noise : choice.noises) {
-    Whitened w = whiten(noise, rows, z);
-    bool better = false;
-    for (const double penalty : choice.penalties) {
-      const double likelihood = log_likelihood(w, penalty, n);
-      if (likelihood <= fit.likelihood) continue;
-      fit.likelihood = likelihood;
-      fit.penalty = penalty;
-      fit.noise = noise;
-      better = true;
+    const Whitened w = whiten(noise, rows, z, errors_um);
+    for (Eigen::Index e = 0; e < errors_um.cols(); ++e) {
+      RidgeFit& fit = fits[static_cast<std::size_t>(e)];
+      bool better = false;
+      for (const double penalty : choice.penalties) {
+        const double likelihood = log_likelihood(w, e, penalty);
+        if (likelihood <= fit.likelihood) continue;
+        if (contradicts(noise, noise_variance(w, e, penalty), white[static_cast<std::size_t>(e)])) continue;
+        fit.likelihood = likelihood;
+        fit.penalty = penalty;
+        fit.noise = noise;
+        better = true;
+      }
+      if (better) solve(w, e, fit);
     }
-    if (better) best.emplace(std::move(w));
   }
-  const Eigen::ArrayXd s = best->svd.singularValues().array();
-  const Eigen::MatrixXd& v = best->svd.matrixV();
-  fit.beta = v * (s / (s.square() + fit.penalty) * best->uy.array()).matrix();
-  fit.intercept = best->ones.dot(best->y - best->x * fit.beta) / best->ones_square;
-  fit.sigma_um = std::sqrt(noise_variance(*best, fit.penalty, n));
-  // Prior variance 1 / penalty, reduced in the directions that the run excited.
-  const Eigen::ArrayXd reduction = 1.0 / (s.square() + fit.penalty) - 1.0 / fit.penalty;
-  fit.covariance = v * reduction.matrix().asDiagonal() * v.transpose();
-  fit.covariance.diagonal().array() += 1.0 / fit.penalty;
-  return fit;
+  return fits;
+}
+
+RidgeFit fit_ridge(const Rows& rows, const RidgeChoice& choice) {
+  return fit_ridge(rows, rows.y, choice).front();
 }
 
 Eigen::VectorXd RidgeFit::predict(const Eigen::MatrixXd& x) const {

@@ -8,9 +8,9 @@
 // white or remembers: covariance sigma^2 (exp(-|dt| / memory) + nugget * delta), separate runs independent. Penalty and
 // noise model are those of the largest restricted likelihood (Patterson and Thompson 1971; the ridge penalty as the
 // prior variance of the coefficients): nothing is split off for choosing them, so a run of one cycle can be used too.
+// A noise model that calls more of the residual white than neighbouring measurements scatter is left out.
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 namespace zerodrift::analysis {
@@ -67,6 +67,8 @@ struct RidgeFit {
   Eigen::VectorXd deviation(const Eigen::MatrixXd& x) const;
 };
 RidgeFit fit_ridge(const Rows& rows, const RidgeChoice& choice);
+/// Several errors measured in the same rows, one column each (rows.y is not looked at): the costly part is shared.
+std::vector<RidgeFit> fit_ridge(const Rows& rows, const Eigen::MatrixXd& errors_um, const RidgeChoice& choice);
 
 /// What the slow noise still holds at time_s of a run, given residuals of earlier rows of the same run (best linear
 /// prediction). It fades as exp(-(t - time_s) / memory).

@@ -76,6 +76,15 @@ Frame frame_of(const Model& model, const Prepared& data, Zero asked) {
   return frame;
 }
 
+/// What the regression says at the very start, with every rise exactly 0: free of the noise of the first reading.
+double at_start_um(const Model& model, const ErrorModel& error, const Eigen::MatrixXd& x) {
+  Eigen::MatrixXd start = x.row(0);
+  for (std::size_t f = 0; f < model.features.size(); ++f) {
+    if (model.features[f].temperature) start(0, static_cast<Eigen::Index>(f)) = 0.0;
+  }
+  return error.regression.predict(start)(0);
+}
+
 void add_residual(const Recording& recording, PredictedError& predicted) {
   const recording::Channel* measured = recording.find(predicted.error);
   if (measured == nullptr || recording::present_count(*measured) == 0) return;
@@ -182,9 +191,11 @@ Result<Prediction> predict(const Model& model, const Recording& recording, Zero 
   out.zero = frame.zero;
   out.continued = frame.continued;
   out.findings = data.findings;
+  const bool own_start = frame.zero == Zero::start;
+  add_extrapolation(model, data, own_start ? sensor_starts(model, data) : model.start_C, out);
   for (const auto& e : model.errors) {
     Eigen::VectorXd value = e.regression.predict(x);
-    if (frame.zero == Zero::start) value.array() -= value(0);
+    if (own_start) value.array() -= at_start_um(model, e, x);
     if (frame.remembers && e.regression.noise.memory_s > 0.0) {
       for (Eigen::Index i = 0; i < value.size(); ++i) {
         const double after_s = data.time_s[static_cast<std::size_t>(i)] - frame.remember_from_s;
@@ -196,11 +207,12 @@ Result<Prediction> predict(const Model& model, const Recording& recording, Zero 
     predicted.error = e.error;
     predicted.value_um.assign(value.begin(), value.end());
     predicted.half_width_um.assign(half_width.begin(), half_width.end());
+    for (std::size_t i = 0; i < out.extrapolation.size(); ++i) {
+      predicted.half_width_um[i] *= std::max(1.0, out.extrapolation[i]);
+    }
     add_residual(recording, predicted);
     out.errors.push_back(std::move(predicted));
   }
-  const bool own_start = frame.zero == Zero::start;
-  add_extrapolation(model, data, own_start ? sensor_starts(model, data) : model.start_C, out);
   return out;
 }
 
@@ -248,7 +260,8 @@ Result<LivePredictor::Sample> LivePredictor::update(double time_s, const std::ma
   Sample out;
   out.extrapolation = extrapolation_of(m_model.domain, rise, values, &out.extrapolation_channel);
   for (const auto& e : m_model.errors) {
-    out.errors.push_back({e.error, e.regression.predict(x)(0), m_model.half_width_um(e, x)(0)});
+    out.errors.push_back(
+        {e.error, e.regression.predict(x)(0), std::max(1.0, out.extrapolation) * m_model.half_width_um(e, x)(0)});
   }
   return out;
 }

@@ -21,7 +21,7 @@ enum class Zero {
 struct PredictedError {
   std::string error;
   std::vector<double> value_um;       // one for each row
-  std::vector<double> half_width_um;  // of the band
+  std::vector<double> half_width_um;  // of the band; wider in proportion outside the training
   ResidualFigures residual;           // against the recording's own errors, count 0 if there are none
   double coverage = 0.0;              // share of its errors inside the band
 };

@@ -15,8 +15,6 @@ using recording::Channel;
 using recording::ChannelKind;
 using recording::Recording;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<std::string> wanted_sensors(const Recording& recording, const PrepareOptions& options) {
   if (!options.sensors.empty()) return options.sensors;
   std::vector<std::string> names;
@@ -52,7 +50,7 @@ Status take_sensors(const Recording& recording, const PrepareOptions& options, P
     ZD_TRY(const Channel* channel, recording.require(name));
     series.push_back(channel->values);
     for (double& v : series.back()) {
-      if (!std::isfinite(v)) v = missing;
+      if (!std::isfinite(v)) v = missing_sample;
     }
   }
   convert_units(names, series, out.findings);
@@ -120,7 +118,7 @@ Status take_errors(const Recording& recording, const PrepareOptions& options, Pr
     int count = 0;
     for (double& v : values) {
       if (!std::isfinite(v)) {
-        v = missing;
+        v = missing_sample;
         continue;
       }
       low = std::min(low, v);
@@ -185,7 +183,7 @@ Result<Prepared> prepare(const Recording& recording, const PrepareOptions& optio
 }
 
 double block_length_s(const Prepared& data) {
-  return std::min(600.0, (data.time_s.back() - data.time_s.front()) / 200.0);
+  return std::min(600.0, (data.time_s.back() - data.time_s.front()) / 144.0);
 }
 
 double smoothing_half_window_s(const Prepared& data) {
@@ -251,7 +249,7 @@ Samples sample(const Prepared& data, bool only_measured) {
     const auto count = static_cast<double>(rows.size());
     out.time_s.push_back(time_sum / count);
     temperature.push_back(t_sum / count);
-    error.push_back((e_count.array() > 0.0).select(e_sum.array() / e_count.array().max(1.0), missing));
+    error.push_back((e_count.array() > 0.0).select(e_sum.array() / e_count.array().max(1.0), missing_sample));
     out.rows.push_back(std::move(rows));
   }
   const auto n = static_cast<Eigen::Index>(out.time_s.size());

@@ -48,7 +48,7 @@ struct Samples {
   std::vector<std::vector<int>> rows;  // rows of the recording each sample is the mean of
 };
 
-/// Block length in s that suits the length of the run: 1/200 of it, at most ten minutes.
+/// Block length in s that suits the length of the run: 1/144 of it, at most ten minutes.
 double block_length_s(const Prepared& data);
 /// Rows where any error was measured, in blocks; `only_measured` false takes every row (for series without errors).
 Samples sample(const Prepared& data, bool only_measured = true);

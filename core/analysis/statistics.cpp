@@ -1,5 +1,6 @@
 #include "core/analysis/statistics.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,13 @@ double condition_number(const Eigen::MatrixXd& columns) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(unit_columns(columns));
   const Eigen::VectorXd& s = svd.singularValues();
   return std::min(s(0) / std::max(s(s.size() - 1), 1e-300), 1e12);
+}
+
+std::vector<int> spread_of(const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd centred = columns.rowwise() - columns.colwise().mean();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(centred);
+  const auto& indices = qr.colsPermutation().indices();
+  return {indices.begin(), indices.end()};
 }
 
 PrincipalComponents principal_components(const Eigen::MatrixXd& items) {

@@ -21,6 +21,10 @@ Eigen::VectorXd variance_inflation(const Eigen::MatrixXd& columns);
 /// 1e12.
 double condition_number(const Eigen::MatrixXd& columns);
 
+/// Columns in the order in which each says most that those before it do not: QR with column pivoting (Businger and
+/// Golub 1965) of the centred columns, not scaled, so that what hardly moves comes last.
+std::vector<int> spread_of(const Eigen::MatrixXd& columns);
+
 struct PrincipalComponents {
   Eigen::MatrixXd scores;     // items x components: coordinates of each row
   Eigen::VectorXd explained;  // share of the variance of each, descending

@@ -155,17 +155,31 @@ Result<Eigen::MatrixXd> design(const TrainingSet& set, const std::vector<Feature
   return out;
 }
 
-Rows rows_of(const TrainingSet& set, const Eigen::MatrixXd& design, Eigen::Index error, std::vector<int>& which) {
-  which.clear();
-  for (Eigen::Index i = 0; i < set.error_um.rows(); ++i) {
-    if (std::isfinite(set.error_um(i, error))) which.push_back(static_cast<int>(i));
+std::vector<ErrorGroup> error_groups(const TrainingSet& set) {
+  std::vector<ErrorGroup> groups;
+  for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
+    std::vector<int> samples;
+    for (Eigen::Index i = 0; i < set.error_um.rows(); ++i) {
+      if (std::isfinite(set.error_um(i, e))) samples.push_back(static_cast<int>(i));
+    }
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.samples == samples; });
+    if (same != groups.end()) {
+      same->errors.push_back(e);
+    } else {
+      groups.push_back({{e}, std::move(samples)});
+    }
   }
+  return groups;
+}
+
+Rows rows_of(const TrainingSet& set, const Eigen::MatrixXd& design, const std::vector<int>& samples,
+             Eigen::Index error) {
   Rows all;
   all.x = design;
   all.y = set.error_um.col(error);
   all.time_s = set.time_s;
   all.run = set.run;
-  return pick(all, which);
+  return pick(all, samples);
 }
 
 }  // namespace zerodrift::analysis

@@ -36,7 +36,15 @@ Result<TrainingSet> make_training(const std::vector<recording::Recording>& recor
 /// samples x features. Temperatures are rises over the start of their own run.
 Result<Eigen::MatrixXd> design(const TrainingSet& set, const std::vector<FeatureSpec>& specs);
 
-/// Rows where this error was measured; `which` receives their sample numbers.
-Rows rows_of(const TrainingSet& set, const Eigen::MatrixXd& design, Eigen::Index error, std::vector<int>& which);
+/// Errors that were measured at the same times, with the samples where they were.
+struct ErrorGroup {
+  std::vector<Eigen::Index> errors;
+  std::vector<int> samples;
+};
+std::vector<ErrorGroup> error_groups(const TrainingSet& set);
+
+/// Those samples of the design, and of one error, as rows of a regression.
+Rows rows_of(const TrainingSet& set, const Eigen::MatrixXd& design, const std::vector<int>& samples,
+             Eigen::Index error);
 
 }  // namespace zerodrift::analysis

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/analysis/figures.h"
 #include "core/analysis/predict.h"
 #include "tests/analysis/support.h"
 
@@ -166,6 +167,27 @@ TEST(Fit, NoNumberIsEverMissingInTheFile) {
     ASSERT_TRUE(model) << describe(model.error());
     EXPECT_EQ(to_json(*model).dump().find("null"), std::string::npos);
   }
+}
+
+TEST(Fit, FiguresForThePages) {
+  const std::vector<recording::Recording> runs{machine_run(other_day())};
+  FitOptions options;
+  options.sensors = {"T1_C", "T5_C", "T9_C"};
+  options.method = Method::ridge;
+  const auto model = fit(runs, options);
+  ASSERT_TRUE(model);
+  const auto figures = fit_figures(*model, runs);
+  ASSERT_TRUE(figures) << describe(figures.error());
+  ASSERT_EQ(figures->size(), 3U);
+  const FitFigure& f = (*figures)[2];
+  EXPECT_EQ(f.measured_um.size(), f.left_out_um.size());
+  int counted = 0;
+  for (const int c : f.histogram.counts) counted += c;
+  EXPECT_EQ(counted, static_cast<int>(f.residual_um.size()));
+  const auto matrix = correlation_matrix(runs.front());
+  ASSERT_TRUE(matrix);
+  EXPECT_EQ(matrix->names.size(), 23U);
+  EXPECT_DOUBLE_EQ(matrix->r[3][22], matrix->r[22][3]);
 }
 
 TEST(LivePredictor, SaysTheSameAsPredictionOfTheWhole) {

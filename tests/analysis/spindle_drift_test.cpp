@@ -61,4 +61,21 @@ TEST(SpindleDrift, FirstThreeCyclesPredictTheFastest) {
   EXPECT_GT(f.worst_coverage, 0.85);
 }
 
+TEST(SpindleDrift, FourSensorsAndTheSpeedAreEnough) {
+  const auto path = test::spindle_drift();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "recording not here: " << path;
+  const auto whole = recording::read_recording(path);
+  ASSERT_TRUE(whole) << describe(whole.error());
+  FitOptions options;
+  options.max_sensors = 4;
+  const auto model = fit({recording::slice_time(*whole, 0.0, split_s)}, options);
+  ASSERT_TRUE(model) << describe(model.error());
+  std::printf("%s\n", model->reason.c_str());
+  EXPECT_EQ(model->method, Method::dynamic);
+  EXPECT_EQ(model->sensors.size(), 4U);
+  const auto prediction = predict(*model, recording::slice_time(*whole, split_s, 1e9));
+  ASSERT_TRUE(prediction);
+  EXPECT_LT(figures_of(*prediction).rms_um, 4.3);
+}
+
 }  // namespace zerodrift::analysis

@@ -16,6 +16,7 @@ struct Options {
   std::string sensors = "auto";
   std::string errors;
   std::string method = "auto";
+  int max_sensors = 0;
   double coverage_percent = 90.0;
   std::string out;
 };
@@ -57,6 +58,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
                                           {"found", fmt::format("{}", options.coverage_percent)},
                                           {"expected", "50 to below 100 (percent)"}});
   }
+  how.max_sensors = options.max_sensors;
   how.coverage = 0.01 * options.coverage_percent;
   std::vector<recording::Recording> recordings;
   for (const auto& file : options.recordings) {
@@ -84,6 +86,9 @@ void add_fit(Cli& cli) {
   app.add_option("--errors", options->errors, "Errors to fit, for example dX_um,dZ_um (default: all)");
   app.add_option("--method", options->method, "auto, mlr, ridge, dynamic or physics")
       ->check(CLI::IsMember({"auto", "mlr", "ridge", "dynamic", "physics"}))
+      ->capture_default_str();
+  app.add_option("--max-sensors", options->max_sensors, "With --sensors auto: use at most so many (0: no limit)")
+      ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   app.add_option("--coverage", options->coverage_percent, "Coverage of the prediction band in percent")
       ->capture_default_str();

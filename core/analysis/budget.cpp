@@ -1,0 +1,90 @@
+#include "core/analysis/budget.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <iterator>
+
+#include "core/analysis/statistics.h"
+
+namespace zerodrift::analysis {
+
+namespace {
+
+/// What the inputs do not explain of the temperatures: residual of a lightly penalised regression on their filter bank.
+Eigen::MatrixXd beyond_inputs(const TrainingSet& set, const Eigen::MatrixXd& rise) {
+  const auto specs = dynamic_features({}, set.runs.front());
+  const auto inputs = design(set, specs);
+  if (specs.empty() || !inputs) return rise;
+  Eigen::MatrixXd z = inputs->rowwise() - inputs->colwise().mean();
+  for (Eigen::Index c = 0; c < z.cols(); ++c) {
+    const double length = z.col(c).norm();
+    if (length > 0.0) z.col(c) /= length;
+  }
+  constexpr double light = 1e-4;  // of the weight of one feature
+  Eigen::MatrixXd a = z.transpose() * z;
+  a.diagonal().array() += light;
+  return rise - z * a.llt().solve(z.transpose() * rise);
+}
+
+}  // namespace
+
+std::vector<std::string> spread_order(const TrainingSet& set, Method method) {
+  Eigen::Index total = 0;
+  for (const auto& s : set.samples) total += s.temperature_C.rows();
+  Eigen::MatrixXd rise(total, static_cast<Eigen::Index>(set.sensors.size()));
+  for (std::size_t c = 0; c < set.sensors.size(); ++c) {
+    Eigen::Index at = 0;
+    for (std::size_t r = 0; r < set.runs.size(); ++r) {
+      const auto& t = set.samples[r].temperature_C;
+      const Eigen::VectorXd column = t.col(set.runs[r].sensor(set.sensors[c]));
+      rise.block(at, static_cast<Eigen::Index>(c), t.rows(), 1) = column.array() - column.mean();
+      at += t.rows();
+    }
+  }
+  if (method == Method::dynamic) rise = beyond_inputs(set, rise);
+  std::vector<std::string> order;
+  for (const int c : spread_of(rise)) order.push_back(set.sensors[static_cast<std::size_t>(c)]);
+  return order;
+}
+
+Result<BudgetPoint> price_set(const TrainingSet& set, Method method, const std::vector<std::string>& sensors,
+                              const TaskContext& context) {
+  ZD_TRY(const Evaluation evaluation, evaluate(set, make_recipe(method, sensors, set), 0.9, context));
+  BudgetPoint point;
+  point.sensors = sensors;
+  point.held_out_rms_um = evaluation.rms_um;
+  point.held_out_peak_um = evaluation.peak_um;
+  for (const auto& f : evaluation.held_out) point.rms_um.push_back(f.rms_um);
+  return point;
+}
+
+Result<std::vector<BudgetPoint>> budget_curve(const TrainingSet& set, Method method, int most,
+                                              const TaskContext& context) {
+  const std::vector<std::string> order = spread_order(set, method);
+  const auto count = std::min(static_cast<std::size_t>(std::max(most, 1)), order.size());
+  std::vector<BudgetPoint> curve;
+  for (std::size_t n = 1; n <= count; ++n) {
+    context.progress(static_cast<double>(n - 1) / static_cast<double>(count), "budget");
+    ZD_TRY(BudgetPoint point,
+           price_set(set, method, {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n)}, context));
+    curve.push_back(std::move(point));
+  }
+  return curve;
+}
+
+Result<std::vector<Price>> price_of_dropping(const TrainingSet& set, Method method,
+                                             const std::vector<std::string>& sensors, const TaskContext& context) {
+  std::vector<Price> prices;
+  if (sensors.size() < 2) return prices;
+  ZD_TRY(const BudgetPoint all, price_set(set, method, sensors, context));
+  for (const auto& sensor : sensors) {
+    std::vector<std::string> rest;
+    std::copy_if(sensors.begin(), sensors.end(), std::back_inserter(rest), [&](const auto& s) { return s != sensor; });
+    ZD_TRY(const BudgetPoint without, price_set(set, method, rest, context));
+    prices.push_back({sensor, without.held_out_rms_um,
+                      100.0 * (without.held_out_rms_um / std::max(all.held_out_rms_um, 1e-9) - 1.0)});
+  }
+  return prices;
+}
+
+}  // namespace zerodrift::analysis

@@ -1,0 +1,43 @@
+#pragma once
+// How many sensors are needed, and what each is worth: errors on left-out cycles for sets of sensors.
+
+#include <string>
+#include <vector>
+
+#include "core/analysis/evaluate.h"
+#include "core/analysis/training.h"
+#include "core/base/result.h"
+#include "core/base/task_context.h"
+
+namespace zerodrift::analysis {
+
+/// Sensors in the order in which each says most that those before it do not (pivoted QR of the temperature rises, in
+/// K): chosen without looking at the errors, so a short recording cannot talk the choice into noise. For a dynamic
+/// model it is the part of the rises that speed and the other inputs do not explain: what they say already needs no
+/// sensor.
+std::vector<std::string> spread_order(const TrainingSet& set, Method method = Method::ridge);
+
+struct BudgetPoint {
+  std::vector<std::string> sensors;
+  double held_out_rms_um = 0.0;   // mean over the errors
+  double held_out_peak_um = 0.0;  // mean over the errors
+  std::vector<double> rms_um;     // of each error
+};
+/// For 1 .. most sensors in spread order.
+Result<std::vector<BudgetPoint>> budget_curve(const TrainingSet& set, Method method, int most,
+                                              const TaskContext& context = {});
+
+struct Price {
+  std::string sensor;
+  double rms_without_um = 0.0;
+  double lost_percent = 0.0;  // of the rms with all of them; negative: better without
+};
+/// What dropping each sensor of a set costs on left-out cycles.
+Result<std::vector<Price>> price_of_dropping(const TrainingSet& set, Method method,
+                                             const std::vector<std::string>& sensors, const TaskContext& context = {});
+
+/// The figures of any set of sensors: what the engineer sees while dragging one in or out.
+Result<BudgetPoint> price_set(const TrainingSet& set, Method method, const std::vector<std::string>& sensors,
+                              const TaskContext& context = {});
+
+}  // namespace zerodrift::analysis
