@@ -71,7 +71,8 @@ void PagesTest::emptyPagesSayHowToGetThere() {
   MainWindow window;
   samples::addPages(window);
   window.show();
-  for (const char* id : {"calibrate", "warmup", "sensors", "fit", "physics", "upload", "verify", "report", "axis_errors"}) {
+  for (const char* id :
+       {"calibrate", "warmup", "sensors", "fit", "physics", "upload", "verify", "report", "axis_errors"}) {
     samples::play(window, {id, "empty"});
     auto* empty = window.currentPage()->findChild<EmptyState*>();
     QVERIFY2(empty->isVisible(), id);

@@ -248,6 +248,12 @@ void ShellTest::nothingIsCutAtTheSmallestSize() {
     const QByteArray where = (scene.page + ' ' + scene.name).toUtf8();
     auto* page = window.currentPage();
     QVERIFY2(page->minimumSizeHint().width() <= 1044, (where + " is too wide").constData());
+    // Without a banner everything fits; nothing has to be scrolled to.
+    const int room = page->parentWidget()->height();
+    if (scene.name != "banner") {
+      // Layouts settle over a few rounds of events.
+      QTRY_VERIFY2(page->minimumSizeHint().height() <= room, where.constData());
+    }
     for (QPushButton* button : window.findChildren<QPushButton*>()) {
       if (!button->isVisible() || button->text().isEmpty()) continue;
       const int text = button->fontMetrics().horizontalAdvance(button->text());

@@ -177,6 +177,7 @@ QString CalibratePage::title() const {
 }
 
 QString CalibratePage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   if (!m_state.templateTaken)
     return tr("Point the camera at the target, set focus and light, then draw the target's region.");
   if (m_state.running) return tr("The axes go from position to position. Keep hands and doors away.");
@@ -297,8 +298,8 @@ void CalibratePage::renderResiduals() {
     largest_um = std::max(largest_um, std::hypot(p.residualRight_um, p.residualUp_um));
     extent_mm = std::max({extent_mm, std::abs(p.right_mm), std::abs(p.up_mm)});
   }
-  // The longest vector gets a fifth of the plan; the factor is rounded, so that it can be said.
-  const double raw = 0.2 * extent_mm * 1000.0 / largest_um;
+  // The longest vector gets a third of the plan; the factor is rounded, so that it can be said.
+  const double raw = 0.4 * extent_mm * 1000.0 / largest_um;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   const double factor = power * (raw / power >= 5.0 ? 5.0 : raw / power >= 2.0 ? 2.0 : 1.0);
   QVector<double> x;

@@ -94,6 +94,7 @@ QString FitPage::title() const {
 }
 
 QString FitPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   return tr("Judge the model on stretches it has not seen. Only then is it worth writing to the machine.");
 }
 

@@ -109,6 +109,10 @@ void Page::showEmpty(Icon icon, const QString& heading, const QString& sentence,
   m_stack->setCurrentWidget(m_empty);
 }
 
+QString Page::notYet() {
+  return tr("Not yet: an earlier step comes first.");
+}
+
 void Page::showContent() {
   m_stack->setCurrentIndex(0);
 }

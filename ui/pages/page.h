@@ -94,6 +94,8 @@ class Page : public QWidget {
   void setFigures(const QVector<Figure>& figures);
   void showEmpty(Icon icon, const QString& heading, const QString& sentence, const QString& action = {});
   void showContent();
+  /// The sentence of a page that waits for an earlier step; what it waits for stands in its middle.
+  static QString notYet();
   bool isEmpty() const;
   void changeEvent(QEvent* event) override;
 

@@ -121,6 +121,7 @@ QString PhysicsPage::title() const {
 }
 
 QString PhysicsPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   switch (m_state.verdict) {
     case PhysicsVerdict::none:
       return tr("The run is simulated from the machine's description. Let the program find what the simulation lacks.");
@@ -257,8 +258,7 @@ void PhysicsPage::renderChannel() {
   m_channelPlot->setData("recorded", found->time_s, found->recorded);
   m_channelPlot->setData("simulated", found->time_s, found->simulated);
   m_channelPlot->setData("refined", found->time_s, found->refined);
-  m_channelLegend->setItems(
-      {{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}, {tr("with adopted effects"), c.ok}});
+  m_channelLegend->setItems({{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}, {tr("refined"), c.ok}});
   const auto difference = [&](const QVector<double>& model) {
     QVector<double> d;
     for (int i = 0; i < model.size() && i < found->recorded.size(); ++i) d.append(found->recorded[i] - model[i]);

@@ -115,6 +115,7 @@ QString ReportPage::title() const {
 }
 
 QString ReportPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   if (!m_state.savedTo.isEmpty()) return tr("Saved: %1").arg(m_state.savedTo);
   return tr("Look at the doubtful figures first, fill in the head, then save.");
 }

@@ -41,9 +41,11 @@ RunView::RunView(QWidget* parent) : QWidget(parent) {
   m_cameraCard = new Card(this);
   m_cameraCard->setBodyMargins(8, 8, 8, 8);
   m_camera = new CameraView(m_cameraCard);
-  m_camera->setMinimumHeight(96);
+  m_camera->setMinimumHeight(72);
   m_cameraCard->body()->addWidget(m_camera);
-  m_cameraCard->setFixedHeight(150);
+  // Gives way first when the window is low.
+  m_cameraCard->setMinimumHeight(92);
+  m_cameraCard->setMaximumHeight(150);
   const auto table = [this](Card** card) {
     *card = new Card(this);
     (*card)->setBodyMargins(1, 0, 1, 6);

@@ -125,6 +125,7 @@ QString SensorsPage::title() const {
 }
 
 QString SensorsPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   return tr("Keep the few sensors that carry the error. Tick one in or out; its price shows at once.");
 }
 

@@ -88,6 +88,7 @@ QString UploadPage::title() const {
 }
 
 QString UploadPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   if (m_state.writing) return tr("The table is being written. It becomes active as a whole or not at all.");
   if (m_state.written)
     return tr("Version %1 is active in %2. Now prove it.").arg(m_state.newVersion).arg(m_state.machineName);

@@ -86,6 +86,7 @@ QString VerifyPage::title() const {
 }
 
 QString VerifyPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   switch (m_state.phase) {
     case VerifyPhase::ready:
       return tr("Run the machine with the compensation on and measure what is left.");

@@ -48,15 +48,15 @@ QWidget* WarmupPage::makePlan() {
   m_expected->setIncludeZero(true);
   m_expectedCard->body()->addWidget(m_expected);
 
-  auto* lower = new QHBoxLayout;
-  lower->setSpacing(16);
-  lower->addWidget(m_expectedCard, 1);
-  lower->addWidget(m_stepCard);
-  auto* all = new QVBoxLayout(view);
+  auto* left = new QVBoxLayout;
+  left->setSpacing(16);
+  left->addWidget(m_timelineCard, 1);
+  left->addWidget(m_expectedCard, 1);
+  auto* all = new QHBoxLayout(view);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(16);
-  all->addWidget(m_timelineCard, 1);
-  all->addLayout(lower, 1);
+  all->addLayout(left, 1);
+  all->addWidget(m_stepCard);
 
   connect(m_presets, &QComboBox::activated, this, &WarmupPage::presetChosen);
   connect(m_timeline, &PlanTimeline::selectionChanged, this, &WarmupPage::showStep);
@@ -140,6 +140,7 @@ QString WarmupPage::title() const {
 }
 
 QString WarmupPage::sentence() const {
+  if (!m_state.blocked.isEmpty()) return notYet();
   switch (m_state.phase) {
     case RunPhase::planning:
       return tr("Choose a plan, change it by dragging, then start. The machine must be cold and at rest.");

@@ -60,6 +60,7 @@ void HeatMap::setData(const HeatMapData& map) {
   showPlaceholder(!some);
   m_map->setVisible(some);
   m_scale->setVisible(some);
+  timeAxis()->setTickLabels(some);
   if (!some) return replot();
   const QCPRange times(map.from_s, map.to_s);
   const QCPRange positions(map.from_mm, map.to_mm);

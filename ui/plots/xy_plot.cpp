@@ -16,6 +16,7 @@ struct XyPlot::Part {
 
 XyPlot::XyPlot(QWidget* parent) : PlotWidget(parent) {
   plot()->addLayer("bands", plot()->layer("main"), QCustomPlot::limBelow);
+  connect(plot(), &QCustomPlot::beforeReplot, this, &XyPlot::placeLabels);
   connect(this, &PlotWidget::clicked, this, [this](const QString&, double x, double y) {
     QString id;
     const int index = nearestPoint({xAxis()->coordToPixel(x), yAxis()->coordToPixel(y)}, &id);
@@ -49,7 +50,8 @@ void XyPlot::setPart(const QString& id, const QVector<double>& x, const QVector<
     text->setText(labels[i]);
     text->position->setCoords(x[i], y[i]);
     text->setPositionAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    text->setPadding(QMargins(static_cast<int>(style.pointSize) / 2 + 4, 0, 0, 0));
+    const int gap = static_cast<int>(style.pointSize) / 2 + 4;
+    text->setPadding(QMargins(gap, gap - 2, gap, gap - 2));
     part->labels.append(text);
   }
   m_parts.insert(id, part);
@@ -220,6 +222,35 @@ void XyPlot::styleLabels() {
     for (QCPItemText* label : part->labels) {
       label->setFont(uiFont(11));
       label->setColor(colors().text);
+    }
+  }
+}
+
+void XyPlot::placeLabels() {
+  // Right of the point, else left, below, above: the first place that covers no earlier label.
+  static constexpr int sides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  const QFontMetrics metrics(uiFont(11));
+  QVector<QRectF> taken;
+  for (const Part* part : std::as_const(m_parts)) {
+    if (!part->visible) continue;
+    const double gap = part->style.pointSize / 2.0 + 4.0;
+    for (int i = 0; i < part->labels.size(); ++i) {
+      const QPointF at(xAxis()->coordToPixel(part->x[i]), yAxis()->coordToPixel(part->y[i]));
+      const QSizeF size(metrics.horizontalAdvance(part->labels[i]->text()), metrics.height() - 4);
+      int chosen = 0;
+      QRectF box;
+      for (int k = 0; k < 4; ++k) {
+        box = QRectF(QPointF(), size);
+        box.moveCenter(at +
+                       QPointF(sides[k][0] * (gap + size.width() / 2.0), sides[k][1] * (gap + size.height() / 2.0)));
+        chosen = k;
+        if (std::none_of(taken.begin(), taken.end(), [&](const QRectF& other) { return other.intersects(box); })) break;
+        chosen = 0;
+      }
+      static const Qt::Alignment anchors[4] = {Qt::AlignLeft | Qt::AlignVCenter, Qt::AlignRight | Qt::AlignVCenter,
+                                               Qt::AlignTop | Qt::AlignHCenter, Qt::AlignBottom | Qt::AlignHCenter};
+      part->labels[i]->setPositionAlignment(anchors[chosen]);
+      taken.append(box);
     }
   }
 }

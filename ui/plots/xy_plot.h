@@ -68,6 +68,7 @@ class XyPlot : public PlotWidget {
  private:
   struct Part;
   void styleLabels();
+  void placeLabels();
   int nearestPoint(const QPointF& pixel, QString* id) const;
 
   QMap<QString, Part*> m_parts;

@@ -3,6 +3,11 @@
 #include "ui/widgets/icons.h"
 
 namespace zerodrift::ui {
+namespace {
+
+constexpr int longest = 5000;  // entries kept
+
+}  // namespace
 
 LogDrawer::LogDrawer(QWidget* parent) : QFrame(parent) {
   setObjectName("logDrawer");
@@ -16,7 +21,7 @@ LogDrawer::LogDrawer(QWidget* parent) : QFrame(parent) {
   m_lines = new QPlainTextEdit(this);
   m_lines->setReadOnly(true);
   m_lines->setFrameShape(QFrame::NoFrame);
-  m_lines->setMaximumBlockCount(5000);
+  m_lines->setMaximumBlockCount(longest);
   connect(m_copy, &QPushButton::clicked, this, [this] { QGuiApplication::clipboard()->setText(text()); });
   connect(m_close, &QPushButton::clicked, this, &LogDrawer::closeRequested);
   auto* head = new QHBoxLayout;
@@ -34,17 +39,30 @@ LogDrawer::LogDrawer(QWidget* parent) : QFrame(parent) {
 }
 
 void LogDrawer::append(const QDateTime& time, Judgement judgement, const QString& text) {
-  const char* mark = judgement == Judgement::bad    ? "✕"
-                     : judgement == Judgement::warn ? "!"
-                     : judgement == Judgement::ok   ? "✓"
-                                                    : "·";
+  m_entries.append({time, judgement, text});
+  if (m_entries.size() > longest) m_entries.removeFirst();
+  showEntry(m_entries.last());
+}
+
+void LogDrawer::showEntry(const Entry& entry) {
+  const char* mark = entry.judgement == Judgement::bad    ? "✕"
+                     : entry.judgement == Judgement::warn ? "!"
+                     : entry.judgement == Judgement::ok   ? "✓"
+                                                          : "·";
+  const bool ill = entry.judgement == Judgement::bad || entry.judgement == Judgement::warn;
   QTextCharFormat format;
-  if (judgement == Judgement::bad || judgement == Judgement::warn) format.setForeground(colors().ink(judgement));
+  format.setForeground(ill ? colors().ink(entry.judgement) : colors().text);
   QTextCursor cursor(m_lines->document());
   cursor.movePosition(QTextCursor::End);
   if (!m_lines->document()->isEmpty()) cursor.insertBlock();
-  cursor.insertText(time.toLocalTime().toString("HH:mm:ss  ") + QString::fromUtf8(mark) + "  " + text, format);
+  cursor.insertText(entry.time.toLocalTime().toString("HH:mm:ss  ") + QString::fromUtf8(mark) + "  " + entry.text,
+                    format);
   m_lines->verticalScrollBar()->setValue(m_lines->verticalScrollBar()->maximum());
+}
+
+void LogDrawer::showAll() {
+  m_lines->clear();
+  for (const Entry& entry : std::as_const(m_entries)) showEntry(entry);
 }
 
 QString LogDrawer::text() const {
@@ -61,6 +79,7 @@ void LogDrawer::retranslate() {
 
 void LogDrawer::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::PaletteChange) showAll();
   QFrame::changeEvent(event);
 }
 

@@ -27,12 +27,20 @@ class LogDrawer : public QFrame {
   void changeEvent(QEvent* event) override;
 
  private:
+  struct Entry {
+    QDateTime time;
+    Judgement judgement;
+    QString text;
+  };
   void retranslate();
+  void showEntry(const Entry& entry);
+  void showAll();
 
   QLabel* m_title;
   QPushButton* m_copy;
   QPushButton* m_close;
   QPlainTextEdit* m_lines;
+  QVector<Entry> m_entries;
 };
 
 }  // namespace zerodrift::ui

@@ -7,7 +7,7 @@
 namespace zerodrift::ui {
 namespace {
 
-constexpr double radius_px = 10.0;
+constexpr double largestRadius_px = 10.0;
 
 /// Cool to warm, for the discs; the figure itself stands in the table.
 QColor warmthColor(double warmth) {
@@ -106,6 +106,7 @@ void MachineDrawing::paintSpot(QPainter& painter, int index, const QPointF& at, 
   const SensorSpot& sensor = m_sensors[index];
   const bool ill = sensor.judgement == Judgement::warn || sensor.judgement == Judgement::bad;
   QColor fill = sensor.warmth >= 0.0 ? warmthColor(sensor.warmth) : c.panel;
+  const double radius_px = std::clamp(24.0 * toScreen().m11(), 7.0, largestRadius_px);
   if (marked) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(mix(c.panel, c.accent, 0.45));
@@ -115,7 +116,7 @@ void MachineDrawing::paintSpot(QPainter& painter, int index, const QPointF& at, 
   painter.setBrush(fill);
   painter.drawEllipse(at, radius_px, radius_px);
   painter.setPen(sensor.warmth >= 0.0 ? QColor(Qt::white) : c.text);
-  painter.setFont(uiFont(11, QFont::DemiBold));
+  painter.setFont(uiFont(radius_px < 9.0 ? 9 : 11, QFont::DemiBold));
   painter.drawText(QRectF(at.x() - 12, at.y() - 9, 24, 18), Qt::AlignCenter, sensor.tag);
   if (ill) drawJudgement(painter, QRectF(at.x() + 4, at.y() - 16, 13, 13), sensor.judgement);
 }

@@ -25,8 +25,8 @@ class SignCheck : public QWidget {
  public:
   explicit SignCheck(QWidget* parent = nullptr);
   void setResult(const SignCheckResult& result);
-  QSize sizeHint() const override { return {260, 140}; }
-  QSize minimumSizeHint() const override { return {180, 120}; }
+  QSize sizeHint() const override { return {260, 130}; }
+  QSize minimumSizeHint() const override { return {180, 96}; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -12,7 +12,8 @@ QSize WrapLabel::sizeHint() const {
 }
 
 QSize WrapLabel::minimumSizeHint() const {
-  return {60, text().isEmpty() ? 0 : QLabel::heightForWidth(width() > 60 ? width() : 320)};
+  // Until the first layout a widget is 100 px wide: no figure to break lines by.
+  return {60, text().isEmpty() ? 0 : QLabel::heightForWidth(width() > 100 ? width() : 320)};
 }
 
 void WrapLabel::resizeEvent(QResizeEvent* event) {
