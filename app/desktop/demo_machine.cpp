@@ -13,7 +13,8 @@ DemoMachine::DemoMachine(QObject* parent) : QObject(parent) {
   });
   connect(&m_process, &QProcess::finished, this, [this] {
     readLines();
-    if (!m_ready) Q_EMIT failed(m_words.trimmed().isEmpty() ? tr("it ended at once") : m_words.trimmed());
+    if (!m_ready && !m_stopping)
+      Q_EMIT failed(m_words.trimmed().isEmpty() ? tr("it ended at once") : m_words.trimmed());
     m_ready = false;
   });
 }
@@ -25,6 +26,7 @@ DemoMachine::~DemoMachine() {
 
 void DemoMachine::start(const DemoOptions& options) {
   stop();
+  m_stopping = false;
   m_words.clear();
   QStringList arguments = {QStringLiteral("--speedup"),     QString::number(options.speedup),
                            QStringLiteral("--seed"),        QString::number(options.seed),
@@ -38,6 +40,7 @@ void DemoMachine::start(const DemoOptions& options) {
 }
 
 void DemoMachine::stop() {
+  m_stopping = true;
   m_ready = false;
   if (m_process.state() == QProcess::NotRunning) return;
   m_process.terminate();

@@ -40,6 +40,7 @@ class DemoMachine : public QObject {
   QTemporaryDir m_folder;
   QString m_words;
   bool m_ready = false;
+  bool m_stopping = false;  // its end is wanted
 };
 
 }  // namespace zerodrift::desktop

@@ -18,28 +18,47 @@ void Presenter::show(const Error& error) {
   m_bench.log(LogKind::bad, text.sentence);
 }
 
-void Presenter::runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
-                        std::function<void(bool good)> done) {
-  auto* progress = new QObject(this);
-  const auto finish = [this, progress, done = std::move(done)](const Result<commissioning::NewArtefact>& made) {
-    progress->deleteLater();
-    m_page->clearProgress();
-    Status kept = made ? m_bench.keep(*made) : Status(fail(made.error()));
-    if (!kept) show(kept.error());
-    refresh();
-    if (done) done(kept.has_value());
-  };
+void Presenter::whenIdle(std::function<void()> act) {
+  if (!m_bench.tasks().running()) {
+    act();
+    return;
+  }
+  connect(&m_bench.tasks(), &TaskRunner::finished, this, std::move(act), Qt::SingleShotConnection);
+}
+
+QObject* Presenter::beginTask(const QString& name) {
   m_page->clearProblem();
+  if (m_bench.tasks().running()) return nullptr;  // its progress is another page's
+  auto* progress = new QObject(this);
   connect(&m_bench.tasks(), &TaskRunner::progressed, progress,
           [this, name](double fraction, const QString&, double secondsLeft) {
             m_page->setProgress(name, fraction, secondsLeft < 0 ? std::nullopt : std::optional<double>(secondsLeft));
           });
-  if (m_bench.tasks().start<commissioning::NewArtefact>(name, std::move(work), finish)) {
-    m_page->setProgress(name, -1.0);
-    return;
-  }
-  delete progress;
-  show(Error{ErrorCode::machine_busy, {{"what", tr("%1 is still running").arg(m_bench.tasks().name()).toStdString()}}});
+  m_page->setProgress(name, -1.0);
+  return progress;
+}
+
+void Presenter::endTask(QObject* progress) {
+  if (progress == nullptr) return;
+  progress->deleteLater();
+  progress->disconnect();
+  m_page->clearProgress();
+}
+
+Error Presenter::busy() const {
+  return Error{ErrorCode::machine_busy,
+               {{"what", tr("%1 is still running").arg(m_bench.tasks().name()).toStdString()}}};
+}
+
+void Presenter::runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
+                        std::function<void(bool good)> done) {
+  runTask<commissioning::NewArtefact>(name, std::move(work),
+                                      [this, done = std::move(done)](Result<commissioning::NewArtefact> made) {
+                                        const Status kept = made ? m_bench.keep(*made) : Status(fail(made.error()));
+                                        if (made && !kept) show(kept.error());
+                                        refresh();
+                                        if (done) done(kept.has_value());
+                                      });
 }
 
 }  // namespace zerodrift::desktop

@@ -25,14 +25,41 @@ class Presenter : public QObject {
   /// What the tour does on this page: starts the step and calls `done` when it has ended. The default calls it at once.
   virtual void tour(std::function<void(bool good)> done) { done(true); }
 
+ Q_SIGNALS:
+  /// The user is done here: open the next page.
+  void nextRequested();
+  void pageRequested(const QString& id);
+
  protected:
   Workbench& bench() { return m_bench; }
   /// Runs a step that makes an artefact: progress in the page, errors in its banner, the artefact into the job.
   void runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
                std::function<void(bool good)> done = {});
+  /// Any other work on the task thread: progress in the page, an error in its banner before `done` gets it.
+  template <class T>
+  void runTask(const QString& name, std::function<Result<T>(const TaskContext&)> work,
+               std::function<void(Result<T>)> done) {
+    QObject* progress = beginTask(name);
+    auto finish = [this, progress, done](Result<T> made) {
+      endTask(progress);
+      if (!made) show(made.error());
+      done(std::move(made));
+    };
+    if (m_bench.tasks().start<T>(name, std::move(work), std::move(finish))) return;
+    endTask(progress);
+    const Error refused = busy();
+    show(refused);
+    done(fail(refused));
+  }
   void show(const Error& error);
+  /// Calls `act` now, or when the task that runs has ended.
+  void whenIdle(std::function<void()> act);
 
  private:
+  QObject* beginTask(const QString& name);
+  void endTask(QObject* progress);
+  Error busy() const;
+
   Workbench& m_bench;
   ui::Page* m_page;
 };

@@ -1,5 +1,6 @@
 #include "app/desktop/run_feed.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/desktop/steps/calibrate_presenter.h"
@@ -56,10 +57,20 @@ void RunFeed::setChannels() {
     }
   }
   temperatures.append(channel_of("ambient_C", tr("Room")));
-  int axis = 0;
-  for (const char* name : {"dX_um", "dY_um", "dZ_um"}) {
-    auto channel = channel_of(name, tr("Error at the nose"));
-    channel.color = ui::axisColor(axis++);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string letter(1, "XYZ"[axis]);
+    auto channel = channel_of("d" + letter + "_um", m_compensated ? tr("Left over") : tr("Error at the nose"));
+    channel.color = ui::axisColor(axis);
+    errors.append(channel);
+    if (!m_compensated) continue;
+    channel = channel_of("without_" + letter + "_um", tr("Without the compensation"));
+    channel.tag = tr("%1 without").arg(QString::fromStdString(letter));
+    channel.color = ui::axisColor(axis);
+    channel.dashed = true;
+    errors.append(channel);
+    channel = channel_of("applied_" + letter + "_um", tr("Applied by the controller"));
+    channel.tag = tr("%1 applied").arg(QString::fromStdString(letter));
+    channel.color = ui::mix(ui::colors().panel, ui::axisColor(axis), 0.45);
     errors.append(channel);
   }
   inputs.append(channel_of("spindle_rpm", tr("Spindle speed")));
@@ -109,6 +120,14 @@ void RunFeed::showRecording(const recording::Recording& run) {
     last.append({QString::fromStdString(channel.name), recording::value_at(run, channel, run.time_s.back()), {}, {}});
   }
   m_view->setValues(last);
+  if (!m_compensated) return;
+  std::vector<std::string> names;
+  std::vector<QVector<double>> values;
+  for (const auto& channel : run.channels) {
+    names.push_back(channel.name);
+    values.emplace_back(channel.values.begin(), channel.values.end());
+  }
+  appendCompensation(names, QVector<double>(run.time_s.begin(), run.time_s.end()), values);
 }
 
 void RunFeed::noteErrors(const std::string& channel, double value) {
@@ -116,6 +135,39 @@ void RunFeed::noteErrors(const std::string& channel, double value) {
   if (!(std::abs(value) > m_largest_um)) return;
   m_largest_um = std::abs(value);
   m_largestAxis = QString::fromStdString(channel.substr(1, 1));
+}
+
+void RunFeed::appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,
+                                 const std::vector<QVector<double>>& values) {
+  const auto column = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? -1 : static_cast<int>(at - names.begin());
+  };
+  QVector<ui::RunValue> last;
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    const std::string letter(1, axis);
+    const int applied_nm = column("applied_" + letter + "_nm");
+    const int left_um = column("d" + letter + "_um");
+    if (applied_nm < 0 || left_um < 0) continue;
+    QVector<double> applied;
+    QVector<double> measured_at;
+    QVector<double> without;
+    for (qsizetype r = 0; r < times.size(); ++r) {
+      applied.append(values[static_cast<std::size_t>(applied_nm)][r] / 1000.0);
+      const double left = values[static_cast<std::size_t>(left_um)][r];
+      if (std::isnan(left) || std::isnan(applied.back())) continue;
+      measured_at.append(times[r]);
+      without.append(left - applied.back());  // what is left is the error plus the compensation
+    }
+    const QString id = QString::fromStdString("applied_" + letter + "_um");
+    const QString without_id = QString::fromStdString("without_" + letter + "_um");
+    m_view->append(id, times, applied);
+    if (!applied.isEmpty()) last.append({id, applied.back(), {}, ui::Judgement::none});
+    if (without.isEmpty()) continue;
+    m_view->append(without_id, measured_at, without);
+    last.append({without_id, without.back(), {}, ui::Judgement::none});
+  }
+  m_view->setValues(last);
 }
 
 void RunFeed::showRegimes(const recording::Recording& run) {
@@ -222,6 +274,7 @@ void RunFeed::appendRows(const std::vector<RunUpdate>& updates) {
     }
   }
   m_view->setValues(last);
+  if (m_compensated) appendCompensation(names, times, values);
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (names[c] != "spindle_rpm" && names[c] != "coolant_on") continue;
     auto& channel = m_speeds.ensure(names[c]);

@@ -28,6 +28,8 @@ class RunFeed : public QObject {
 
   /// Channels of the profile's machine, and an empty run.
   void begin();
+  /// A compensated run: beside what is left, what is applied and what there would be without it.
+  void setCompensated(bool compensated) { m_compensated = compensated; }
   /// A run that is in the job already.
   void showRecording(const recording::Recording& run);
   void stop();
@@ -68,6 +70,8 @@ class RunFeed : public QObject {
   void appendRows(const std::vector<acquisition::RunUpdate>& updates);
   void showPicture();
   void noteErrors(const std::string& channel, double value);
+  void appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,
+                          const std::vector<QVector<double>>& values);
   void showRegimes(const recording::Recording& run);
 
   Workbench& m_bench;
@@ -79,6 +83,7 @@ class RunFeed : public QObject {
   double m_largest_um = 0.0;
   QString m_largestAxis;
   bool m_received = false;
+  bool m_compensated = false;
 };
 
 }  // namespace zerodrift::desktop

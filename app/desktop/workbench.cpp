@@ -23,7 +23,8 @@ Workbench::Workbench(QObject* parent) : QObject(parent) {
     m_monitor.pause(true);
     log(LogKind::note, name);
   });
-  connect(&m_tasks, &TaskRunner::finished, this, [this] { m_monitor.pause(false); });
+  // A task may start the next one before it has told its end.
+  connect(&m_tasks, &TaskRunner::finished, this, [this] { m_monitor.pause(m_tasks.running()); });
 }
 
 Workbench::~Workbench() {
@@ -63,6 +64,13 @@ Status Workbench::keep(const commissioning::NewArtefact& made) {
   if (!m_job) return fail(ErrorCode::step_blocked, {{"step", made.kind}, {"needs", "a job"}});
   ZD_TRY(const auto kept, m_job->put(made));
   log(LogKind::good, tr("Kept %1 #%2").arg(QString::fromStdString(kept.kind)).arg(kept.id));
+  Q_EMIT artefactsChanged();
+  return {};
+}
+
+Status Workbench::setHeader(const commissioning::JobHeader& header) {
+  if (!m_job) return fail(ErrorCode::step_blocked, {{"step", "report"}, {"needs", "a job"}});
+  ZD_CHECK(m_job->set_header(header));
   Q_EMIT artefactsChanged();
   return {};
 }

@@ -38,6 +38,8 @@ class Workbench : public QObject {
   const commissioning::Job* job() const { return m_job ? m_job.get() : nullptr; }
   /// Keeps what a step made and tells everybody.
   Status keep(const commissioning::NewArtefact& made);
+  /// Customer, machine, engineer: what the report's head says.
+  Status setHeader(const commissioning::JobHeader& header);
   bool has(const std::string& kind) const;
   /// Body of the latest artefact of this kind; null when there is none.
   nlohmann::json body(const std::string& kind) const;

@@ -120,6 +120,10 @@ std::string html_of(const report::Report& report) {
     for (const auto& block : section.blocks) out += std::visit(BlockHtml{}, block);
   }
   out += traces_of(report);
+  if (!report.signature_png.empty()) {
+    const auto png = QByteArray::fromStdString(report.signature_png).toBase64().toStdString();
+    out += "<p><img alt=\"signature\" height=\"64\" src=\"data:image/png;base64," + png + "\"></p>\n";
+  }
   return out + "<footer>" + escaped(report.provenance) + "</footer></main></body></html>\n";
 }
 

@@ -4,6 +4,8 @@
 #include <QPdfWriter>
 #include <QTextLayout>
 #include <cmath>
+#include <deque>
+#include <functional>
 
 #include "app/reporting/plot_data.h"
 #include "app/reporting/writers.h"
@@ -47,13 +49,12 @@ QColor colour_of(report::Verdict verdict) {
 /// Lays blocks one under the other and breaks pages; a block that fits on a page is never cut.
 class PaperWriter {
  public:
-  PaperWriter(QPdfWriter& device, QPainter& painter, const report::Report& report)
-      : m_device(device), m_painter(painter), m_report(report) {
-    const double scale = device.resolution() / 96.0;
-    painter.scale(scale, scale);
-    m_width = device.width() / scale - 2 * margin;
-    m_bottom = device.height() / scale - margin - foot_height;
-    m_height = device.height() / scale;
+  /// `size` of a page in logical units; the painter is scaled to them, also after new_page.
+  PaperWriter(const QSizeF& size, std::function<void()> new_page, QPainter& painter, const report::Report& report)
+      : m_next(std::move(new_page)), m_painter(painter), m_report(report) {
+    m_width = size.width() - 2 * margin;
+    m_bottom = size.height() - margin - foot_height;
+    m_height = size.height();
   }
 
   void write() {
@@ -62,6 +63,7 @@ class PaperWriter {
       heading(text_of(section.title));
       for (const auto& block : section.blocks) std::visit(*this, block);
     }
+    signature();
     footer();
   }
 
@@ -110,6 +112,21 @@ class PaperWriter {
   }
 
  private:
+  void signature() {
+    QImage drawn;
+    if (m_report.signature_png.empty() ||
+        !drawn.loadFromData(reinterpret_cast<const uchar*>(m_report.signature_png.data()),
+                            static_cast<int>(m_report.signature_png.size()))) {
+      return;
+    }
+    constexpr double height = 64;
+    room_for(height + 30);
+    m_painter.drawImage(QRectF(margin, m_y, height * drawn.width() / std::max(1, drawn.height()), height), drawn);
+    m_y += height;
+    m_painter.fillRect(QRectF(margin, m_y, 260, 0.8), QColor(0x5F6E7C));
+    m_y += gap;
+  }
+
   void title() {
     draw_text(QRectF(margin, m_y, m_width, 34), text_of(m_report.title), font_of(24, QFont::DemiBold));
     m_y += 40;
@@ -209,7 +226,7 @@ class PaperWriter {
 
   void new_page() {
     footer();
-    m_device.newPage();
+    m_next();
     ++m_page;
     m_y = margin;
   }
@@ -222,7 +239,7 @@ class PaperWriter {
     m_painter.drawText(QRectF(margin, y, m_width, 14), Qt::AlignRight, QString::number(m_page));
   }
 
-  QPdfWriter& m_device;
+  std::function<void()> m_next;
   QPainter& m_painter;
   const report::Report& m_report;
   double m_width = 0;
@@ -246,9 +263,38 @@ Status write_pdf(const report::Report& report, const std::filesystem::path& path
     device.setTitle(text_of(report.title));
     device.setCreator(QStringLiteral("Zerodrift " ZERODRIFT_VERSION));
     const auto painter = ui::makeVectorPainter(&device);
-    PaperWriter(device, *painter, report).write();
+    const double scale = device.resolution() / 96.0;
+    painter->scale(scale, scale);
+    PaperWriter(
+        {device.width() / scale, device.height() / scale}, [&device] { device.newPage(); }, *painter, report)
+        .write();
   }
   return write_file(path, std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+}
+
+std::vector<QImage> preview_pages(const report::Report& report, int width_px) {
+  const QSizeF size = QPageSize(QPageSize::A4).size(QPageSize::Inch) * 96.0;
+  const double scale = width_px / size.width();
+  std::deque<QImage> pages;  // stay where they are while painted on
+  const auto blank = [&]() -> QImage& {
+    QImage& page = pages.emplace_back((size * scale).toSize(), QImage::Format_RGB32);
+    page.fill(Qt::white);
+    return page;
+  };
+  const auto painter = ui::makeVectorPainter(&blank());
+  const auto prepare = [&] {
+    painter->setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing | QPainter::SmoothPixmapTransform);
+    painter->scale(scale, scale);
+  };
+  prepare();
+  const auto next = [&] {
+    painter->end();
+    painter->begin(&blank());
+    prepare();
+  };
+  PaperWriter(size, next, *painter, report).write();
+  painter->end();
+  return {pages.begin(), pages.end()};
 }
 
 }  // namespace zerodrift::reporting

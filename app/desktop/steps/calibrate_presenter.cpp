@@ -35,7 +35,13 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
     m_camera = camera;
     refresh();
   });
-  connect(page, &ui::Page::primaryTriggered, this, [this] { start({}); });
+  connect(page, &ui::Page::primaryTriggered, this, [this] {
+    if (m_page->state().accepted) {
+      Q_EMIT nextRequested();
+    } else {
+      start({});
+    }
+  });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
     if (action == QStringLiteral("repeat")) start({});
   });

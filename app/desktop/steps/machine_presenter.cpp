@@ -160,7 +160,9 @@ void MachinePresenter::primary() {
     refresh();
     return;
   }
-  startCommissioning({});
+  startCommissioning([this](bool good) {
+    if (good) Q_EMIT nextRequested();
+  });
 }
 
 void MachinePresenter::startCommissioning(std::function<void(bool good)> done) {

@@ -64,6 +64,13 @@ void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
   refresh();
 }
 
+void WarmupPresenter::propose(const acquisition::Plan& plan) {
+  if (m_running) return;
+  m_again = true;
+  m_preset = -1;
+  setPlan(plan);
+}
+
 void WarmupPresenter::undo() {
   if (m_running || m_undo.empty()) return;
   m_plan = m_undo.back();
@@ -72,7 +79,9 @@ void WarmupPresenter::undo() {
 }
 
 void WarmupPresenter::primary() {
-  if (!m_running) {
+  if (m_page->state().phase == ui::RunPhase::finished) {
+    Q_EMIT nextRequested();
+  } else if (!m_running) {
     start({});
   } else if (m_feed->paused()) {
     m_feed->resume();

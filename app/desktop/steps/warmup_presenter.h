@@ -23,6 +23,8 @@ class WarmupPresenter : public Presenter {
   void tour(std::function<void(bool good)> done) override;
   void undo();
   void setPlan(const acquisition::Plan& plan);
+  /// A further run, planned elsewhere.
+  void propose(const acquisition::Plan& plan);
 
  private:
   void primary();

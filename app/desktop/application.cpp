@@ -1,0 +1,305 @@
+#include "app/desktop/application.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QMessageBox>
+#include <QSettings>
+
+#include "app/desktop/machine_writes.h"
+#include "app/desktop/registry.h"
+#include "app/desktop/steps/machine_presenter.h"
+#include "app/desktop/steps/physics_presenter.h"
+#include "app/desktop/steps/upload_presenter.h"
+#include "app/desktop/steps/verify_presenter.h"
+#include "app/desktop/steps/warmup_presenter.h"
+#include "app/text/error_text.h"
+#include "core/flow/flow.h"
+
+namespace zerodrift::desktop {
+namespace {
+
+ui::Judgement judgement_of(LogKind kind) {
+  switch (kind) {
+    case LogKind::good:
+      return ui::Judgement::ok;
+    case LogKind::warning:
+      return ui::Judgement::warn;
+    case LogKind::bad:
+      return ui::Judgement::bad;
+    case LogKind::note:
+      break;
+  }
+  return ui::Judgement::none;
+}
+
+}  // namespace
+
+Application::Application(ui::Theme& theme)
+    : m_theme(theme),
+      m_bench(std::make_unique<Workbench>()),
+      m_demo(std::make_unique<DemoMachine>()),
+      m_window(std::make_unique<ui::MainWindow>()) {
+  m_presenters = makePages(*m_bench, *m_window, *m_demo);
+  wire();
+  openPage(m_presenters.front()->id());
+  updateSteps();
+  updateLamps();
+}
+
+Application::~Application() {
+  // The task ends before what it uses: it may hold the job and the pages.
+  m_bench->tasks().cancel();
+}
+
+void Application::wire() {
+  connect(m_window.get(), &ui::MainWindow::stepRequested, this, &Application::openPage);
+  connect(m_window.get(), &ui::MainWindow::backRequested, this, &Application::openBack);
+  connect(m_window.get(), &ui::MainWindow::undoRequested, this, &Application::undo);
+  connect(m_window.get(), &ui::MainWindow::filesDropped, this, &Application::dropped);
+  connect(m_window.get(), &ui::MainWindow::closing, this, &Application::mayClose);
+  connect(m_window.get(), &ui::MainWindow::jobRequested, this, [this] { openPage(m_presenters.front()->id()); });
+  connect(m_window.get(), &ui::MainWindow::languageRequested, this,
+          [this] { setLanguage(m_language == QStringLiteral("en") ? QStringLiteral("zh_CN") : QStringLiteral("en")); });
+  connect(m_window.get(), &ui::MainWindow::themeRequested, this, [this] {
+    m_theme.setMode(m_theme.isDark() ? ui::ThemeMode::light : ui::ThemeMode::dark);
+    QSettings().setValue(QStringLiteral("dark"), m_theme.isDark());
+  });
+  connect(m_bench.get(), &Workbench::logged, this, [this](const QDateTime& time, LogKind kind, const QString& text) {
+    m_window->appendLog(time, judgement_of(kind), text);
+  });
+  const auto changed = [this] {
+    for (auto* presenter : m_presenters) {
+      if (presenter->id() == m_open) presenter->refresh();
+    }
+    updateSteps();
+    updateLamps();
+  };
+  connect(m_bench.get(), &Workbench::jobChanged, this, changed);
+  connect(m_bench.get(), &Workbench::artefactsChanged, this, changed);
+  connect(m_bench.get(), &Workbench::profileChanged, this, changed);
+  connect(m_bench.get(), &Workbench::machineSeen, this, &Application::updateLamps);
+  connect(m_bench.get(), &Workbench::machineLost, this, &Application::updateLamps);
+  connect(&m_bench->tasks(), &TaskRunner::started, this, [this] { updateLamps(); });
+  connect(&m_bench->tasks(), &TaskRunner::finished, this, [this] {
+    updateLamps();
+    updateSteps();
+  });
+  for (auto* presenter : m_presenters) {
+    connect(presenter, &Presenter::nextRequested, this, [this, presenter] { openNext(presenter->id()); });
+    connect(presenter, &Presenter::pageRequested, this, &Application::openPage);
+  }
+  wireSteps();
+}
+
+void Application::wireSteps() {
+  const auto find = [this](const char* id) { return presenter(QString::fromLatin1(id)); };
+  auto* warmup = qobject_cast<WarmupPresenter*>(find("warmup"));
+  auto* physics = qobject_cast<PhysicsPresenter*>(find("physics"));
+  auto* upload = qobject_cast<UploadPresenter*>(find("upload"));
+  auto* verify = qobject_cast<VerifyPresenter*>(find("verify"));
+  connect(physics, &PhysicsPresenter::planProposed, this, [this, warmup](const acquisition::Plan& plan) {
+    warmup->propose(plan);
+    openPage(warmup->id());
+  });
+  // The transaction is shown where transactions are; a verification of what was written follows.
+  connect(verify, &VerifyPresenter::correctionWanted, this,
+          [this, upload, verify](const compensation::Table& table, const std::function<void(bool)>& done) {
+            upload->writeCorrection(table, [this, verify, done](bool good) {
+              if (good) openPage(verify->id());
+              done(good);
+            });
+            openPage(upload->id());
+          });
+  connect(m_window.get(), &ui::MainWindow::lampClicked, this, [this](ui::LampId lamp) {
+    if (lamp == ui::LampId::compensation) switchCompensation();
+  });
+}
+
+void Application::switchCompensation() {
+  const auto profile = m_bench->profile();
+  if (!profile || !m_bench->connected() || m_bench->tasks().running()) return;
+  const bool on = !m_bench->compensationOn();
+  const QString machine = QString::fromStdString(profile->name);
+  const auto answer = QMessageBox::question(
+      m_window.get(), tr("Compensation"),
+      on ? tr("Switch the compensation of %1 ON? The axes move by what the active table says.").arg(machine)
+         : tr("Switch the compensation of %1 OFF? The axes move back by what is applied now.").arg(machine),
+      QMessageBox::Yes | QMessageBox::Cancel, QMessageBox::Cancel);
+  if (answer != QMessageBox::Yes) return;
+  m_bench->tasks().start<bool>(
+      tr("Switching the compensation"),
+      [profile = *profile, job = m_bench->job(), on](const TaskContext&) {
+        return desktop::switch_compensation(job, profile, on);
+      },
+      [this](Result<bool> now) {
+        m_bench->log(now ? LogKind::good : LogKind::bad, !now   ? lineOf(now.error())
+                                                         : *now ? tr("Compensation ON")
+                                                                : tr("Compensation OFF"));
+      });
+}
+
+void Application::show() {
+  m_window->show();
+}
+
+Presenter* Application::presenter(const QString& id) const {
+  for (auto* presenter : m_presenters) {
+    if (presenter->id() == id) return presenter;
+  }
+  return nullptr;
+}
+
+void Application::openPage(const QString& id) {
+  if (auto* before = presenter(m_open); before != nullptr && m_open != id) before->leave();
+  m_open = id;
+  m_window->setCurrentPage(id);
+  m_window->setBackEnabled(id != m_presenters.front()->id());
+  if (auto* now = presenter(id)) now->enter();
+}
+
+void Application::openNext(const QString& after) {
+  for (std::size_t i = 0; i + 1 < m_presenters.size(); ++i) {
+    if (m_presenters[i]->id() == after) {
+      openPage(m_presenters[i + 1]->id());
+      return;
+    }
+  }
+}
+
+void Application::openBack() {
+  for (std::size_t i = 1; i < m_presenters.size(); ++i) {
+    if (m_presenters[i]->id() == m_open) {
+      openPage(m_presenters[i - 1]->id());
+      return;
+    }
+  }
+}
+
+void Application::openJob(const QString& path) {
+  if (auto* machine = qobject_cast<MachinePresenter*>(m_presenters.front())) machine->openJob(path);
+}
+
+void Application::startDemo(const DemoOptions& options, const QString& jobPath) {
+  auto* machine = qobject_cast<MachinePresenter*>(m_presenters.front());
+  if (machine == nullptr) return;
+  if (!jobPath.isEmpty()) machine->newJob(jobPath);
+  machine->useVirtualMachine(options);
+}
+
+void Application::setLanguage(const QString& code) {
+  auto translator = std::make_unique<QTranslator>();
+  if (code != QStringLiteral("en") && !translator->load(QStringLiteral(":/i18n/zerodrift_") + code)) {
+    m_bench->log(LogKind::warning, tr("The language %1 is not part of this program.").arg(code));
+    return;
+  }
+  if (m_translator) QApplication::removeTranslator(m_translator.get());
+  m_translator = std::move(translator);
+  m_language = code;
+  if (code != QStringLiteral("en")) QApplication::installTranslator(m_translator.get());
+  m_window->setLanguageName(code == QStringLiteral("en") ? QStringLiteral("EN") : QStringLiteral("中文"));
+  QSettings().setValue(QStringLiteral("language"), code);
+  for (auto* presenter : m_presenters) presenter->refresh();
+  updateSteps();
+  updateLamps();
+}
+
+void Application::updateSteps() {
+  const auto* job = m_bench->job();
+  const auto words = [this](flow::StepState state, const std::string& reason) -> QString {
+    switch (state) {
+      case flow::StepState::blocked:
+        return tr("Not started");
+      case flow::StepState::ready:
+        return tr("Ready");
+      case flow::StepState::current:
+        return tr("Done");
+      case flow::StepState::stale:
+        return tr("Out of date: %1 changed").arg(QString::fromStdString(reason));
+    }
+    return {};
+  };
+  const auto shown = [](flow::StepState state) {
+    switch (state) {
+      case flow::StepState::blocked:
+        return ui::StepState::blocked;
+      case flow::StepState::ready:
+        return ui::StepState::ready;
+      case flow::StepState::current:
+        return ui::StepState::current;
+      case flow::StepState::stale:
+        return ui::StepState::stale;
+    }
+    return ui::StepState::blocked;
+  };
+  for (auto* presenter : m_presenters) {
+    if (job == nullptr) {
+      m_window->setStepState(presenter->id(), ui::StepState::blocked, tr("Not started"));
+      continue;
+    }
+    const auto status = flow::status_of(*job, presenter->id().toStdString());
+    m_window->setStepState(presenter->id(), shown(status.state), words(status.state, status.reason));
+  }
+  if (job == nullptr) {
+    m_window->setJob(tr("No job"), {});
+    return;
+  }
+  const auto header = job->header().value_or(commissioning::JobHeader{});
+  const QString name = header.machine.empty() ? tr("New job") : QString::fromStdString(header.machine);
+  m_window->setJob(name, QString::fromStdString(job->path().filename().string()));
+}
+
+void Application::updateLamps() {
+  const auto& profile = m_bench->profile();
+  const bool running = m_bench->tasks().running();
+  if (m_bench->connected() || (running && profile)) {
+    m_window->setLamp(ui::LampId::controller, tr("Controller connected"), ui::Judgement::ok);
+  } else {
+    m_window->setLamp(ui::LampId::controller, tr("Controller off"), ui::Judgement::none);
+  }
+  if (running) {
+    m_window->setLamp(ui::LampId::recording, m_bench->tasks().name(), ui::Judgement::ok);
+  } else {
+    m_window->setLamp(ui::LampId::recording, tr("Nothing running"), ui::Judgement::none);
+  }
+  const bool camera = profile && profile->error_source == controller::ErrorSourceKind::camera;
+  m_window->setLamp(ui::LampId::camera,
+                    !profile ? tr("Camera off")
+                    : camera ? tr("%n camera(s)", nullptr, static_cast<int>(profile->cameras.size()))
+                             : tr("Probes"),
+                    profile ? ui::Judgement::ok : ui::Judgement::none);
+  const bool on = m_bench->compensationOn();
+  m_window->setLamp(ui::LampId::compensation, on ? tr("Compensation ON") : tr("Compensation OFF"),
+                    on ? ui::Judgement::warn : ui::Judgement::none, on);
+}
+
+void Application::undo() {
+  if (auto* now = presenter(m_open)) QMetaObject::invokeMethod(now, "undo");
+}
+
+void Application::dropped(const QStringList& paths) {
+  for (const QString& path : paths) {
+    if (path.endsWith(QStringLiteral(".zdj"))) {
+      openJob(path);
+      return;
+    }
+    if (path.endsWith(QStringLiteral(".json"))) {
+      if (const Status loaded = m_bench->loadProfile(path.toStdString()); !loaded) {
+        m_presenters.front()->page()->setProblem(
+            {ui::ProblemKind::failure, textOf(loaded.error()).sentence, textOf(loaded.error()).remedy, {}});
+      }
+      openPage(m_presenters.front()->id());
+      return;
+    }
+  }
+}
+
+void Application::mayClose(bool* allowed) {
+  if (!m_bench->tasks().running()) return;
+  const auto answer = QMessageBox::question(
+      m_window.get(), tr("Close Zerodrift?"),
+      tr("%1 is running. What was recorded is kept and the run can be resumed.").arg(m_bench->tasks().name()),
+      QMessageBox::Close | QMessageBox::Cancel, QMessageBox::Cancel);
+  *allowed = answer == QMessageBox::Close;
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,61 @@
+#pragma once
+// Joins window, workbench and presenters: step states, lamps, log, languages, shortcuts.
+
+#include <QObject>
+#include <QTranslator>
+#include <vector>
+
+#include "app/desktop/demo_machine.h"
+#include "app/desktop/presenter.h"
+#include "app/desktop/workbench.h"
+#include "ui/shell/main_window.h"
+#include "ui/shell/theme.h"
+
+namespace zerodrift::desktop {
+
+class MachinePresenter;
+
+class Application : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Application(ui::Theme& theme);
+  ~Application() override;
+
+  void show();
+  void openJob(const QString& path);
+  /// The virtual machine beside the application, with a new job; the machine page shows it connected.
+  void startDemo(const DemoOptions& options, const QString& jobPath = {});
+
+  ui::MainWindow& window() { return *m_window; }
+  Workbench& bench() { return *m_bench; }
+  DemoMachine& demo() { return *m_demo; }
+  const std::vector<Presenter*>& presenters() const { return m_presenters; }
+  Presenter* presenter(const QString& id) const;
+  void openPage(const QString& id);
+  void setLanguage(const QString& code);
+
+ private:
+  void wire();
+  /// What one page asks of another.
+  void wireSteps();
+  void switchCompensation();
+  void openNext(const QString& after);
+  void openBack();
+  void updateSteps();
+  void updateLamps();
+  void undo();
+  void dropped(const QStringList& paths);
+  void mayClose(bool* allowed);
+
+  ui::Theme& m_theme;
+  std::unique_ptr<Workbench> m_bench;
+  std::unique_ptr<DemoMachine> m_demo;
+  std::unique_ptr<ui::MainWindow> m_window;
+  std::vector<Presenter*> m_presenters;
+  std::unique_ptr<QTranslator> m_translator;
+  QString m_language = QStringLiteral("en");
+  QString m_open;
+};
+
+}  // namespace zerodrift::desktop

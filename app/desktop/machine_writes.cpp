@@ -1,0 +1,132 @@
+#include "app/desktop/machine_writes.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/time_text.h"
+#include "core/controller/table_history.h"
+#include "core/controller/table_words.h"
+#include "core/flow/steps/inputs.h"
+
+namespace zerodrift::desktop {
+
+using commissioning::NewArtefact;
+using controller::UploadRecord;
+using nlohmann::json;
+
+namespace {
+
+Status audited(commissioning::Job& job, commissioning::AuditEntry entry, const std::function<Status()>& work) {
+  entry.result = "started";
+  ZD_CHECK(job.audit(entry).map([](const auto&) {}));
+  const Status done = work();
+  entry.result = done ? "done" : std::string(name_of(done.error().code));
+  ZD_CHECK(job.audit(entry).map([](const auto&) {}));
+  return done;
+}
+
+std::string machine_name(const acquisition::MachineIdentity& identity) {
+  return fmt::format("{} (serial {})", identity.name, identity.serial);
+}
+
+json body_of(const UploadRecord& record, const compensation::Table& table) {
+  json states = json::array();
+  for (const auto& step : record.steps) {
+    const auto since = std::chrono::duration<double>(step.time - record.started).count();
+    states.push_back({{"state", controller::name_of(step.state)}, {"at_s", since}, {"detail", step.detail}});
+  }
+  double largest_um = 0.0;
+  for (const auto& axis : record.difference) largest_um = std::max(largest_um, axis.largest_um);
+  return {{"table", compensation::to_json(table)},
+          {"version", record.sequence},
+          {"crc32", fmt::format("{:08x}", record.crc)},
+          {"registers", record.new_words.size()},
+          {"largest_change_um", largest_um},
+          {"difference", json::array()},
+          {"states", states},
+          {"sign_check", nullptr},
+          {"record", controller::to_json(record)},
+          {"rolled_back", true},
+          {"problems", record.warnings}};
+}
+
+}  // namespace
+
+Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile,
+                              const std::function<void(const controller::UploadStep&)>& observer,
+                              const TaskContext& context) {
+  ZD_TRY(const auto machine_artefact, flow::need(job, "upload", "machine"));
+  ZD_TRY(auto devices, flow::Devices::open(profile, false));
+  ZD_TRY(const auto identity, devices.machine->identify());
+  const controller::TableHistory history;
+  ZD_TRY(const auto former, history.read(identity.serial));
+  if (former.empty()) {
+    return fail(ErrorCode::not_enough_data,
+                {{"what", "former tables of " + machine_name(identity)}, {"found", "0"}, {"needed", "1"}});
+  }
+  ZD_TRY(auto table, controller::decode_table(former.back().words, profile));
+  commissioning::AuditEntry entry;
+  entry.machine = machine_name(identity);
+  entry.action = "roll back table";
+  entry.subject = "compensation table";
+  entry.old_value = "the active table";
+  entry.new_value = compensation::to_json(table).dump();
+  controller::UploadOptions options;
+  options.observer = observer;
+  options.activation = controller::Activation::as_before;
+  UploadRecord record;
+  ZD_CHECK(audited(job, entry, [&]() -> Status {
+    record = controller::upload_words(*devices.machine, former.back().words, options, context);
+    return record.result;
+  }));
+  ZD_CHECK(history.pop(identity.serial));
+  table.version = record.sequence;
+  return NewArtefact::of("upload", body_of(record, table), {machine_artefact.id});
+}
+
+Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const controller::Profile& profile,
+                                              const TaskContext& context) {
+  ZD_TRY(auto devices, flow::Devices::open(profile));
+  ZD_TRY(const auto identity, devices.machine->identify());
+  if (!identity.accepts_host_offset) {
+    return fail(ErrorCode::machine_unsupported,
+                {{"what", "the host offset"}, {"found", "none"}, {"expected", "one, for the test move"}});
+  }
+  ZD_TRY(const auto source, flow::open_error_source(job, devices));
+  ZD_CHECK(devices.machine->move_to(profile.measure_position_mm));
+  commissioning::AuditEntry entry;
+  entry.machine = machine_name(identity);
+  entry.action = "test offset";
+  entry.subject = "host offset of X, Y, Z, one after the other";
+  entry.old_value = "0 um";
+  entry.new_value = "10 um, then 0 um";
+  controller::SignCheckRecord record;
+  const auto check = [&]() -> Status {
+    ZD_CHECK(source->take_zero(context));
+    record = controller::check_signs(*devices.machine, *source, {}, context);
+    return record.result;
+  };
+  ZD_CHECK(audited(job, entry, check));
+  return record;
+}
+
+Result<bool> switch_compensation(commissioning::Job* job, const controller::Profile& profile, bool on) {
+  ZD_TRY(auto devices, flow::Devices::open(profile, false));
+  ZD_TRY(const auto identity, devices.machine->identify());
+  const auto work = [&]() -> Status { return devices.machine->switch_compensation(on); };
+  if (job == nullptr) {
+    ZD_CHECK(work());
+  } else {
+    commissioning::AuditEntry entry;
+    entry.machine = machine_name(identity);
+    entry.action = "switch compensation";
+    entry.subject = "compensation switch";
+    entry.old_value = on ? "off" : "on";
+    entry.new_value = on ? "on" : "off";
+    ZD_CHECK(audited(*job, entry, work));
+  }
+  return devices.machine->compensation_on();
+}
+
+}  // namespace zerodrift::desktop

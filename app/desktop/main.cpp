@@ -1,0 +1,90 @@
+// zerodrift: the desktop application.
+
+#include <CLI/CLI.hpp>
+#include <QApplication>
+#include <QSettings>
+#include <QTimer>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "app/desktop/application.h"
+#include "app/desktop/tour.h"
+#include "ui/shell/theme.h"
+
+namespace {
+
+struct Arguments {
+  std::string job;
+  bool demo = false;
+  std::string tour;
+  double speedup = 240.0;
+  int seed = 1;
+  std::string language;
+  std::string theme;
+  std::string size = "1440x900";
+};
+
+/// Without a display the tour draws on the offscreen platform.
+void choosePlatform(int argc, char** argv) {
+  bool tour = false;
+  for (int i = 1; i < argc; ++i) tour = tour || std::string(argv[i]) == "--tour";
+  const bool display = qEnvironmentVariableIsSet("DISPLAY") || qEnvironmentVariableIsSet("WAYLAND_DISPLAY");
+  if (tour && !display && !qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+}
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.add_option("job", arguments.job, "Job file to open");
+  app.add_flag("--demo", arguments.demo, "Start the virtual machine tool beside the application");
+  app.add_option("--tour", arguments.tour,
+                 "Drive the whole wizard against the virtual machine; pictures into this folder");
+  app.add_option("--speedup", arguments.speedup, "Speed of the virtual machine's time")->check(CLI::Range(1.0, 2000.0));
+  app.add_option("--seed", arguments.seed, "Which virtual machine");
+  app.add_option("--language", arguments.language, "en or zh_CN")->check(CLI::IsMember({"en", "zh_CN"}));
+  app.add_option("--theme", arguments.theme, "light or dark")->check(CLI::IsMember({"light", "dark"}));
+  app.add_option("--size", arguments.size, "Size of the window for the tour, for example 1280x720");
+  app.set_version_flag("--version", ZERODRIFT_VERSION);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Zerodrift takes the thermal drift out of a CNC machine", "zerodrift");
+  Arguments arguments;
+  declare(app, arguments);
+  choosePlatform(argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  QApplication application(argc, argv);
+  QApplication::setOrganizationName(QStringLiteral("Zerodrift"));
+  QApplication::setApplicationName(QStringLiteral("Zerodrift"));
+  QApplication::setApplicationVersion(QStringLiteral(ZERODRIFT_VERSION));
+
+  using zerodrift::desktop::DemoOptions;
+  zerodrift::ui::Theme theme(application);
+  if (!arguments.theme.empty()) {
+    theme.setMode(arguments.theme == "dark" ? zerodrift::ui::ThemeMode::dark : zerodrift::ui::ThemeMode::light);
+  }
+  zerodrift::desktop::Application desktop(theme);
+  const QString language = arguments.language.empty()
+                               ? QSettings().value(QStringLiteral("language"), QStringLiteral("en")).toString()
+                               : QString::fromStdString(arguments.language);
+  if (language != QStringLiteral("en")) desktop.setLanguage(language);
+  const DemoOptions demo{arguments.speedup, arguments.seed, {}};
+
+  std::unique_ptr<zerodrift::desktop::Tour> tour;
+  if (!arguments.tour.empty()) {
+    tour = std::make_unique<zerodrift::desktop::Tour>(desktop, QString::fromStdString(arguments.tour),
+                                                      QString::fromStdString(arguments.size), demo);
+    QTimer::singleShot(0, tour.get(), &zerodrift::desktop::Tour::start);
+  } else {
+    desktop.show();
+    if (!arguments.job.empty()) desktop.openJob(QString::fromStdString(arguments.job));
+    if (arguments.demo) desktop.startDemo(demo);
+  }
+  return QApplication::exec();
+}

@@ -1,0 +1,352 @@
+#include "app/desktop/physics_view.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/flow/steps/inputs.h"
+#include "core/recording/csv.h"
+
+namespace zerodrift::desktop {
+
+using nlohmann::json;
+using recording::Recording;
+
+namespace {
+
+constexpr int map_columns = 160;
+constexpr int map_rows = 60;
+constexpr std::size_t most_sparks = 120;
+
+QString say(const char* text) {
+  return QCoreApplication::translate("zerodrift::desktop::PhysicsView", text);
+}
+
+QString short_tag(const std::string& channel) {
+  return QString::fromStdString(channel.substr(0, channel.rfind('_')));
+}
+
+QVector<double> values_of(const Recording& run, const std::string& channel) {
+  const auto* found = run.find(channel);
+  return found == nullptr ? QVector<double>() : QVector<double>(found->values.begin(), found->values.end());
+}
+
+double number_of(const json& object, const std::string& key) {
+  const auto at = object.find(key);
+  return at != object.end() && at->is_number() ? at->get<double>() : std::nan("");
+}
+
+double rms_difference(const QVector<double>& a, const QVector<double>& b) {
+  double sum = 0.0;
+  int count = 0;
+  for (qsizetype i = 0; i < std::min(a.size(), b.size()); ++i) {
+    const double d = a[i] - b[i];
+    if (!std::isfinite(d)) continue;
+    sum += d * d;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : std::nan("");
+}
+
+/// Recorded minus the model, thinned for a sparkline.
+QVector<double> residual_of(const Recording& recorded, const Recording& model, const std::string& channel) {
+  const auto* seen = recorded.find(channel);
+  const auto* told = model.find(channel);
+  QVector<double> out;
+  if (seen == nullptr || told == nullptr || seen->values.size() != told->values.size()) return out;
+  const std::size_t stride = seen->values.size() / most_sparks + 1;
+  for (std::size_t r = 0; r < seen->values.size(); r += stride) {
+    const double d = seen->values[r] - told->values[r];
+    if (std::isfinite(d)) out.append(d);
+  }
+  return out;
+}
+
+/// Value of a row of the map at a share of its length, linear.
+double at_share(const json& row, double share) {
+  if (row.size() < 2) return std::nan("");
+  const double place = share * static_cast<double>(row.size() - 1);
+  const auto low = std::min(static_cast<std::size_t>(place), row.size() - 2);
+  const double part = place - static_cast<double>(low);
+  const auto value = [&](std::size_t i) { return row[i].is_number() ? row[i].get<double>() : 0.0; };
+  return (1.0 - part) * value(low) + part * value(low + 1);
+}
+
+/// Positions as they come, however they are spaced, on the even grid the map draws.
+ui::HeatMapData located_heat(const json& heat) {
+  ui::HeatMapData map;
+  map.unit = QStringLiteral("W");
+  map.from_mm = heat.at("from_mm").get<double>();
+  map.to_mm = heat.at("to_mm").get<double>();
+  map.from_s = heat.at("from_s").get<double>();
+  map.to_s = heat.at("to_s").get<double>();
+  const json& watts = heat.at("watts");
+  map.rows = static_cast<int>(watts.size());
+  map.columns = map_columns;
+  for (const auto& row : watts) {
+    for (int c = 0; c < map_columns; ++c) map.values.append(at_share(row, c / (map_columns - 1.0)));
+  }
+  return map;
+}
+
+struct Residual {
+  double position_mm;
+  const std::vector<double>* recorded;
+  const std::vector<double>* simulated;
+};
+
+double mean_between(const Residual& sensor, std::size_t from, std::size_t to) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t r = from; r < to; ++r) {
+    const double d = (*sensor.recorded)[r] - (*sensor.simulated)[r];
+    if (!std::isfinite(d)) continue;
+    sum += d;
+    ++count;
+  }
+  return count > 0 ? sum / count : std::nan("");
+}
+
+double between(const std::vector<Residual>& sensors, const std::vector<double>& values, double position_mm) {
+  if (position_mm <= sensors.front().position_mm) return values.front();
+  for (std::size_t i = 1; i < sensors.size(); ++i) {
+    if (position_mm > sensors[i].position_mm) continue;
+    const double width = sensors[i].position_mm - sensors[i - 1].position_mm;
+    const double share = width > 0 ? (position_mm - sensors[i - 1].position_mm) / width : 0.0;
+    return (1.0 - share) * values[i - 1] + share * values[i];
+  }
+  return values.back();
+}
+
+std::vector<Residual> residuals_on(const physics::Machine& machine, const std::string& component,
+                                   const Compared& runs) {
+  std::vector<Residual> sensors;
+  for (const auto& sensor : machine.sensors) {
+    const auto* seen = runs.recorded.find(sensor.channel);
+    const auto* told = runs.simulated.find(sensor.channel);
+    if (sensor.component != component || seen == nullptr || told == nullptr) continue;
+    if (seen->values.size() != told->values.size()) continue;
+    sensors.push_back({sensor.position_mm, &seen->values, &told->values});
+  }
+  std::sort(sensors.begin(), sensors.end(), [](auto& a, auto& b) { return a.position_mm < b.position_mm; });
+  return sensors;
+}
+
+ui::HeatMapData residual_map(const physics::Machine& machine, const std::string& component, const Compared& runs) {
+  ui::HeatMapData map;
+  const auto sensors = residuals_on(machine, component, runs);
+  const std::size_t rows = runs.recorded.rows();
+  if (sensors.size() < 2 || rows < map_columns) return map;
+  map.unit = QStringLiteral("K");
+  map.from_s = runs.recorded.time_s.front();
+  map.to_s = runs.recorded.time_s.back();
+  map.from_mm = sensors.front().position_mm;
+  map.to_mm = sensors.back().position_mm;
+  map.columns = map_columns;
+  map.rows = map_rows;
+  map.values.resize(map_columns * map_rows);
+  for (int c = 0; c < map_columns; ++c) {
+    std::vector<double> values;
+    const auto from = rows * static_cast<std::size_t>(c) / map_columns;
+    const auto to = rows * static_cast<std::size_t>(c + 1) / map_columns;
+    for (const auto& sensor : sensors) values.push_back(mean_between(sensor, from, to));
+    for (int p = 0; p < map_rows; ++p) {
+      const double position_mm = map.from_mm + (map.to_mm - map.from_mm) * p / (map_rows - 1.0);
+      map.values[p * map_columns + c] = between(sensors, values, position_mm);
+    }
+  }
+  return map;
+}
+
+/// The first parameter that has an uncertainty, as "36.1 ± 2.0 W".
+QString magnitude_of(const json& effect) {
+  static const std::vector<std::pair<std::string, const char*>> units = {
+      {"_W_m2K", "W/m²K"}, {"_um_per_K", "µm/K"}, {"_um_K", "µm/K"}, {"_W_K", "W/K"},
+      {"_K_per_h", "K/h"}, {"_um", "µm"},         {"_mm", "mm"},     {"_W", "W"},
+      {"_K", "K"},         {"_s", "s"},           {"_percent", "%"}};
+  const json sigma = effect.value("sigma", json::object());
+  QString best;
+  for (const auto& [key, value] : effect.value("parameters", json::object()).items()) {
+    if (!value.is_number() || key == "position_mm" || key == "from_s" || key == "tau_s") continue;
+    QString unit;
+    for (const auto& [ending, text] : units) {
+      if (key.size() > ending.size() && key.compare(key.size() - ending.size(), ending.size(), ending) == 0) {
+        unit = QString::fromUtf8(text);
+        break;
+      }
+    }
+    const double width = number_of(sigma, key);
+    const double number = value.get<double>();
+    const double smallest = std::isnan(width) || width <= 0 ? std::abs(number) / 100.0 : width;
+    const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(std::max(smallest, 1e-6)))) + 1, 0, 4);
+    QString text = QString::number(number, 'f', digits);
+    if (!std::isnan(width)) text += QStringLiteral(" ± ") + QString::number(width, 'f', digits);
+    text += QLatin1Char(' ') + unit;
+    if (!std::isnan(width)) return text.trimmed();
+    if (best.isEmpty()) best = text.trimmed();
+  }
+  return best;
+}
+
+QString rivals_of(const json& diagnosis) {
+  QStringList names;
+  for (const auto& rival : diagnosis.value("ambiguous_with", json::array())) {
+    QString name = effect_name(rival.value("id", ""));
+    if (rival.contains("position_mm") && rival["position_mm"].is_number()) {
+      name += say(" at %1 mm").arg(rival["position_mm"].get<double>(), 0, 'f', 0);
+    }
+    names << name;
+  }
+  return names.isEmpty() ? QString() : say("Cannot be told from: %1").arg(names.join(QStringLiteral(", ")));
+}
+
+std::string most_telling(const json& effect) {
+  std::string best;
+  double largest = -1.0;
+  for (const auto& [channel, value] : effect.value("contribution", json::object()).items()) {
+    const bool temperature = recording::kind_of(channel) == recording::ChannelKind::temperature;
+    if (!value.is_number() || !temperature || value.get<double>() < largest) continue;
+    largest = value.get<double>();
+    best = channel;
+  }
+  return best;
+}
+
+}  // namespace
+
+QString effect_name(const std::string& id) {
+  if (id == "none") return say("nothing hidden");
+  if (id == "unexplained") return say("unexplained");
+  QString name = QString::fromStdString(id).replace(QLatin1Char('_'), QLatin1Char(' '));
+  if (!name.isEmpty()) name[0] = name[0].toUpper();
+  return name;
+}
+
+Compared compared_of(const commissioning::Job& job) {
+  Compared runs;
+  const auto warmup = flow::need(job, "physics", "warmup");
+  if (warmup) runs.recorded = flow::run_of(job, *warmup).value_or(Recording{});
+  const auto physics = job.latest("physics");
+  if (!physics || !*physics) return runs;
+  const auto read = [&](const char* name) -> Recording {
+    const auto& names = (*physics)->blob_names;
+    if (std::find(names.begin(), names.end(), name) == names.end()) return {};
+    const auto bytes = job.blob((*physics)->id, name);
+    return bytes ? recording::parse_recording(*bytes, name).value_or(Recording{}) : Recording{};
+  };
+  runs.simulated = read("prediction.csv");
+  runs.refined = read("refined.csv");
+  return runs;
+}
+
+QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const json& body) {
+  QVector<ui::DrawnComponent> drawn;
+  const json placement = body.is_object() ? body.value("placement", json()) : json();
+  const json diagnosis = body.is_object() ? body.value("diagnosis", json::object()) : json::object();
+  const json mismatch = diagnosis.value("mismatch", json::object());
+  for (const auto& component : machine.components) {
+    if (component.lump) continue;
+    ui::DrawnComponent rod;
+    rod.name = QString::fromStdString(component.id);
+    if (!rod.name.isEmpty()) rod.name[0] = rod.name[0].toUpper();
+    rod.length_mm = component.length_mm;
+    rod.diameter_mm = component.outer_diameter_mm;
+    for (const auto& source : component.sources) {
+      rod.sources.append({QString::fromStdString(source.id).replace(QLatin1Char('_'), QLatin1Char(' ')), source.from_mm,
+                          source.to_mm});
+    }
+    for (const auto& sensor : machine.sensors) {
+      if (sensor.component == component.id) rod.sensors.append({short_tag(sensor.channel), sensor.position_mm});
+    }
+    if (placement.is_object() && placement.value("component", "") == component.id) {
+      rod.regionFrom_mm = placement.value("from_mm", 0.0);
+      rod.regionTo_mm = placement.value("to_mm", 0.0);
+    }
+    if (mismatch.contains("component") && mismatch["component"] == component.id && mismatch["position_mm"].is_array()) {
+      rod.mismatchFrom_mm = mismatch["position_mm"][0].get<double>();
+      rod.mismatchTo_mm = mismatch["position_mm"][1].get<double>();
+    }
+    drawn.append(rod);
+  }
+  return drawn;
+}
+
+QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller::Profile& profile, const json& body) {
+  QVector<ui::SimulatedChannel> channels;
+  const bool adopted = body.is_object() && !body.value("adopted", json::array()).empty();
+  const json diagnosis = body.is_object() ? body.value("diagnosis", json::object()) : json::object();
+  const json noise = diagnosis.value("rmse", json::object()).value("noise", json::object());
+  for (const auto& simulated : runs.simulated.channels) {
+    const auto kind = recording::kind_of(simulated.name);
+    const bool temperature = kind == recording::ChannelKind::temperature;
+    const auto* recorded = runs.recorded.find(simulated.name);
+    if ((!temperature && kind != recording::ChannelKind::error) || recorded == nullptr) continue;
+    ui::SimulatedChannel channel;
+    channel.id = QString::fromStdString(simulated.name);
+    channel.tag = short_tag(simulated.name);
+    channel.unit = temperature ? QStringLiteral("K") : QStringLiteral("µm");
+    channel.time_s = QVector<double>(runs.recorded.time_s.begin(), runs.recorded.time_s.end());
+    channel.recorded = values_of(runs.recorded, simulated.name);
+    channel.simulated = QVector<double>(simulated.values.begin(), simulated.values.end());
+    if (adopted) channel.refined = values_of(runs.refined, simulated.name);
+    channel.rmse = rms_difference(channel.recorded, channel.refined.isEmpty() ? channel.simulated : channel.refined);
+    channel.noise = number_of(noise, simulated.name);
+    if (std::isnan(channel.noise)) {
+      const auto sensor = std::find_if(profile.sensors.begin(), profile.sensors.end(),
+                                       [&](const auto& s) { return s.channel == simulated.name; });
+      channel.noise = temperature && sensor != profile.sensors.end() ? sensor->accuracy_C : 1.0;
+    }
+    channels.append(channel);
+  }
+  return channels;
+}
+
+ui::HeatMapData heat_of(const json& body, const physics::Machine& machine, const std::string& component,
+                        const Compared& runs) {
+  const json heat = body.is_object() ? body.value("heat", json()) : json();
+  if (heat.is_object() && heat.value("component", "") == component) return located_heat(heat);
+  return residual_map(machine, component, runs);
+}
+
+void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState& state) {
+  const json diagnosis = body.value("diagnosis", json::object());
+  const json detectable = diagnosis.value("could_have_detected", json::object());
+  const auto listed = [&](const char* list, const std::string& id) {
+    const auto ids = body.value(list, std::vector<std::string>{});
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  const json rmse = diagnosis.value("rmse", json::object());
+  for (const auto& effect : diagnosis.value("effects", json::array())) {
+    ui::Explanation card;
+    const std::string id = effect.value("id", "");
+    card.id = QString::fromStdString(id);
+    card.name = effect_name(id);
+    card.sentence = QString::fromStdString(effect.value("explanation", ""));
+    card.magnitude = magnitude_of(effect);
+    if (effect["component"].is_string()) {
+      card.place = QString::fromStdString(effect["component"].get<std::string>());
+      if (effect["position_mm"].is_number()) {
+        card.place += QStringLiteral(", %1 mm").arg(effect["position_mm"].get<double>(), 0, 'f', 0);
+      }
+    } else if (effect["channel"].is_string()) {
+      card.place = short_tag(effect["channel"].get<std::string>());
+    }
+    card.confidence = effect.value("confidence", 0.0);
+    card.adopted = listed("adopted", id);
+    card.rejected = listed("rejected", id);
+    const std::string channel = most_telling(effect);
+    card.before = residual_of(runs.recorded, runs.simulated, channel);
+    card.after = residual_of(runs.recorded, runs.refined, channel);
+    card.rmseBefore = number_of(rmse.value("before", json::object()), channel);
+    card.rmseRefit = number_of(rmse.value("refitted", json::object()), channel);
+    card.rmseAfter = number_of(rmse.value("after", json::object()), channel);
+    card.rivals = rivals_of(diagnosis);
+    if (detectable.contains(id)) {
+      card.couldDetect = say("Would have shown from %1 on").arg(number_of(detectable[id], "value"), 0, 'g', 2);
+    }
+    state.explanations.append(card);
+  }
+}
+
+}  // namespace zerodrift::desktop

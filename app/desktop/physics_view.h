@@ -1,0 +1,34 @@
+#pragma once
+// From the artefact "physics", the run and the machine description to what the physics page draws.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/commissioning/job.h"
+#include "core/controller/profile.h"
+#include "core/physics/machine.h"
+#include "core/recording/recording.h"
+#include "ui/pages/physics_page.h"
+
+namespace zerodrift::desktop {
+
+/// The recording, the simulation of it, and the simulation with what was found (empty until the search).
+struct Compared {
+  recording::Recording recorded;
+  recording::Recording simulated;
+  recording::Recording refined;
+};
+/// Empty recordings where the job has none.
+Compared compared_of(const commissioning::Job& job);
+
+/// The rods of the machine with sources and sensors; `body` adds the recommended region and the place of the mismatch.
+QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const nlohmann::json& body);
+QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller::Profile& profile,
+                                          const nlohmann::json& body);
+/// What the search located, in W; before it recorded minus simulated at the sensors, in K, linear between them.
+ui::HeatMapData heat_of(const nlohmann::json& body, const physics::Machine& machine, const std::string& component,
+                        const Compared& runs);
+void fill_explanations(const nlohmann::json& body, const Compared& runs, ui::PhysicsState& state);
+/// "extra_heat_source" as words.
+QString effect_name(const std::string& id);
+
+}  // namespace zerodrift::desktop

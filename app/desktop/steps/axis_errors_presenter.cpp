@@ -1,0 +1,341 @@
+#include "app/desktop/steps/axis_errors_presenter.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/file.h"
+#include "core/base/resources.h"
+#include "core/compensation/axis_map.h"
+#include "core/compensation/positioning.h"
+#include "core/controller/exports/export_format.h"
+#include "ui/pages/axis_page.h"
+
+namespace zerodrift::desktop {
+
+using compensation::Criterion;
+using compensation::Segmentation;
+
+namespace {
+
+constexpr int round_trip_points = 2000;
+constexpr const char* table_format = "zerodrift-table";
+
+double error_of(const compensation::Segment& segment, double position_mm) {
+  return ((segment.a - 1.0) * position_mm + segment.b_mm) * 1000.0;
+}
+
+QVector<ui::AxisSegment> segments_of(const Segmentation& cut, const std::vector<double>& position_mm,
+                                     const std::vector<double>& error_um) {
+  QVector<ui::AxisSegment> rows;
+  for (const auto& segment : cut.segments) {
+    ui::AxisSegment row;
+    row.from_mm = segment.from_mm;
+    row.to_mm = segment.to_mm;
+    row.a = segment.a;
+    row.b_mm = segment.b_mm;
+    row.r = segment.r;
+    row.points = segment.points;
+    for (std::size_t i = 0; i < position_mm.size(); ++i) {
+      if (position_mm[i] < segment.from_mm || position_mm[i] > segment.to_mm) continue;
+      row.largestResidual_um =
+          std::max(row.largestResidual_um, std::abs(error_um[i] - error_of(segment, position_mm[i])));
+    }
+    rows.append(row);
+  }
+  return rows;
+}
+
+}  // namespace
+
+AxisErrorsPresenter::AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page) : Presenter(bench, page), m_page(page) {
+  connect(page, &ui::AxisPage::segmentationChanged, this,
+          [this](int criterion, double threshold, int startPoints, double tolerance_um) {
+            constexpr std::array criteria = {Criterion::coordinates, Criterion::errors, Criterion::tolerance};
+            m_options.criterion = criteria.at(static_cast<std::size_t>(std::clamp(criterion, 0, 2)));
+            m_options.threshold = threshold;
+            m_options.start_points = startPoints;
+            m_options.tolerance_um = tolerance_um;
+            cut();
+          });
+  connect(page, &ui::AxisPage::ruleChosen, this, [this](bool optimal) {
+    m_useOptimal = optimal;
+    refresh();
+  });
+  connect(page, &ui::AxisPage::formatChosen, this, [this](int index) {
+    m_format = index;
+    refresh();
+  });
+  connect(page, &ui::Page::emptyActionTriggered, this, &AxisErrorsPresenter::open);
+  connect(page, &ui::Page::primaryTriggered, this, [this] {
+    if (m_position_mm.empty()) {
+      open();
+    } else {
+      use();
+    }
+  });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
+    if (action == QStringLiteral("open")) open();
+    if (action == QStringLiteral("export")) exportTable();
+  });
+}
+
+void AxisErrorsPresenter::open() {
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Laser report"), QDir::homePath(),
+                                                    tr("Laser reports (*.csv *.rtl *.REN *.ren *.pos);;All files (*)"));
+  if (!path.isEmpty()) load(path);
+}
+
+bool AxisErrorsPresenter::load(const QString& path) {
+  m_page->clearProblem();
+  auto report = compensation::read_laser(path.toStdString());
+  if (!report) {
+    show(report.error());
+    return false;
+  }
+  m_report = std::move(*report);
+  m_position_mm.clear();
+  m_error_um.clear();
+  for (const auto& point : compensation::points_of(m_report)) {
+    m_position_mm.push_back(point.position_mm);
+    m_error_um.push_back(0.5 * (point.error_up_um + point.error_down_um));
+  }
+  bench().log(LogKind::note, tr("Laser report %1").arg(path));
+  for (const auto& warning : m_report.warnings) bench().log(LogKind::warning, QString::fromStdString(warning));
+  cut();
+  return !m_position_mm.empty();
+}
+
+void AxisErrorsPresenter::cut() {
+  if (m_position_mm.empty()) return;
+  compensation::SegmentationOptions published = m_options;
+  if (published.criterion == Criterion::tolerance) published.criterion = Criterion::errors;
+  compensation::SegmentationOptions optimal = m_options;
+  optimal.criterion = Criterion::tolerance;
+  const auto rule = compensation::segment_errors(m_position_mm, m_error_um, published);
+  const auto fewest = compensation::segment_errors(m_position_mm, m_error_um, optimal);
+  if (!rule || !fewest) {
+    show(rule ? fewest.error() : rule.error());
+    m_position_mm.clear();
+    refresh();
+    return;
+  }
+  m_published = *rule;
+  m_optimal = *fewest;
+  refresh();
+}
+
+std::string AxisErrorsPresenter::axisName() const {
+  const char letter =
+      m_report.axis.empty() ? 'X' : static_cast<char>(std::toupper(static_cast<unsigned char>(m_report.axis.front())));
+  return std::string(1, letter == 'Y' || letter == 'Z' ? letter : 'X');
+}
+
+compensation::Table AxisErrorsPresenter::table() const {
+  compensation::Table made;
+  made.version = 1;
+  auto& axis = made.axes[axisName()];
+  axis.segments = chosen().segments;
+  axis.points = compensation::points_of(m_report);
+  const auto& profile = const_cast<AxisErrorsPresenter*>(this)->bench().profile();
+  if (!profile) return made;
+  made.machine = profile->name;
+  const auto at = profile->measure_position_mm.find(axisName());
+  if (at == profile->measure_position_mm.end()) return made;
+  compensation::AxisTable bare;
+  bare.points = axis.points;
+  const double here_um = compensation::error_um(bare, at->second, compensation::Approach::up, {}).value_or(0.0);
+  for (auto& point : axis.points) {
+    point.error_up_um -= here_um;
+    point.error_down_um -= here_um;
+  }
+  for (auto& segment : axis.segments) segment.b_mm -= here_um / 1000.0;
+  return made;
+}
+
+void AxisErrorsPresenter::use() {
+  nlohmann::json notes = nlohmann::json::array();
+  for (const auto& note : chosen().notes) notes.push_back(note);
+  const nlohmann::json body = {{"table", compensation::to_json(table())},
+                               {"statistics", compensation::to_json(compensation::positioning_figures(m_report))},
+                               {"file", QFileInfo(QString::fromStdString(m_report.file)).fileName().toStdString()},
+                               {"largest_residual_um", chosen().largest_residual_um},
+                               {"notes", notes}};
+  if (const Status kept = bench().keep(commissioning::NewArtefact::of("axis_table", body)); !kept) {
+    show(kept.error());
+    return;
+  }
+  Q_EMIT pageRequested(QStringLiteral("upload"));
+}
+
+void AxisErrorsPresenter::exportTable() {
+  const auto& formats = controller::export_formats();
+  if (m_format == 0) {
+    const QString path = QFileDialog::getSaveFileName(
+        m_page, tr("Save table"), QDir::homePath() + QStringLiteral("/axis.json"), tr("Tables (*.json)"));
+    if (path.isEmpty()) return;
+    if (const Status written = compensation::write_table_file(path.toStdString(), table()); !written)
+      show(written.error());
+    return;
+  }
+  const auto& format = formats.at(static_cast<std::size_t>(m_format - 1));
+  const auto made = format.write(table(), {});
+  if (!made) {
+    show(made.error());
+    return;
+  }
+  const QString path = QFileDialog::getSaveFileName(m_page, tr("Export"), QDir::homePath());
+  if (path.isEmpty()) return;
+  for (const auto& file : made->files) {
+    if (const Status written = write_file(path.toStdString() + file.suffix, file.text); !written) {
+      show(written.error());
+      return;
+    }
+  }
+  for (const auto& line : made->confirm) bench().log(LogKind::warning, QString::fromStdString(line));
+  bench().log(LogKind::good, tr("Exported: %1").arg(path));
+}
+
+void AxisErrorsPresenter::fillMeasurement(ui::AxisState& state) const {
+  std::set<std::pair<int, bool>> runs;
+  for (const auto& reading : m_report.readings)
+    runs.insert({reading.run, reading.approach == compensation::Approach::up});
+  for (const auto& [number, upwards] : runs) {
+    ui::LaserRun run;
+    run.upwards = upwards;
+    std::vector<std::pair<double, double>> points;
+    for (const auto& reading : m_report.readings) {
+      if (reading.run != number || (reading.approach == compensation::Approach::up) != upwards) continue;
+      points.emplace_back(m_report.targets_mm[reading.target], reading.deviation_um);
+    }
+    std::sort(points.begin(), points.end());
+    for (const auto& [position, error] : points) {
+      run.position_mm.append(position);
+      run.error_um.append(error);
+    }
+    state.runs.append(run);
+  }
+  state.position_mm = QVector<double>(m_position_mm.begin(), m_position_mm.end());
+  state.fileNotes = tr("%1: %n target(s)", nullptr, static_cast<int>(m_report.targets_mm.size()))
+                        .arg(QFileInfo(QString::fromStdString(m_report.file)).fileName()) +
+                    QStringLiteral(", ") + tr("%n run(s)", nullptr, static_cast<int>(runs.size()));
+}
+
+void AxisErrorsPresenter::fillFigures(ui::AxisState& state) const {
+  const auto figures = compensation::positioning_figures(m_report);
+  for (const auto& target : figures.targets) {
+    state.meanUp_um.append(target.runs_up > 0 ? target.mean_up_um : target.mean_down_um);
+    state.sigmaUp_um.append(target.runs_up > 1 ? target.s_up_um : 0.0);
+    if (!m_report.bidirectional()) continue;
+    state.meanDown_um.append(target.mean_down_um);
+    state.sigmaDown_um.append(target.runs_down > 1 ? target.s_down_um : 0.0);
+  }
+  state.iso = {{QStringLiteral("A"), tr("accuracy, both directions"), figures.A_um},
+               {QStringLiteral("A↑"), tr("accuracy upwards"), figures.A_up_um},
+               {QStringLiteral("A↓"), tr("accuracy downwards"), figures.A_down_um},
+               {QStringLiteral("E"), tr("systematic deviation"), figures.E_um},
+               {QStringLiteral("R"), tr("repeatability, both directions"), figures.R_um},
+               {QStringLiteral("R↑"), tr("repeatability upwards"), figures.R_up_um},
+               {QStringLiteral("R↓"), tr("repeatability downwards"), figures.R_down_um},
+               {QStringLiteral("B"), tr("reversal, largest"), figures.B_um},
+               {QStringLiteral("B̄"), tr("reversal, mean"), figures.B_mean_um},
+               {QStringLiteral("M"), tr("range of the mean deviation"), figures.M_um}};
+  state.vdi = {{QStringLiteral("P"), tr("positional uncertainty"), figures.P_um},
+               {QStringLiteral("Pa"), tr("positional deviation"), figures.Pa_um},
+               {QStringLiteral("Ps"), tr("scatter, largest"), figures.Ps_max_um},
+               {QStringLiteral("Ps mean"), tr("scatter, mean"), figures.Ps_mean_um},
+               {QStringLiteral("U"), tr("reversal, largest"), figures.U_max_um},
+               {QStringLiteral("U mean"), tr("reversal, mean"), figures.U_mean_um}};
+  state.before_um = std::isnan(figures.A_um) ? figures.E_um : figures.A_um;
+  if (std::isnan(state.before_um)) {
+    const auto [low, high] = std::minmax_element(m_error_um.begin(), m_error_um.end());
+    state.before_um = *high - *low;
+  }
+  // What is left: the scatter of the runs as it is, and what the segments do not follow.
+  compensation::LaserReport after = m_report;
+  compensation::AxisTable axis;
+  axis.segments = chosen().segments;
+  const auto map = compensation::AxisMap::from(axis);
+  if (!map) return;
+  for (auto& reading : after.readings) {
+    const double target_mm = after.targets_mm[reading.target];
+    reading.deviation_um -= (map->forward(target_mm) - target_mm) * 1000.0;
+  }
+  const auto then = compensation::positioning_figures(after);
+  state.after_um = !std::isnan(figures.A_um)   ? then.A_um
+                   : !std::isnan(figures.E_um) ? then.E_um
+                                               : 2.0 * chosen().largest_residual_um;
+}
+
+void AxisErrorsPresenter::fillSegments(ui::AxisState& state) const {
+  constexpr std::array shown = {ui::SegmentCriterion::errors, ui::SegmentCriterion::coordinates,
+                                ui::SegmentCriterion::tolerance};
+  state.criterion = shown.at(static_cast<std::size_t>(m_options.criterion));
+  state.threshold = m_options.threshold;
+  state.startPoints = m_options.start_points;
+  state.tolerance_um = m_options.tolerance_um;
+  state.published = segments_of(m_published, m_position_mm, m_error_um);
+  state.optimal = segments_of(m_optimal, m_position_mm, m_error_um);
+  state.useOptimal = m_useOptimal;
+  compensation::AxisTable axis;
+  axis.segments = chosen().segments;
+  const auto map = compensation::AxisMap::from(axis);
+  state.monotonic = map.has_value();
+  if (!map) return;
+  double largest_mm = 0.0;
+  const double from = m_position_mm.front();
+  const double to = m_position_mm.back();
+  for (int i = 0; i <= round_trip_points; ++i) {
+    const double p = from + (to - from) * i / round_trip_points;
+    largest_mm = std::max(largest_mm, std::abs(map->forward(map->inverse(p)) - p));
+  }
+  state.roundTrip_nm = 1e6 * largest_mm;
+}
+
+void AxisErrorsPresenter::fillFormat(ui::AxisState& state) const {
+  const auto& formats = controller::export_formats();
+  state.formats = {QString::fromLatin1(table_format)};
+  for (const auto& format : formats)
+    state.formats << QString::fromUtf8(format.id.data(), static_cast<int>(format.id.size()));
+  state.format = m_format;
+  if (m_format <= 0 || m_format > static_cast<int>(formats.size())) return;
+  const auto made = formats.at(static_cast<std::size_t>(m_format - 1)).write(table(), {});
+  if (!made) {
+    state.formatLoss = tr("this table cannot be written in it");
+    return;
+  }
+  QStringList losses;
+  for (const auto& loss : made->losses) losses << QString::fromStdString(loss);
+  state.formatLoss = losses.join(QStringLiteral("; "));
+}
+
+void AxisErrorsPresenter::refresh() {
+  ui::AxisState state;
+  if (!m_position_mm.empty()) {
+    state.axis = QString::fromStdString(axisName());
+    state.axes = {state.axis};
+    state.file = QString::fromStdString(m_report.file);
+    fillMeasurement(state);
+    fillFigures(state);
+    fillSegments(state);
+    fillFormat(state);
+  }
+  m_page->setState(state);
+}
+
+void AxisErrorsPresenter::tour(std::function<void(bool good)> done) {
+  const auto sample = find_resource("samples/axis-x-laser.csv");
+  if (!sample) {
+    show(sample.error());
+    done(false);
+    return;
+  }
+  const bool good = load(QString::fromStdString(sample->string()));
+  m_page->showView(1);
+  done(good);
+}
+
+}  // namespace zerodrift::desktop

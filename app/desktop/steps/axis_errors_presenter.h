@@ -1,0 +1,49 @@
+#pragma once
+// The axis errors page: a laser report, its figures, the cut into segments, exports, and its use in the next upload.
+
+#include "app/desktop/presenter.h"
+#include "core/compensation/laser.h"
+#include "core/compensation/segmentation.h"
+
+namespace zerodrift::ui {
+class AxisPage;
+struct AxisState;
+}  // namespace zerodrift::ui
+
+namespace zerodrift::desktop {
+
+class AxisErrorsPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page);
+  void refresh() override;
+  void tour(std::function<void(bool good)> done) override;
+  bool load(const QString& path);
+
+ private:
+  void open();
+  void cut();
+  void use();
+  void exportTable();
+  void fillMeasurement(ui::AxisState& state) const;
+  void fillFigures(ui::AxisState& state) const;
+  void fillSegments(ui::AxisState& state) const;
+  void fillFormat(ui::AxisState& state) const;
+  const compensation::Segmentation& chosen() const { return m_useOptimal ? m_optimal : m_published; }
+  std::string axisName() const;
+  /// Errors counted from the measuring position: there the camera has its zero.
+  compensation::Table table() const;
+
+  ui::AxisPage* m_page;
+  compensation::LaserReport m_report;
+  std::vector<double> m_position_mm;
+  std::vector<double> m_error_um;
+  compensation::SegmentationOptions m_options;
+  compensation::Segmentation m_published;
+  compensation::Segmentation m_optimal;
+  bool m_useOptimal = true;
+  int m_format = 0;
+};
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,155 @@
+#include "app/desktop/steps/fit_presenter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/analysis/predict.h"
+#include "core/flow/steps/fit_step.h"
+#include "core/flow/steps/inputs.h"
+#include "ui/pages/fit_page.h"
+
+namespace zerodrift::desktop {
+
+using nlohmann::json;
+
+namespace {
+
+QString method_name(analysis::Method method) {
+  return QString::fromUtf8(analysis::name_of(method).data());
+}
+
+/// Measured and predicted with the band, where it was measured.
+ui::FitSeries series_of(const recording::Recording& run, const recording::Recording& prediction,
+                        const std::string& error, const std::string& sensor) {
+  ui::FitSeries series;
+  series.name = QString::fromStdString(error.substr(1, error.find('_') - 1));
+  const auto* measured = run.find(error);
+  const auto* predicted = prediction.find(error);
+  const auto* low = prediction.find(error + "_low");
+  const auto* high = prediction.find(error + "_high");
+  const auto* temperature = run.find(sensor);
+  if (measured == nullptr || predicted == nullptr) return series;
+  for (std::size_t r = 0; r < run.rows(); ++r) {
+    if (std::isnan(measured->values[r])) continue;
+    const double value = predicted->values[r];
+    series.time_s.append(run.time_s[r]);
+    series.measured_um.append(measured->values[r]);
+    series.predicted_um.append(value);
+    series.low_um.append(low == nullptr ? value : low->values[r]);
+    series.high_um.append(high == nullptr ? value : high->values[r]);
+    series.temperature_C.append(temperature == nullptr ? std::nan("") : temperature->values[r]);
+  }
+  return series;
+}
+
+}  // namespace
+
+FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(bench, page), m_page(page) {
+  connect(page, &ui::FitPage::methodChosen, this, [this](const QString& method) { run(method.toStdString(), {}); });
+  connect(page, &ui::Page::primaryTriggered, this, [this] {
+    if (this->bench().has("model")) {
+      Q_EMIT nextRequested();
+    } else {
+      run("auto", {});
+    }
+  });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) { run("auto", {}); });
+}
+
+void FitPresenter::enter() {
+  refresh();
+  if (bench().has("sensors") && !bench().has("model") && !bench().tasks().running()) run("auto", {});
+}
+
+void FitPresenter::run(const std::string& method, std::function<void(bool good)> done) {
+  const auto* job = bench().job();
+  if (job == nullptr) return;
+  runStep(
+      tr("Fitting the model"),
+      [job, method](const TaskContext& context) { return flow::fit_model(*job, {method}, context); }, std::move(done));
+}
+
+void FitPresenter::fill(ui::FitState& state) {
+  const auto artefact = bench().job()->latest("model");
+  if (!artefact || !*artefact) return;
+  const auto model = flow::model_of(**artefact);
+  const auto warmup = flow::need(*bench().job(), "fit", "warmup");
+  if (!model || !warmup) return;
+  state.method = method_name(model->method);
+  state.proposed = state.method;
+  double peak = 0.0;
+  double rms = 0.0;
+  double band = 0.0;
+  double coverage = 1.0;
+  double range = 0.0;
+  for (const auto& error : model->errors) {
+    peak = std::max(peak, error.held_out.peak_um);
+    rms = std::max(rms, error.held_out.rms_um);
+    band = std::max(band, error.band.half_width_um);
+    coverage = std::min(coverage, error.band.measured_coverage);
+  }
+  range = model->quality.error_range_um;
+  state.attainablePeak_um = peak;
+  state.attainableRms_um = rms;
+  state.attainable90_um = band;
+  state.coverage_percent = 100.0 * coverage;
+  if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
+  for (const auto& sensor : model->sensors)
+    state.sensors << QString::fromStdString(sensor).remove(QStringLiteral("_C"));
+  for (const auto& candidate : model->candidates) {
+    ui::MethodRow row;
+    row.id = method_name(candidate.method);
+    row.name = QString::fromStdString(candidate.label);
+    row.unseen_um = candidate.held_out_rms_um;
+    row.peak_um = candidate.held_out_peak_um;
+    row.onController = candidate.runs_on_controller;
+    if (candidate.chosen) row.why = QString::fromStdString(model->reason);
+    state.methods.append(row);
+  }
+  double low = 1e9;
+  double high = -1e9;
+  for (std::size_t i = 0; i < model->domain.channels.size(); ++i) {
+    const auto kind = recording::kind_of(model->domain.channels[i]);
+    if (kind == recording::ChannelKind::temperature || kind == recording::ChannelKind::ambient) {
+      low = std::min(low, model->domain.low[i]);
+      high = std::max(high, model->domain.high[i]);
+    } else if (kind == recording::ChannelKind::speed) {
+      state.validityLimits =
+          tr("%1 to %2 rpm").arg(model->domain.low[i], 0, 'f', 0).arg(model->domain.high[i], 0, 'f', 0);
+    }
+  }
+  if (high > low) state.validity = tr("%1 to %2 °C").arg(low, 0, 'f', 0).arg(high, 0, 'f', 0);
+  for (const auto& advice : model->quality.advice) state.advice << QString::fromStdString(advice);
+  for (const auto& finding : model->findings) state.advice << QString::fromStdString(analysis::describe(finding));
+  const auto run = flow::run_of(*bench().job(), *warmup);
+  if (!run) return;
+  const auto prediction = analysis::predict(*model, *run);
+  if (!prediction) return;
+  const std::string sensor = model->sensors.empty() ? "" : model->sensors.front();
+  const auto predicted = prediction->to_recording();
+  for (const auto& error : model->errors) {
+    state.series.append(series_of(*run, predicted, error.error, sensor));
+  }
+}
+
+void FitPresenter::refresh() {
+  ui::FitState state;
+  if (!bench().has("sensors")) {
+    state.blocked = tr("Choose the sensors first: the model is fitted to them.");
+  } else {
+    fill(state);
+  }
+  m_page->setState(state);
+}
+
+void FitPresenter::tour(std::function<void(bool good)> done) {
+  whenIdle([this, done = std::move(done)] {
+    if (bench().has("model")) {
+      done(true);
+    } else {
+      run("auto", done);
+    }
+  });
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,29 @@
+#pragma once
+// The fit page: measured against predicted, the methods compared, what can be attained.
+
+#include "app/desktop/presenter.h"
+
+namespace zerodrift::ui {
+class FitPage;
+struct FitState;
+}  // namespace zerodrift::ui
+
+namespace zerodrift::desktop {
+
+class FitPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  FitPresenter(Workbench& bench, ui::FitPage* page);
+  void refresh() override;
+  void enter() override;
+  void tour(std::function<void(bool good)> done) override;
+
+ private:
+  void run(const std::string& method, std::function<void(bool good)> done);
+  void fill(ui::FitState& state);
+
+  ui::FitPage* m_page;
+};
+
+}  // namespace zerodrift::desktop

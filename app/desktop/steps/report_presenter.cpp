@@ -1,0 +1,275 @@
+#include "app/desktop/steps/report_presenter.h"
+
+#include <fmt/format.h>
+
+#include <QBuffer>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <algorithm>
+
+#include "app/reporting/writers.h"
+#include "core/base/json.h"
+#include "core/flow/steps/inputs.h"
+#include "core/recording/csv.h"
+#include "core/report/build.h"
+#include "ui/pages/report_page.h"
+
+namespace zerodrift::desktop {
+
+using commissioning::NewArtefact;
+using nlohmann::json;
+
+namespace {
+
+constexpr int preview_width_px = 1100;
+constexpr int rest_ms = 60;
+const std::string standards_mark = "Standards: ";
+
+/// The page on which a figure from this kind of artefact can be looked into.
+QString page_of(const std::string& kind) {
+  if (kind == "calibration") return QStringLiteral("calibrate");
+  if (kind == "model") return QStringLiteral("fit");
+  if (kind == "verification") return QStringLiteral("verify");
+  if (kind == "axis_table") return QStringLiteral("axis_errors");
+  return QString::fromStdString(kind);
+}
+
+QVector<ui::DoubtfulFigure> doubts_of(const report::Report& report) {
+  QVector<ui::DoubtfulFigure> doubts;
+  for (const auto& section : report.sections) {
+    for (const auto& block : section.blocks) {
+      if (const auto* figures = std::get_if<report::Figures>(&block)) {
+        for (const auto& figure : figures->figures) {
+          if (figure.verdict != report::Verdict::doubtful && figure.verdict != report::Verdict::bad) continue;
+          doubts.append({QString::fromStdString(
+                             fmt::format("{}: {} {} {}", figure.label, figure.value, figure.unit, figure.limit)),
+                         figure.verdict == report::Verdict::bad ? ui::Judgement::bad : ui::Judgement::warn,
+                         page_of(figure.trace.artefact)});
+        }
+      } else if (const auto* text = std::get_if<report::Text>(&block); text != nullptr && text->warning) {
+        const QString words = QString::fromStdString(text->text);
+        // The section of doubts names the artefact before the colon.
+        const QString kind = words.section(QLatin1Char(':'), 0, 0);
+        doubts.append(
+            {words, ui::Judgement::warn, page_of(kind.contains(QLatin1Char(' ')) ? section.id : kind.toStdString())});
+      }
+    }
+  }
+  return doubts;
+}
+
+ui::ReportHead head_of(const commissioning::JobHeader& header) {
+  ui::ReportHead head;
+  head.customer = QString::fromStdString(header.customer);
+  head.machine = QString::fromStdString(header.machine);
+  head.serial = QString::fromStdString(header.serial);
+  head.engineer = QString::fromStdString(header.engineer);
+  head.standards = header.notes.rfind(standards_mark, 0) == 0
+                       ? QString::fromStdString(header.notes.substr(standards_mark.size()))
+                       : QString::fromStdString(header.notes);
+  return head;
+}
+
+Status write_series(const commissioning::Job& job, const char* kind, const QString& path) {
+  const auto input = flow::need(job, "report", kind);
+  if (!input) return {};  // not recorded yet: nothing to put into the bundle
+  ZD_TRY(const auto run, flow::run_of(job, *input));
+  return recording::write_recording(path.toStdString(), run);
+}
+
+Status write_body(const json& body, const char* part, const QString& path) {
+  if (!body.is_object() || !body.contains(part) || body.at(part).is_null()) return {};
+  return write_json_file(path.toStdString(), body.at(part));
+}
+
+}  // namespace
+
+ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Presenter(bench, page), m_page(page) {
+  m_redraw.setSingleShot(true);
+  m_redraw.setInterval(rest_ms);
+  connect(&m_redraw, &QTimer::timeout, this, &ReportPresenter::drawPreview);
+  connect(page, &ui::ReportPage::headEdited, this, &ReportPresenter::setHead);
+  connect(page, &ui::ReportPage::sectionToggled, this, [this](const QString& section, bool included) {
+    if (included) {
+      m_left.remove(section);
+    } else {
+      m_left.insert(section);
+    }
+    m_of.clear();
+    m_redraw.start();
+  });
+  connect(page, &ui::ReportPage::doubtClicked, this, &Presenter::pageRequested);
+  connect(page, &ui::ReportPage::signatureDrawn, this, [this](const QImage& signature) {
+    m_signature = signature;
+    m_of.clear();
+    m_redraw.start();
+  });
+  connect(page, &ui::Page::primaryTriggered, this, [this] { saveAs(QStringLiteral("pdf")); });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
+    if (action == QStringLiteral("html") || action == QStringLiteral("csv")) saveAs(action);
+    if (action == QStringLiteral("bundle")) saveBundle();
+  });
+}
+
+void ReportPresenter::enter() {
+  refresh();
+  m_redraw.start();
+}
+
+void ReportPresenter::leave() {
+  m_redraw.stop();
+}
+
+Result<report::Report> ReportPresenter::build() const {
+  const auto* job = const_cast<ReportPresenter*>(this)->bench().job();
+  ZD_TRY(auto report, report::build_report(*job));
+  if (!m_signature.isNull()) {
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    buffer.open(QIODevice::WriteOnly);
+    m_signature.save(&buffer, "PNG");
+    report.signature_png = bytes.toStdString();
+  }
+  return report;
+}
+
+void ReportPresenter::drawPreview() {
+  if (bench().job() == nullptr || !bench().has("warmup")) return;
+  auto report = build();
+  if (!report) {
+    show(report.error());
+    return;
+  }
+  m_report = std::move(*report);
+  report::Report shown = m_report;
+  std::erase_if(shown.sections,
+                [this](const auto& section) { return m_left.contains(QString::fromStdString(section.id)); });
+  QStringList head;
+  for (const auto& [name, value] : shown.header) head << QString::fromStdString(value);
+  const QString of =
+      QString::fromStdString(shown.provenance) + head.join(QLatin1Char('|')) + QString::number(shown.sections.size());
+  if (m_pages.isEmpty() || of != m_of) {
+    m_of = of;
+    const auto pages = reporting::preview_pages(shown, preview_width_px);
+    m_pages = QVector<QImage>(pages.begin(), pages.end());
+  }
+  refresh();
+}
+
+void ReportPresenter::setHead(const ui::ReportHead& head) {
+  if (bench().job() == nullptr) return;
+  auto header = bench().job()->header().value_or(commissioning::JobHeader{});
+  header.customer = head.customer.toStdString();
+  header.machine = head.machine.toStdString();
+  header.serial = head.serial.toStdString();
+  header.engineer = head.engineer.toStdString();
+  header.notes = head.standards.isEmpty() ? std::string() : standards_mark + head.standards.toStdString();
+  if (const Status kept = bench().setHeader(header); !kept) show(kept.error());
+  m_redraw.start();
+}
+
+QString ReportPresenter::defaultPath(const QString& ending) const {
+  const auto* job = const_cast<ReportPresenter*>(this)->bench().job();
+  const QFileInfo file(QString::fromStdString(job->path().string()));
+  return file.absoluteDir().filePath(file.completeBaseName() + QLatin1Char('.') + ending);
+}
+
+void ReportPresenter::saveAs(const QString& ending) {
+  if (bench().job() == nullptr) return;
+  const QString kinds = ending == QStringLiteral("pdf")    ? tr("Report (*.pdf)")
+                        : ending == QStringLiteral("html") ? tr("Report (*.html)")
+                                                           : tr("Figures (*.csv)");
+  QString path = QFileDialog::getSaveFileName(m_page, tr("Save report"), defaultPath(ending), kinds);
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += QLatin1Char('.') + ending;
+  save({path});
+}
+
+bool ReportPresenter::save(const QStringList& paths) {
+  m_page->clearProblem();
+  auto report = build();
+  if (!report) {
+    show(report.error());
+    return false;
+  }
+  std::erase_if(report->sections,
+                [this](const auto& section) { return m_left.contains(QString::fromStdString(section.id)); });
+  json files = json::array();
+  for (const QString& path : paths) {
+    if (const Status written = reporting::write_report(*report, path.toStdString()); !written) {
+      show(written.error());
+      return false;
+    }
+    files.push_back(path.toStdString());
+    bench().log(LogKind::good, tr("Report saved: %1").arg(path));
+  }
+  std::vector<commissioning::ArtefactId> inputs;
+  for (const char* kind : {"verification", "physics", "axis_table"}) {
+    const auto latest = bench().job()->latest(kind);
+    if (latest && *latest) inputs.push_back((*latest)->id);
+  }
+  if (const Status kept = bench().keep(NewArtefact::of("report", {{"files", files}}, inputs)); !kept) {
+    show(kept.error());
+    return false;
+  }
+  m_savedTo = QDir::toNativeSeparators(paths.front());
+  refresh();
+  return true;
+}
+
+void ReportPresenter::saveBundle() {
+  if (bench().job() == nullptr) return;
+  const QString folder = QFileDialog::getExistingDirectory(
+      m_page, tr("Folder for the technical bundle"), QFileInfo(defaultPath(QStringLiteral("pdf"))).absolutePath());
+  if (folder.isEmpty()) return;
+  const QDir place(folder);
+  const auto file = [&](const char* name) { return place.filePath(QString::fromLatin1(name)); };
+  if (!save({file("report.pdf"), file("report.html"), file("figures.csv")})) return;
+  const auto write = [&]() -> Status {
+    ZD_CHECK(write_series(*bench().job(), "warmup", file("warmup.csv")));
+    ZD_CHECK(write_series(*bench().job(), "verification", file("verification.csv")));
+    ZD_CHECK(write_body(bench().body("machine"), "profile", file("profile.json")));
+    ZD_CHECK(write_body(bench().body("model"), "model", file("model.json")));
+    ZD_CHECK(write_body(bench().body("upload"), "table", file("table.json")));
+    return write_body(bench().body("physics"), "diagnosis", file("diagnosis.json"));
+  };
+  if (const Status written = write(); !written) show(written.error());
+}
+
+void ReportPresenter::fillSections(ui::ReportState& state) const {
+  for (const auto& section : m_report.sections) {
+    const QString id = QString::fromStdString(section.id);
+    state.sections.append({id, QString::fromStdString(section.title), !m_left.contains(id), {}});
+  }
+  state.doubtful = doubts_of(m_report);
+}
+
+void ReportPresenter::refresh() {
+  ui::ReportState state;
+  const auto* job = bench().job();
+  if (job == nullptr || !bench().has("warmup")) {
+    m_pages.clear();
+    m_report = {};
+    state.blocked = tr("The report is written from what was measured. Record a warm-up run first.");
+    m_page->setState(state);
+    return;
+  }
+  state.head = head_of(job->header().value_or(commissioning::JobHeader{}));
+  if (state.head.standards.isEmpty()) state.head.standards = QStringLiteral("ISO 230-3:2020, ISO 230-2:2014");
+  state.languages = {QStringLiteral("English")};
+  fillSections(state);
+  state.pages = m_pages;
+  state.savedTo = m_savedTo;
+  m_page->setState(state);
+}
+
+void ReportPresenter::tour(std::function<void(bool good)> done) {
+  const QDir folder = QFileInfo(defaultPath(QStringLiteral("pdf"))).absoluteDir();
+  const bool good =
+      save({folder.filePath(QStringLiteral("report.pdf")), folder.filePath(QStringLiteral("report.html"))});
+  drawPreview();
+  done(good);
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,51 @@
+#pragma once
+// The report page: preview, head, sections, doubtful figures; saves PDF, HTML, CSV and the technical bundle.
+
+#include <QImage>
+#include <QSet>
+#include <QTimer>
+
+#include "app/desktop/presenter.h"
+#include "core/report/report.h"
+
+namespace zerodrift::ui {
+class ReportPage;
+struct ReportHead;
+struct ReportState;
+}  // namespace zerodrift::ui
+
+namespace zerodrift::desktop {
+
+class ReportPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  ReportPresenter(Workbench& bench, ui::ReportPage* page);
+  void refresh() override;
+  void enter() override;
+  void leave() override;
+  void tour(std::function<void(bool good)> done) override;
+
+ private:
+  void saveAs(const QString& ending);
+  void saveBundle();
+  /// Writes the report into these files and keeps that it was done.
+  bool save(const QStringList& paths);
+  void setHead(const ui::ReportHead& head);
+  /// The whole report of the job; then what is left out is taken from it.
+  Result<report::Report> build() const;
+  void drawPreview();
+  void fillSections(ui::ReportState& state) const;
+  QString defaultPath(const QString& ending) const;
+
+  ui::ReportPage* m_page;
+  QTimer m_redraw;  // the preview follows changes when they rest
+  QSet<QString> m_left;
+  QImage m_signature;
+  report::Report m_report;
+  QVector<QImage> m_pages;
+  QString m_savedTo;
+  QString m_of;  // what the preview was drawn of
+};
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,187 @@
+#include "app/desktop/steps/sensors_presenter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/flow/steps/inputs.h"
+#include "core/flow/steps/sensors_step.h"
+#include "ui/pages/sensors_page.h"
+
+namespace zerodrift::desktop {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_points = 200;  // of a small multiple
+
+double number(const json& object, const char* key) {
+  const auto at = object.find(key);
+  return at != object.end() && at->is_number() ? at->get<double>() : std::nan("");
+}
+
+QString tag_of(const std::string& channel) {
+  return QString::fromStdString(channel).remove(QStringLiteral("_C"));
+}
+
+QVector<double> standardised(const std::vector<double>& values, std::size_t stride) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    sum += v;
+    squares += v * v;
+    count += 1.0;
+  }
+  const double mean = count > 0 ? sum / count : 0.0;
+  const double deviation = count > 0 ? std::sqrt(std::max(0.0, squares / count - mean * mean)) : 1.0;
+  QVector<double> out;
+  for (std::size_t i = 0; i < values.size(); i += stride) out.append((values[i] - mean) / std::max(deviation, 1e-9));
+  return out;
+}
+
+}  // namespace
+
+SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Presenter(bench, page), m_page(page) {
+  connect(page, &ui::SensorsPage::clustersChosen, this, [this](int clusters) {
+    m_clusters = clusters;
+    run(clusters, {}, {});
+  });
+  connect(page, &ui::SensorsPage::absoluteChosen, this, [this](bool absolute) {
+    m_absolute = absolute;
+    refresh();
+  });
+  connect(page, &ui::SensorsPage::keptChanged, this, [this](const QString& sensor, bool kept) {
+    auto chosen = this->bench().body("sensors").value("chosen", std::vector<std::string>{});
+    m_undo.push_back(chosen);
+    const std::string name = sensor.toStdString();
+    std::erase(chosen, name);
+    if (kept) chosen.push_back(name);
+    if (chosen.empty()) {
+      refresh();
+      return;
+    }
+    run(m_clusters, chosen, {});
+  });
+  connect(page, &ui::Page::primaryTriggered, this, [this] {
+    if (this->bench().has("sensors")) {
+      Q_EMIT nextRequested();
+    } else {
+      run(m_clusters, {}, {});
+    }
+  });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) { run(m_clusters, {}, {}); });
+}
+
+void SensorsPresenter::enter() {
+  refresh();
+  // The clustering asks nothing of the user: it is there when the page opens.
+  if (bench().has("warmup") && !bench().has("sensors") && !bench().tasks().running()) run(m_clusters, {}, {});
+}
+
+void SensorsPresenter::undo() {
+  if (m_undo.empty()) return;
+  const auto chosen = m_undo.back();
+  m_undo.pop_back();
+  run(m_clusters, chosen, {});
+}
+
+void SensorsPresenter::run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done) {
+  const auto* job = bench().job();
+  if (job == nullptr) return;
+  flow::SensorsOptions options;
+  options.clusters = clusters;
+  options.chosen = chosen;
+  runStep(
+      tr("Clustering the sensors"),
+      [job, options](const TaskContext& context) { return flow::choose_sensors(*job, options, context); },
+      std::move(done));
+}
+
+void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
+  const auto chosen = body.value("chosen", std::vector<std::string>{});
+  const json labels = body.value("table", json::array());
+  for (const auto& sensor : body.value("sensors", json::array())) {
+    ui::SensorRow row;
+    const std::string channel = sensor.value("sensor", "");
+    row.id = QString::fromStdString(channel);
+    row.tag = tag_of(channel);
+    for (const auto& known : labels) {
+      if (known.value("channel", "") == channel) row.label = QString::fromStdString(known.value("label", ""));
+    }
+    row.cluster = sensor.value("cluster", 1) - 1;
+    row.kept = std::find(chosen.begin(), chosen.end(), channel) != chosen.end();
+    const json correlation = sensor.value("correlation", json::object());
+    int axis = 0;
+    for (const char* error : {"dX_um", "dY_um", "dZ_um"}) row.r[axis++] = number(correlation, error);
+    row.sum = number(sensor, m_absolute ? "sum_absolute" : "sum");
+    const json lags = sensor.value("lag_s", json::object());
+    row.lag_s = number(lags, "dZ_um");
+    row.vif = number(sensor, "vif");
+    const json pc = sensor.value("pc", json::array());
+    if (pc.size() >= 2 && pc[0].is_number() && pc[1].is_number()) {
+      row.pc1 = pc[0].get<double>();
+      row.pc2 = pc[1].get<double>();
+    }
+    state.sensors.append(row);
+  }
+  state.clusters = static_cast<int>(body.value("clusters", json::array()).size());
+  const json suggested = body.value("suggested_clusters", json::object());
+  state.suggestedClusters = suggested.value("silhouette", state.clusters);
+  state.automatic = m_clusters == 0;
+  state.absolute = m_absolute;
+  const json explained = body.value("explained_variance", json::array());
+  if (explained.size() >= 2) {
+    state.explained1_percent = 100.0 * explained[0].get<double>();
+    state.explained2_percent = 100.0 * explained[1].get<double>();
+  }
+  const json condition = body.value("condition_number", json::object());
+  state.condition = number(condition, "sensitive");
+}
+
+void SensorsPresenter::fillSeries(ui::SensorsState& state) const {
+  auto& workbench = const_cast<SensorsPresenter*>(this)->bench();
+  const auto warmup = flow::need(*workbench.job(), "sensors", "warmup");
+  if (!warmup) return;
+  const auto run = flow::run_of(*workbench.job(), *warmup);
+  if (!run || run->rows() == 0) return;
+  const std::size_t stride = run->rows() / most_points + 1;
+  for (std::size_t r = 0; r < run->rows(); r += stride) state.time_s.append(run->time_s[r]);
+  for (const auto& row : state.sensors) {
+    const auto* channel = run->find(row.id.toStdString());
+    state.temperatures.append(channel == nullptr ? QVector<double>() : standardised(channel->values, stride));
+  }
+}
+
+void SensorsPresenter::refresh() {
+  ui::SensorsState state;
+  if (!bench().has("warmup")) {
+    state.blocked = tr("Record a warm-up run first: the sensors are chosen from it.");
+  } else if (const json body = bench().body("sensors"); body.is_object()) {
+    fill(state, body);
+    fillSeries(state);
+    const json model = bench().body("model");
+    double worst = std::nan("");
+    if (model.is_object()) {
+      for (const auto& figure : model.value("figures", json::array())) {
+        const double rms = number(figure, "rms_held_out_um");
+        if (!(rms <= worst)) worst = rms;
+      }
+    }
+    state.error_um = worst;
+  }
+  m_page->setState(state);
+}
+
+void SensorsPresenter::tour(std::function<void(bool good)> done) {
+  whenIdle([this, done = std::move(done)] {
+    if (bench().has("sensors")) {
+      done(true);
+    } else {
+      run(m_clusters, {}, done);
+    }
+  });
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,34 @@
+#pragma once
+// The sensors page: clusters, correlations, which sensors are kept.
+
+#include "app/desktop/presenter.h"
+
+namespace zerodrift::ui {
+class SensorsPage;
+struct SensorsState;
+}  // namespace zerodrift::ui
+
+namespace zerodrift::desktop {
+
+class SensorsPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  SensorsPresenter(Workbench& bench, ui::SensorsPage* page);
+  void refresh() override;
+  void enter() override;
+  void tour(std::function<void(bool good)> done) override;
+  void undo();
+
+ private:
+  void run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done);
+  void fill(ui::SensorsState& state, const nlohmann::json& body) const;
+  void fillSeries(ui::SensorsState& state) const;
+
+  ui::SensorsPage* m_page;
+  int m_clusters = 5;
+  bool m_absolute = false;
+  std::vector<std::vector<std::string>> m_undo;
+};
+
+}  // namespace zerodrift::desktop

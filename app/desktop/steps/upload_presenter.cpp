@@ -1,0 +1,378 @@
+#include "app/desktop/steps/upload_presenter.h"
+
+#include <QAbstractButton>
+#include <QDir>
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/desktop/machine_writes.h"
+#include "app/desktop/upload_view.h"
+#include "core/base/time_text.h"
+#include "core/controller/table_history.h"
+#include "core/controller/table_words.h"
+#include "core/flow/flow.h"
+#include "core/flow/steps/fit_step.h"
+#include "core/flow/steps/inputs.h"
+#include "ui/pages/upload_page.h"
+
+namespace zerodrift::desktop {
+
+using commissioning::NewArtefact;
+using nlohmann::json;
+
+namespace {
+
+constexpr double steepest_limit_um_per_K = 50.0;  // docs/register-map.md
+
+long long id_of_latest(const commissioning::Job& job, const char* kind) {
+  const auto latest = job.latest(kind);
+  return latest && *latest ? (*latest)->id : 0;
+}
+
+std::vector<controller::UploadStep> steps_from(const json& states) {
+  std::vector<controller::UploadStep> steps;
+  for (const auto& entry : states) {
+    for (int i = 0; i <= static_cast<int>(controller::UploadState::restore_failed); ++i) {
+      const auto state = static_cast<controller::UploadState>(i);
+      if (entry.value("state", "") == controller::name_of(state))
+        steps.push_back({state, {}, entry.value("detail", "")});
+    }
+  }
+  return steps;
+}
+
+QString axes_text(const compensation::Table& table) {
+  QStringList axes;
+  for (const auto& [name, axis] : table.axes) axes << QString::fromStdString(name);
+  return axes.join(QStringLiteral(", "));
+}
+
+}  // namespace
+
+UploadPresenter::UploadPresenter(Workbench& bench, ui::UploadPage* page) : Presenter(bench, page), m_page(page) {
+  connect(page, &ui::UploadPage::rollbackRequested, this, &UploadPresenter::rollBack);
+  connect(page, &ui::Page::primaryTriggered, this, [this] {
+    if (m_page->state().written) {
+      Q_EMIT nextRequested();
+    } else {
+      askAndWrite({});
+    }
+  });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
+    if (action == QStringLiteral("dryRun")) preview({});
+    if (action == QStringLiteral("sign")) checkSign();
+    if (action == QStringLiteral("export")) exportTable();
+  });
+}
+
+void UploadPresenter::enter() {
+  refresh();
+  // Reading the old table writes nothing: the comparison is there when the page opens.
+  if (bench().has("model") && bench().connected() && !m_preview && !bench().tasks().running()) preview({});
+}
+
+void UploadPresenter::preview(Done done) {
+  if (m_reading) {
+    m_afterPreview = std::move(done);
+    return;
+  }
+  const auto profile = bench().profile();
+  const auto* job = bench().job();
+  if (!profile || job == nullptr) {
+    show(Error{ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "a connected machine"}}});
+    if (done) done(false);
+    return;
+  }
+  const auto model = id_of_latest(*job, "model");
+  m_reading = true;
+  runTask<flow::UploadPreview>(
+      tr("Reading the table in the machine"),
+      [profile = *profile, job, table = m_correction](const TaskContext& context) -> Result<flow::UploadPreview> {
+        ZD_TRY(auto devices, flow::Devices::open(profile, false));
+        return flow::preview_upload(*job, devices, table, context);
+      },
+      [this, model, done = std::move(done)](Result<flow::UploadPreview> seen) {
+        const bool good = seen.has_value();
+        if (good) {
+          m_preview = std::move(*seen);
+          m_previewOf = model;
+        }
+        m_reading = false;
+        refresh();
+        if (done) done(good);
+        if (const Done after = std::exchange(m_afterPreview, {})) after(good);
+      });
+}
+
+bool UploadPresenter::confirmed(const QString& heading, const QString& text) const {
+  if (!m_asking) return true;
+  QMessageBox box(QMessageBox::Question, tr("Zerodrift"), heading, QMessageBox::Cancel, m_page);
+  box.setInformativeText(text);
+  const QAbstractButton* write = box.addButton(tr("Write"), QMessageBox::AcceptRole);
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == write;
+}
+
+void UploadPresenter::askAndWrite(Done done) {
+  if (m_writing) return;
+  // What is asked must be what is there now, so the machine is read again before.
+  preview([this, done = std::move(done)](bool good) {
+    if (!good || !m_preview) {
+      if (done) done(false);
+      return;
+    }
+    const auto& record = m_preview->record;
+    const QString heading =
+        tr("Write the table into %1?")
+            .arg(tr("%1 (serial %2)").arg(QString::fromStdString(record.machine)).arg(record.serial));
+    const QString text =
+        tr("Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation "
+           "is off while it is written and on afterwards.")
+            .arg(axes_text(m_preview->table))
+            .arg(m_preview->largest_change_um, 0, 'f', 1)
+            .arg(QString::fromStdString(m_preview->largest_change_axis))
+            .arg(record.sequence)
+            .arg(record.old_sequence);
+    if (confirmed(heading, text)) {
+      write(done);
+    } else if (done) {
+      done(false);
+    }
+  });
+}
+
+std::function<void(const controller::UploadStep&)> UploadPresenter::observer() {
+  // Called on the worker thread.
+  return [this](const controller::UploadStep& step) {
+    QMetaObject::invokeMethod(
+        this, [this, step] { follow(step); }, Qt::QueuedConnection);
+  };
+}
+
+void UploadPresenter::follow(const controller::UploadStep& step) {
+  if (!m_writing) return;
+  m_steps.push_back(step);
+  refresh();
+}
+
+void UploadPresenter::write(Done done) {
+  const auto profile = bench().profile();
+  auto* job = bench().job();
+  if (!profile || job == nullptr || !m_preview) return;
+  m_writing = true;
+  m_failed = false;
+  m_steps.clear();
+  refresh();
+  flow::UploadStepOptions options;
+  options.table = m_correction;
+  options.sign_check = !m_correction;
+  options.observer = observer();
+  options.sign_observer = [this](const controller::SignCheckRecord& record) {
+    QMetaObject::invokeMethod(
+        this,
+        [this, record] {
+          m_sign = record;
+          refresh();
+        },
+        Qt::QueuedConnection);
+  };
+  // What a person agreed to is what is written: the same table over the same old one.
+  options.confirm = [agreed = compensation::crc32_text(m_preview->table),
+                     over = m_preview->record.old_words](const flow::UploadPreview& now) {
+    return compensation::crc32_text(now.table) == agreed && now.record.old_words == over;
+  };
+  runStep(
+      tr("Writing the table"),
+      [profile = *profile, job, options](const TaskContext& context) -> Result<NewArtefact> {
+        ZD_TRY(auto devices, flow::Devices::open(profile));
+        return flow::upload(*job, devices, options, context);
+      },
+      [this, done = std::move(done)](bool good) {
+        m_writing = false;
+        m_failed = !good;
+        m_preview.reset();
+        m_correction.reset();
+        refresh();
+        if (done) done(good);
+      });
+}
+
+void UploadPresenter::writeCorrection(const compensation::Table& table, Done done) {
+  m_correction = table;
+  askAndWrite([this, done = std::move(done)](bool good) {
+    m_correction.reset();
+    if (done) done(good);
+  });
+}
+
+void UploadPresenter::rollBack(int version) {
+  const auto profile = bench().profile();
+  auto* job = bench().job();
+  if (!profile || job == nullptr || m_writing) return;
+  if (!confirmed(tr("Go back to version %1 in %2?").arg(version).arg(QString::fromStdString(profile->name)),
+                 tr("The table that was active before is written again, under a new version number."))) {
+    return;
+  }
+  m_writing = true;
+  m_failed = false;
+  m_steps.clear();
+  runStep(
+      tr("Going back to version %1").arg(version),
+      [profile = *profile, job, watch = observer()](const TaskContext& context) {
+        return roll_back(*job, profile, watch, context);
+      },
+      [this](bool good) {
+        m_writing = false;
+        m_failed = !good;
+        m_preview.reset();
+        refresh();
+      });
+}
+
+void UploadPresenter::checkSign() {
+  const auto profile = bench().profile();
+  auto* job = bench().job();
+  if (!profile || job == nullptr || m_writing) return;
+  if (!confirmed(tr("Move the axes of %1 by 10 µm?").arg(QString::fromStdString(profile->name)),
+                 tr("A test offset is written for X, Y and Z, one after the other, watched by the camera and taken "
+                    "back."))) {
+    return;
+  }
+  runTask<controller::SignCheckRecord>(
+      tr("Checking the sign"),
+      [profile = *profile, job](const TaskContext& context) { return try_signs(*job, profile, context); },
+      [this](Result<controller::SignCheckRecord> record) {
+        if (record) m_sign = std::move(*record);
+        refresh();
+      });
+}
+
+void UploadPresenter::exportTable() {
+  std::optional<compensation::Table> table;
+  if (m_preview) {
+    table = m_preview->table;
+  } else if (bench().job() != nullptr) {
+    const auto artefact = bench().job()->latest("model");
+    const auto model = artefact && *artefact ? flow::model_of(**artefact) : fail(ErrorCode::step_blocked);
+    const auto profile = flow::profile_of(*bench().job(), "upload");
+    if (model && profile) {
+      if (auto made = flow::table_from_model(*model, *profile)) table = std::move(*made);
+    }
+  }
+  if (!table) return;
+  const QString path = QFileDialog::getSaveFileName(
+      m_page, tr("Save table"), QDir::homePath() + QStringLiteral("/table.json"), tr("Tables (*.json)"));
+  if (path.isEmpty()) return;
+  if (const Status written = compensation::write_table_file(path.toStdString(), *table); !written) {
+    show(written.error());
+  } else {
+    bench().log(LogKind::good, tr("Table saved: %1").arg(path));
+  }
+}
+
+bool UploadPresenter::isWritten() const {
+  auto& workbench = const_cast<UploadPresenter*>(this)->bench();
+  if (!workbench.has("upload")) return false;
+  return flow::status_of(*workbench.job(), "upload").state == flow::StepState::current;
+}
+
+void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
+  const auto& record = m_preview->record;
+  state.oldVersion = record.old_sequence;
+  state.newVersion = record.sequence;
+  state.largestChange_um = m_preview->largest_change_um;
+  state.registers = static_cast<double>(record.new_words.size());
+  state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
+  for (const auto& warning : record.warnings) state.lost << QString::fromStdString(warning);
+}
+
+void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
+  state.written = isWritten();
+  const json record = body.value("record", json::object());
+  if (!m_sign) state.sign = sign_of(body.value("sign_check", json()));
+  if (m_preview && !state.written) return;
+  state.newVersion = body.value("version", 0);
+  state.oldVersion = record.value("old_sequence", 0);
+  state.largestChange_um = body.value("largest_change_um", std::nan(""));
+  state.registers = body.value("registers", std::nan(""));
+  if (m_steps.empty()) state.stages = stages_of(steps_from(body.value("states", json::array())), false, false);
+}
+
+void UploadPresenter::fillHistory(ui::UploadState& state) const {
+  auto& workbench = const_cast<UploadPresenter*>(this)->bench();
+  const auto profile = flow::profile_of(*workbench.job(), "upload");
+  const json machine = workbench.body("machine");
+  if (!profile || !machine.is_object()) return;
+  const auto serial = machine.at("identity").value("serial", 0U);
+  const auto former = controller::TableHistory().read(serial);
+  controller::ActiveTable active;
+  if (m_preview) {
+    active.words = m_preview->record.old_words;
+    active.sequence = m_preview->record.old_sequence;
+  } else if (const json body = workbench.body("upload"); body.is_object()) {
+    active.words = body.at("record").value("new_words", std::vector<std::uint16_t>{});
+    active.sequence = body.value("version", 0);
+  } else {
+    return;
+  }
+  state.history = history_of(former.value_or(std::vector<controller::FormerTable>{}), active, *profile);
+}
+
+void UploadPresenter::refresh() {
+  ui::UploadState state;
+  const auto* job = bench().job();
+  if (job == nullptr || !bench().has("model")) {
+    state.blocked = tr("Fit the model first: the table is made from it.");
+    m_page->setState(state);
+    return;
+  }
+  if (m_previewOf != id_of_latest(*job, "model") && !m_writing) m_preview.reset();
+  const auto profile = flow::profile_of(*job, "upload");
+  const auto artefact = job->latest("model");
+  const auto model = flow::model_of(**artefact);
+  const json body = bench().body("upload");
+  state.changeLimit_um = profile ? profile->max_um : 200.0;
+  state.steepestLimit_um_per_K = steepest_limit_um_per_K;
+  state.writing = m_writing;
+  state.machineName = profile ? QString::fromStdString(profile->name) : QString();
+  state.stages = stages_of(m_steps, m_writing, m_failed);
+  if (m_sign) state.sign = sign_of(*m_sign);
+  if (m_preview) fillFromPreview(state);
+  if (body.is_object()) fillFromArtefact(state, body);
+  if (profile && model) {
+    const auto warmup = flow::need(*job, "upload", "warmup");
+    const auto run = warmup ? flow::run_of(*job, *warmup).value_or(recording::Recording{}) : recording::Recording{};
+    compensation::Table old_table;
+    compensation::Table table;
+    if (m_preview) {
+      old_table = m_preview->record.old_table;
+      table = m_preview->table;
+    } else if (state.written) {
+      table = compensation::table_from_json(body.at("table"), "the uploaded table").value_or(compensation::Table{});
+      const auto words = body.at("record").value("old_words", std::vector<std::uint16_t>{});
+      old_table = controller::decode_table(words, *profile).value_or(compensation::Table{});
+    } else {
+      table = flow::table_from_model(*model, *profile).value_or(compensation::Table{});
+    }
+    state.axes = axes_of(old_table, table, *profile, run);
+    if (std::isnan(state.steepest_um_per_K)) state.steepest_um_per_K = steepest_um_per_K(table);
+    if (!model->is_static()) {
+      state.lost << tr("the model's memory of the past (its static part is written)");
+    }
+    state.expressed = tr("temperature terms of %n axis(es)", nullptr, static_cast<int>(table.axes.size()));
+  }
+  fillHistory(state);
+  m_page->setState(state);
+}
+
+void UploadPresenter::tour(std::function<void(bool good)> done) {
+  setAsking(false);
+  askAndWrite(std::move(done));
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,61 @@
+#pragma once
+// The upload page: old and new table, the transaction as it passes, the sign check, history with rollback.
+
+#include <functional>
+#include <optional>
+
+#include "app/desktop/presenter.h"
+#include "core/flow/steps/upload_step.h"
+
+namespace zerodrift::ui {
+class UploadPage;
+struct UploadState;
+}  // namespace zerodrift::ui
+
+namespace zerodrift::desktop {
+
+class UploadPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  UploadPresenter(Workbench& bench, ui::UploadPage* page);
+  void refresh() override;
+  void enter() override;
+  void tour(std::function<void(bool good)> done) override;
+  /// Writes this table instead of the model's: the correction found by a verification. Asks first.
+  void writeCorrection(const compensation::Table& table, std::function<void(bool good)> done);
+  /// In the tour nobody is there to be asked.
+  void setAsking(bool asking) { m_asking = asking; }
+
+ private:
+  using Done = std::function<void(bool good)>;
+
+  void preview(Done done);
+  void askAndWrite(Done done);
+  bool confirmed(const QString& heading, const QString& text) const;
+  void write(Done done);
+  void rollBack(int version);
+  void checkSign();
+  void exportTable();
+  void follow(const controller::UploadStep& step);
+  void fillFromPreview(ui::UploadState& state) const;
+  void fillFromArtefact(ui::UploadState& state, const nlohmann::json& body) const;
+  void fillHistory(ui::UploadState& state) const;
+  std::function<void(const controller::UploadStep&)> observer();
+  /// The artefact is of the model that is there now.
+  bool isWritten() const;
+
+  ui::UploadPage* m_page;
+  std::optional<flow::UploadPreview> m_preview;
+  std::optional<compensation::Table> m_correction;
+  std::optional<controller::SignCheckRecord> m_sign;
+  std::vector<controller::UploadStep> m_steps;
+  long long m_previewOf = 0;  // the model it was made from
+  Done m_afterPreview;        // asked for while the machine was being read already
+  bool m_reading = false;
+  bool m_writing = false;
+  bool m_failed = false;
+  bool m_asking = true;
+};
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,92 @@
+#include "app/desktop/tour.h"
+
+#include <QApplication>
+#include <QDir>
+#include <QPixmap>
+#include <cstdio>
+
+namespace zerodrift::desktop {
+namespace {
+
+constexpr int settle_ms = 900;  // plots redraw, pictures arrive
+constexpr int live_picture_ms = 30000;
+
+}  // namespace
+
+Tour::Tour(Application& application, QString folder, const QString& size, DemoOptions demo)
+    : m_application(application), m_folder(std::move(folder)), m_demo(std::move(demo)) {
+  const QStringList sides = size.split(QLatin1Char('x'));
+  m_application.window().resize(sides.value(0).toInt(), sides.value(1).toInt());
+  m_halfway.setInterval(live_picture_ms);
+  m_halfway.setSingleShot(true);
+  connect(&m_application.demo(), &DemoMachine::failed, this, [this](const QString& why) { end(1, why); });
+  connect(&m_halfway, &QTimer::timeout, this,
+          [this] { takePicture(m_application.presenters()[m_step]->id() + QStringLiteral("-live")); });
+}
+
+void Tour::start() {
+  if (!QDir().mkpath(m_folder)) {
+    end(1, tr("The folder %1 cannot be made.").arg(m_folder));
+    return;
+  }
+  m_application.show();
+  takePicture(QStringLiteral("start"));
+  const QString job = QDir(m_folder).filePath(QStringLiteral("tour.zdj"));
+  for (const char* ending : {"", "-wal", "-shm", ".lock"}) QFile::remove(job + QString::fromLatin1(ending));
+  m_application.startDemo(m_demo, job);
+  openStep();
+}
+
+void Tour::openStep() {
+  if (m_step >= m_application.presenters().size()) {
+    end(0, tr("The tour is complete."));
+    return;
+  }
+  auto* presenter = m_application.presenters()[m_step];
+  std::printf("%02zu %s\n", m_step + 1, qPrintable(presenter->id()));
+  std::fflush(stdout);
+  m_application.openPage(presenter->id());
+  m_halfway.start();
+  whenIdle([this, presenter] {
+    presenter->tour([this](bool good) {
+      m_halfway.stop();
+      QTimer::singleShot(settle_ms, this, [this, good] { stepDone(good); });
+    });
+  });
+}
+
+void Tour::whenIdle(const std::function<void()>& then) {
+  auto& tasks = m_application.bench().tasks();
+  if (!tasks.running()) {
+    then();
+    return;
+  }
+  // Some pages begin their work when they are opened.
+  connect(
+      &tasks, &TaskRunner::finished, this, [this, then] { whenIdle(then); },
+      static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+}
+
+void Tour::stepDone(bool good) {
+  const QString id = m_application.presenters()[m_step]->id();
+  takePicture(QStringLiteral("%1-%2").arg(m_step + 1, 2, 10, QLatin1Char('0')).arg(id));
+  if (!good) {
+    const auto& problem = m_application.presenters()[m_step]->page()->problem();
+    end(1, QStringLiteral("%1: %2 %3").arg(id, problem.sentence, problem.remedy));
+    return;
+  }
+  ++m_step;
+  openStep();
+}
+
+void Tour::takePicture(const QString& name) {
+  m_application.window().grab().save(QDir(m_folder).filePath(name + QStringLiteral(".png")));
+}
+
+void Tour::end(int code, const QString& words) {
+  std::fprintf(code == 0 ? stdout : stderr, "%s\n", qPrintable(words));
+  m_application.demo().stop();
+  QApplication::exit(code);
+}
+
+}  // namespace zerodrift::desktop

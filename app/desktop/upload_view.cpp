@@ -1,0 +1,275 @@
+#include "app/desktop/upload_view.h"
+
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QLocale>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/compensation/sign.h"
+#include "core/controller/table_words.h"
+
+namespace zerodrift::desktop {
+
+using compensation::Approach;
+using controller::UploadState;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t curve_points = 400;
+
+QString words_for(const char* text) {
+  return QCoreApplication::translate("zerodrift::desktop::UploadView", text);
+}
+
+QString name_of_sensor(const controller::Profile& profile, const std::string& channel) {
+  QString name = QString::fromStdString(channel).remove(QStringLiteral("_C"));
+  for (const auto& sensor : profile.sensors) {
+    if (sensor.channel == channel) return name + QLatin1Char(' ') + QString::fromStdString(sensor.label);
+  }
+  return channel == "ambient_C" ? words_for("Room") : name;
+}
+
+const compensation::AxisTable* axis_in(const compensation::Table& table, const std::string& name) {
+  const auto at = table.axes.find(name);
+  return at == table.axes.end() ? nullptr : &at->second;
+}
+
+QVector<ui::TableTerm> terms_of(const compensation::AxisTable* before, const compensation::AxisTable* after,
+                                const controller::Profile& profile) {
+  QVector<ui::TableTerm> rows;
+  const auto row = [&](const QString& name, const QString& unit) -> ui::TableTerm& {
+    for (auto& one : rows) {
+      if (one.name == name) return one;
+    }
+    rows.append({name, unit});
+    return rows.last();
+  };
+  const auto add = [&](const compensation::AxisTable* axis, bool is_new) {
+    if (axis == nullptr) return;
+    const auto put = [&](const QString& name, const QString& unit, double error) {
+      auto& term = row(name, unit);
+      (is_new ? term.after : term.before) = compensation::compensation_from_error_um(error);
+    };
+    put(words_for("Constant"), QStringLiteral("µm"), axis->offset_um);
+    for (const auto& term : axis->terms)
+      put(name_of_sensor(profile, term.sensor), QStringLiteral("µm/K"), term.um_per_K);
+    for (const auto& point : axis->points) {
+      put(words_for("Point %1 mm").arg(point.position_mm, 0, 'f', 1), QStringLiteral("µm"), point.error_up_um);
+    }
+  };
+  add(before, false);
+  add(after, true);
+  return rows;
+}
+
+compensation::Temperatures temperatures_at(const recording::Recording& run, const compensation::Table& table,
+                                           std::size_t row) {
+  compensation::Temperatures now;
+  for (const auto& sensor : compensation::sensors_of(table)) {
+    const auto* channel = run.find(sensor);
+    now[sensor] = channel == nullptr ? std::nan("") : channel->values[row];
+  }
+  return now;
+}
+
+double value_or_zero(const compensation::AxisTable* axis, double position_mm, const compensation::Temperatures& now) {
+  if (axis == nullptr) return 0.0;
+  return compensation::compensation_um(*axis, position_mm, Approach::up, now).value_or(std::nan(""));
+}
+
+bool has_terms(const compensation::AxisTable* axis) {
+  return axis != nullptr && !axis->terms.empty();
+}
+
+void over_run(ui::AxisTable& out, const compensation::AxisTable* before, const compensation::AxisTable* after,
+              const compensation::Table& old_table, const compensation::Table& new_table, double position_mm,
+              const recording::Recording& run) {
+  out.overTime = true;
+  out.abscissa = words_for("time of the warm-up run");
+  const std::size_t stride = run.rows() / curve_points + 1;
+  for (std::size_t r = 0; r < run.rows(); r += stride) {
+    const double old_um = value_or_zero(before, position_mm, temperatures_at(run, old_table, r));
+    const double new_um = value_or_zero(after, position_mm, temperatures_at(run, new_table, r));
+    if (std::isnan(old_um) || std::isnan(new_um)) continue;
+    out.x.append(run.time_s[r]);
+    out.before_um.append(old_um);
+    out.after_um.append(new_um);
+  }
+}
+
+void over_position(ui::AxisTable& out, const compensation::AxisTable* before, const compensation::AxisTable* after,
+                   const compensation::Table& old_table, const compensation::Table& new_table) {
+  out.abscissa = words_for("position / mm");
+  std::vector<double> positions;
+  for (const auto* axis : {before, after}) {
+    if (axis == nullptr) continue;
+    for (const auto& point : axis->points) positions.push_back(point.position_mm);
+  }
+  std::sort(positions.begin(), positions.end());
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  for (const double position : positions) {
+    out.x.append(position);
+    out.before_um.append(value_or_zero(before, position, compensation::reference_temperatures(old_table)));
+    out.after_um.append(value_or_zero(after, position, compensation::reference_temperatures(new_table)));
+  }
+}
+
+QString stage_text(UploadState state) {
+  switch (state) {
+    case UploadState::checking:
+      return words_for("Machine ready, table within its limits");
+    case UploadState::saving_old:
+      return words_for("Old table read and kept");
+    case UploadState::switching_off:
+      return words_for("Compensation off");
+    case UploadState::staging:
+      return words_for("New table staged");
+    case UploadState::reading_back:
+      return words_for("Read back and compared");
+    case UploadState::announcing:
+      return words_for("Count, scale and check sum announced");
+    case UploadState::committing:
+      return words_for("Committed");
+    case UploadState::waiting:
+      return words_for("Checked by the controller");
+    case UploadState::comparing:
+      return words_for("Active table compared");
+    case UploadState::switching_on:
+      return words_for("Compensation on");
+    case UploadState::ramping:
+      return words_for("Ramped in");
+    case UploadState::done:
+      return words_for("Done");
+    case UploadState::restoring:
+      return words_for("Restoring the old table");
+    case UploadState::restored:
+      return words_for("The old table is active");
+    case UploadState::restore_failed:
+      return words_for("The old table could not be restored");
+  }
+  return {};
+}
+
+}  // namespace
+
+QVector<ui::AxisTable> axes_of(const compensation::Table& old_table, const compensation::Table& new_table,
+                               const controller::Profile& profile, const recording::Recording& run) {
+  QVector<ui::AxisTable> axes;
+  for (const char* name : {"X", "Y", "Z"}) {
+    const auto* before = axis_in(old_table, name);
+    const auto* after = axis_in(new_table, name);
+    if (before == nullptr && after == nullptr) continue;
+    ui::AxisTable axis;
+    axis.axis = QString::fromLatin1(name);
+    axis.limit_um = profile.max_um;
+    axis.terms = terms_of(before, after, profile);
+    const auto at = profile.measure_position_mm.find(name);
+    const double position_mm = at == profile.measure_position_mm.end() ? 0.0 : at->second;
+    if ((has_terms(before) || has_terms(after)) && run.rows() > 1) {
+      over_run(axis, before, after, old_table, new_table, position_mm, run);
+    } else {
+      over_position(axis, before, after, old_table, new_table);
+    }
+    axes.append(axis);
+  }
+  return axes;
+}
+
+double steepest_um_per_K(const compensation::Table& table) {
+  double steepest = 0.0;
+  for (const auto& [name, axis] : table.axes) {
+    for (const auto& term : axis.terms) steepest = std::max(steepest, std::abs(term.um_per_K));
+  }
+  return steepest;
+}
+
+QVector<ui::Stage> stages_of(const std::vector<controller::UploadStep>& steps, bool running, bool failed) {
+  QVector<ui::Stage> stages;
+  for (int i = static_cast<int>(UploadState::checking); i <= static_cast<int>(UploadState::ramping); ++i) {
+    stages.append({stage_text(static_cast<UploadState>(i))});
+  }
+  int last = -1;
+  for (const auto& step : steps) {
+    const int index = static_cast<int>(step.state);
+    if (index < stages.size()) {
+      stages[index].state = ui::StageState::done;
+      stages[index].detail = QString::fromStdString(step.detail);
+      last = index;
+    } else if (step.state != UploadState::done) {
+      const bool worst = step.state == UploadState::restore_failed;
+      stages.append({stage_text(step.state), worst ? ui::StageState::failed : ui::StageState::done,
+                     QString::fromStdString(step.detail)});
+    }
+  }
+  if (last < 0) return stages;
+  if (failed) stages[last].state = ui::StageState::failed;
+  if (running) stages[last].state = ui::StageState::running;
+  if (!running) {
+    for (auto& stage : stages) {
+      if (stage.state == ui::StageState::waiting) stage.state = ui::StageState::skipped;
+    }
+  }
+  return stages;
+}
+
+ui::SignCheckResult sign_of(const controller::SignCheckRecord& record) {
+  return sign_of(controller::to_json(record));
+}
+
+ui::SignCheckResult sign_of(const json& sign_check) {
+  ui::SignCheckResult result;
+  if (!sign_check.is_object()) return result;
+  const auto seen = [](const json& row, std::size_t axis) {
+    const json& values = row.at("seen_um");
+    return values.size() > axis && values[axis].is_number() ? values[axis].get<double>() : 0.0;
+  };
+  // Two of the axes make the picture: the commanded moves and what was seen of them, each along its own axis.
+  for (const auto& row : sign_check.value("axes", json::array())) {
+    if (!row.value("watched", false)) continue;
+    result.measured = true;
+    const std::string axis = row.value("axis", "");
+    if (axis == "Z") {
+      result.commandedUp_um = row.value("commanded_um", 0.0);
+      result.seenUp_um = seen(row, 2);
+    } else if (axis == "X") {
+      result.commandedRight_um = row.value("commanded_um", 0.0);
+      result.seenRight_um = seen(row, 0);
+    }
+  }
+  const bool passed = sign_check.value("passed", false);
+  result.word = passed ? words_for("same direction") : words_for("opposite: sign error");
+  result.judgement = passed ? ui::Judgement::ok : ui::Judgement::bad;
+  return result;
+}
+
+QVector<ui::TableVersion> history_of(const std::vector<controller::FormerTable>& tables,
+                                     const controller::ActiveTable& active, const controller::Profile& profile) {
+  const auto words_of = [&](const std::vector<std::uint16_t>& words) {
+    const auto table = controller::decode_table(words, profile);
+    if (!table || table->axes.empty()) return words_for("no compensation");
+    QStringList axes;
+    for (const auto& [name, axis] : table->axes) axes << QString::fromStdString(name);
+    return words_for("axes %1, %2 registers").arg(axes.join(QStringLiteral(", "))).arg(words.size());
+  };
+  QVector<ui::TableVersion> rows;
+  ui::TableVersion now;
+  now.version = active.sequence;
+  now.what = words_of(active.words);
+  now.active = true;
+  rows.append(now);
+  for (auto table = tables.rbegin(); table != tables.rend(); ++table) {
+    ui::TableVersion row;
+    row.version = table->sequence;
+    const auto time = QDateTime::fromString(QString::fromStdString(table->time), Qt::ISODate);
+    row.when = QLocale().toString(time.toLocalTime(), QStringLiteral("d MMM HH:mm"));
+    row.what = words_of(table->words);
+    row.restorable = table == tables.rbegin();  // one goes back step by step
+    rows.append(row);
+  }
+  return rows;
+}
+
+}  // namespace zerodrift::desktop
