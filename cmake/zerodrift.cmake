@@ -7,6 +7,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 option(BUILD_TESTING "Build the tests" ON)
 set(ZERODRIFT_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
 
@@ -46,7 +47,7 @@ target_link_libraries(zerodrift_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these falsely inside its own string and vector headers (GCC bug 105651 and its kin).
   target_compile_options(zerodrift_options INTERFACE -fpch-preprocess -Wno-restrict -Wno-stringop-overflow
-    -Wno-stringop-overread -Wno-array-bounds)
+    -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
 endif()
 if(ZERODRIFT_SANITIZE)
   target_compile_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE} -fno-omit-frame-pointer)

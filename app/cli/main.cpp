@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <stop_token>
 #include <thread>
 
@@ -69,10 +70,18 @@ int run_command(zerodrift::cli::Cli& cli) {
   return 0;
 }
 
+/// Commands that draw a report need fonts and a painter; without a display the offscreen platform gives them.
+std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command != "commission" && command != "report") return std::make_unique<QCoreApplication>(argc, argv);
+  qputenv("QT_QPA_PLATFORM", "offscreen");
+  return std::make_unique<QApplication>(argc, argv);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  QCoreApplication application(argc, argv);
+  const auto application = make_application(argc, argv);
   CLI::App app("Zerodrift takes the thermal drift out of a CNC machine", "zerodrift-cli");
   app.set_version_flag("--version", ZERODRIFT_VERSION);
   app.require_subcommand(1);

@@ -186,6 +186,15 @@ void AxisPage::render() {
   m_view->setItems({tr("Measurement"), tr("Segments")});
   m_plotCard->setTitle(tr("Axis %1").arg(m_state.axis));
   m_plotCard->setSubtitle(m_state.fileNotes);
+  renderRule();
+  m_filling = false;
+  renderLegend();
+  renderMeasurement();
+  renderSegments();
+  renderTables();
+}
+
+void AxisPage::renderRule() {
   m_ruleCard->setTitle(tr("Cut into segments"));
   {
     const QSignalBlocker quiet(m_rule);
@@ -217,7 +226,9 @@ void AxisPage::render() {
   check.append(m_state.formatLoss.isEmpty() ? tr("The format loses nothing.")
                                             : tr("Lost in this format: %1").arg(m_state.formatLoss));
   m_check->setText(check.join(' '));
-  m_filling = false;
+}
+
+void AxisPage::renderLegend() {
   const bool cut = m_views->currentIndex() == 1;
   if (cut) {
     m_legend->setItems({{tr("mean, upwards"), colors().muted, false, false, true},
@@ -229,9 +240,6 @@ void AxisPage::render() {
                         {tr("± 2 s"), colors().muted, false, true},
                         {tr("single runs"), colors().muted, false, false, true}});
   }
-  renderMeasurement();
-  renderSegments();
-  renderTables();
 }
 
 void AxisPage::renderMeasurement() {

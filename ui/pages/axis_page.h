@@ -105,6 +105,8 @@ class AxisPage : public Page {
  private:
   Card* makePlotCard();
   Card* makeRuleCard();
+  void renderRule();
+  void renderLegend();
   void renderMeasurement();
   void renderSegments();
   void renderTables();

@@ -38,7 +38,7 @@ PageAction Page::primaryAction() const {
     action.enabled = false;
     action.reason = rule->reason;
   }
-  if (m_working && action.enabled) {
+  if (m_working && !steersWork() && action.enabled) {
     action.enabled = false;
     action.reason = tr("Wait until the work is done, or cancel it.");
   }

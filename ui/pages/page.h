@@ -62,6 +62,8 @@ class Page : public QWidget {
   virtual QString sentence() const = 0;
   virtual PageAction primary() const = 0;
   virtual QVector<PageAction> secondary() const { return {}; }
+  /// Whether the primary action steers the work itself (pause, resume) and so stays on while it goes on.
+  virtual bool steersWork() const { return false; }
 
   /// The page's action after what the presenter allows.
   PageAction primaryAction() const;

@@ -22,6 +22,27 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   m_mapCard->tools()->addWidget(m_component);
   m_mapCard->tools()->addWidget(m_view);
 
+  m_views = new QStackedWidget(m_mapCard);
+  for (QWidget* view : {makeWhere(), makeCompare(), makeTrial()}) m_views->addWidget(view);
+  m_mapCard->body()->addWidget(m_views, 1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(makeExplanations(), 1);
+  right->addWidget(makeExperiment());
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(m_mapCard, 1);
+  row->addLayout(right);
+  content()->addLayout(row, 1);
+  connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
+    m_views->setCurrentIndex(index);
+    refresh();
+  });
+  connect(m_component, &ToggleSegment::currentChanged, this, &PhysicsPage::componentChosen);
+  refresh();
+}
+
+QWidget* PhysicsPage::makeWhere() {
   auto* where = new QWidget(m_mapCard);
   auto* whereLayout = new QVBoxLayout(where);
   whereLayout->setContentsMargins(0, 0, 0, 0);
@@ -33,7 +54,10 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   whereLayout->addWidget(m_drawing);
   whereLayout->addWidget(m_map, 1);
   connect(m_map, &HeatMap::layoutChanged, m_drawing, qOverload<>(&QWidget::update));
+  return where;
+}
 
+QWidget* PhysicsPage::makeCompare() {
   auto* compare = new QWidget(m_mapCard);
   auto* compareLayout = new QHBoxLayout(compare);
   compareLayout->setContentsMargins(0, 0, 0, 0);
@@ -51,18 +75,20 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   compareLayout->addLayout(plots, 1);
   compareLayout->addWidget(m_channelTable);
   connect(m_channelTable, &ChannelTable::selected, this, [this] { renderChannel(); });
+  return compare;
+}
 
+QWidget* PhysicsPage::makeTrial() {
   auto* trial = new QWidget(m_mapCard);
   auto* trialLayout = new QVBoxLayout(trial);
   m_trialWords = new WrapLabel(trial);
   m_trials = new DataTable(trial);
   trialLayout->addWidget(m_trialWords);
   trialLayout->addWidget(m_trials, 1);
+  return trial;
+}
 
-  m_views = new QStackedWidget(m_mapCard);
-  for (QWidget* view : {where, compare, trial}) m_views->addWidget(view);
-  m_mapCard->body()->addWidget(m_views, 1);
-
+QWidget* PhysicsPage::makeExplanations() {
   m_sideCard = new Card(this);
   m_sideCard->setFixedWidth(372);
   m_sideCard->setBodyMargins(12, 0, 4, 8);
@@ -81,6 +107,10 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   m_scroll->setWidget(list);
   m_sideCard->body()->addWidget(m_verdict);
   m_sideCard->body()->addWidget(m_scroll, 1);
+  return m_sideCard;
+}
+
+QWidget* PhysicsPage::makeExperiment() {
   m_experiment = new Card(this);
   m_experiment->setFixedWidth(372);
   m_experimentText = new WrapLabel(m_experiment);
@@ -89,22 +119,7 @@ PhysicsPage::PhysicsPage(QWidget* parent) : Page("physics", parent) {
   m_experiment->body()->addWidget(m_experimentText);
   m_experiment->body()->addWidget(m_experimentButton, 0, Qt::AlignLeft);
   connect(m_experimentButton, &QPushButton::clicked, this, &PhysicsPage::experimentRequested);
-
-  auto* right = new QVBoxLayout;
-  right->setSpacing(16);
-  right->addWidget(m_sideCard, 1);
-  right->addWidget(m_experiment);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(16);
-  row->addWidget(m_mapCard, 1);
-  row->addLayout(right);
-  content()->addLayout(row, 1);
-  connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
-    m_views->setCurrentIndex(index);
-    refresh();
-  });
-  connect(m_component, &ToggleSegment::currentChanged, this, &PhysicsPage::componentChosen);
-  refresh();
+  return m_experiment;
 }
 
 void PhysicsPage::setState(const PhysicsState& state) {

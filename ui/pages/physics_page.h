@@ -116,6 +116,11 @@ class PhysicsPage : public Page {
   void render() override;
 
  private:
+  QWidget* makeWhere();
+  QWidget* makeCompare();
+  QWidget* makeTrial();
+  QWidget* makeExplanations();
+  QWidget* makeExperiment();
   void renderMap();
   void renderChannels();
   void renderChannel();

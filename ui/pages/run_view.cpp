@@ -8,6 +8,28 @@
 namespace zerodrift::ui {
 
 RunView::RunView(QWidget* parent) : QWidget(parent) {
+  makePlots();
+  makeTables();
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(m_cameraCard);
+  right->addWidget(m_errorCard);
+  right->addWidget(m_temperatureCard, 1);
+  for (Card* card : {m_cameraCard, m_errorCard, m_temperatureCard}) card->setFixedWidth(304);
+  auto* all = new QHBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->setSpacing(16);
+  all->addWidget(m_plotCard, 1);
+  all->addLayout(right);
+  connect(m_span, &ToggleSegment::currentChanged, this, [this](int index) {
+    static constexpr double spans_s[] = {600.0, 3600.0, 0.0};
+    for (LivePlot* each : {m_temperatures, m_errors, m_inputs}) each->setTimeWindow(spans_s[std::clamp(index, 0, 2)]);
+  });
+  retranslate();
+  m_span->setCurrentIndex(2);
+}
+
+void RunView::makePlots() {
   m_plotCard = new Card(this);
   m_plotCard->setBodyMargins(6, 0, 4, 4);
   m_plotCard->body()->setSpacing(0);
@@ -37,7 +59,9 @@ RunView::RunView(QWidget* parent) : QWidget(parent) {
   m_temperatures->linkTime(m_errors);
   m_temperatures->linkTime(m_inputs);
   m_errors->linkTime(m_inputs);
+}
 
+void RunView::makeTables() {
   m_cameraCard = new Card(this);
   m_cameraCard->setBodyMargins(8, 8, 8, 8);
   m_camera = new CameraView(m_cameraCard);
@@ -58,24 +82,6 @@ RunView::RunView(QWidget* parent) : QWidget(parent) {
   m_temperatureTable = table(&m_temperatureCard);
   wire(m_temperatures, m_temperatureTable);
   wire(m_errors, m_errorTable);
-
-  auto* right = new QVBoxLayout;
-  right->setSpacing(16);
-  right->addWidget(m_cameraCard);
-  right->addWidget(m_errorCard);
-  right->addWidget(m_temperatureCard, 1);
-  for (Card* card : {m_cameraCard, m_errorCard, m_temperatureCard}) card->setFixedWidth(304);
-  auto* all = new QHBoxLayout(this);
-  all->setContentsMargins(0, 0, 0, 0);
-  all->setSpacing(16);
-  all->addWidget(m_plotCard, 1);
-  all->addLayout(right);
-  connect(m_span, &ToggleSegment::currentChanged, this, [this](int index) {
-    static constexpr double spans_s[] = {600.0, 3600.0, 0.0};
-    for (LivePlot* each : {m_temperatures, m_errors, m_inputs}) each->setTimeWindow(spans_s[std::clamp(index, 0, 2)]);
-  });
-  retranslate();
-  m_span->setCurrentIndex(2);
 }
 
 void RunView::wire(LivePlot* plot, ChannelTable* table) {

@@ -59,6 +59,8 @@ class RunView : public QWidget {
   void noteRequested(double time_s);
 
  private:
+  void makePlots();
+  void makeTables();
   void wire(LivePlot* plot, ChannelTable* table);
   static QVector<Curve> curvesOf(const QVector<RunChannel>& channels, bool steps);
   static QVector<ChannelRow> rowsOf(const QVector<RunChannel>& channels);

@@ -28,6 +28,16 @@ DataCell correlationCell(double value) {
 }  // namespace
 
 SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(makePlots(), 1);
+  row->addWidget(makeChoice());
+  content()->addLayout(row, 1);
+  connectParts();
+  refresh();
+}
+
+Card* SensorsPage::makePlots() {
   m_plotCard = new Card(this);
   m_plotCard->setBodyMargins(6, 0, 6, 8);
   m_view = new ToggleSegment(m_plotCard);
@@ -56,7 +66,10 @@ SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
   m_plotNote->setContentsMargins(10, 0, 10, 0);
   m_plotCard->body()->addWidget(m_views, 1);
   m_plotCard->body()->addWidget(m_plotNote);
+  return m_plotCard;
+}
 
+Card* SensorsPage::makeChoice() {
   m_tableCard = new Card(this);
   m_tableCard->setBodyMargins(1, 0, 1, 6);
   m_clusterName = new QLabel(m_tableCard);
@@ -73,13 +86,10 @@ SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
   m_table->setRowHeight(22);
   m_tableCard->body()->addWidget(m_table);
   m_tableCard->setFixedWidth(548);
+  return m_tableCard;
+}
 
-  auto* row = new QHBoxLayout;
-  row->setSpacing(16);
-  row->addWidget(m_plotCard, 1);
-  row->addWidget(m_tableCard);
-  content()->addLayout(row, 1);
-
+void SensorsPage::connectParts() {
   connect(m_view, &ToggleSegment::currentChanged, this, [this](int index) {
     m_views->setCurrentIndex(index);
     refresh();
@@ -100,7 +110,6 @@ SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
   connect(m_sum, &ToggleSegment::currentChanged, this, [this](int index) {
     if (!m_filling) Q_EMIT absoluteChosen(index == 1);
   });
-  refresh();
 }
 
 void SensorsPage::setState(const SensorsState& state) {

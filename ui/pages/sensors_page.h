@@ -80,6 +80,9 @@ class SensorsPage : public Page {
   void render() override;
 
  private:
+  Card* makePlots();
+  Card* makeChoice();
+  void connectParts();
   void renderClusters();
   void renderSeries();
   void renderMatrix();

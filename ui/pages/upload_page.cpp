@@ -13,6 +13,26 @@
 namespace zerodrift::ui {
 
 UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(makeTable(), 1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(16);
+  right->addWidget(makeWriting(), 1);
+  right->addWidget(makeSign());
+  row->addLayout(right);
+  content()->addLayout(row, 1);
+  connect(m_axis, &ToggleSegment::currentChanged, this, [this] { renderAxis(); });
+  connect(m_side, &ToggleSegment::currentChanged, m_sides, &QStackedWidget::setCurrentIndex);
+  connect(m_history, &DataTable::rowSelected, this, [this] { renderHistory(); });
+  connect(m_rollback, &QPushButton::clicked, this, [this] {
+    const int chosen = m_history->currentRow();
+    if (chosen >= 0 && chosen < m_state.history.size()) Q_EMIT rollbackRequested(m_state.history[chosen].version);
+  });
+  refresh();
+}
+
+Card* UploadPage::makeTable() {
   m_tableCard = new Card(this);
   m_tableCard->setBodyMargins(6, 0, 6, 8);
   m_axis = new ToggleSegment(m_tableCard);
@@ -29,7 +49,10 @@ UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
   m_tableCard->body()->addWidget(m_curves, 3);
   m_tableCard->body()->addWidget(m_terms, 2);
   m_tableCard->body()->addWidget(m_loss);
+  return m_tableCard;
+}
 
+Card* UploadPage::makeWriting() {
   m_writeCard = new Card(this);
   m_writeCard->setFixedWidth(372);
   m_side = new ToggleSegment(m_writeCard);
@@ -52,29 +75,16 @@ UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
   m_sides->addWidget(stagePanel);
   m_sides->addWidget(historyPanel);
   m_writeCard->body()->addWidget(m_sides, 1);
+  return m_writeCard;
+}
+
+Card* UploadPage::makeSign() {
   m_signCard = new Card(this);
   m_signCard->setFixedWidth(372);
   m_signCard->setBodyMargins(12, 0, 12, 8);
   m_sign = new SignCheck(m_signCard);
   m_signCard->body()->addWidget(m_sign);
-
-  auto* right = new QVBoxLayout;
-  right->setSpacing(16);
-  right->addWidget(m_writeCard, 1);
-  right->addWidget(m_signCard);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(16);
-  row->addWidget(m_tableCard, 1);
-  row->addLayout(right);
-  content()->addLayout(row, 1);
-  connect(m_axis, &ToggleSegment::currentChanged, this, [this] { renderAxis(); });
-  connect(m_side, &ToggleSegment::currentChanged, m_sides, &QStackedWidget::setCurrentIndex);
-  connect(m_history, &DataTable::rowSelected, this, [this] { renderHistory(); });
-  connect(m_rollback, &QPushButton::clicked, this, [this] {
-    const int chosen = m_history->currentRow();
-    if (chosen >= 0 && chosen < m_state.history.size()) Q_EMIT rollbackRequested(m_state.history[chosen].version);
-  });
-  refresh();
+  return m_signCard;
 }
 
 void UploadPage::setState(const UploadState& state) {

@@ -93,6 +93,9 @@ class UploadPage : public Page {
   void render() override;
 
  private:
+  Card* makeTable();
+  Card* makeWriting();
+  Card* makeSign();
   void renderAxis();
   void renderTransaction();
   void renderHistory();

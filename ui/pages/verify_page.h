@@ -74,6 +74,7 @@ class VerifyPage : public Page {
   PageAction primary() const override;
   /// "finish", "abort", "again".
   QVector<PageAction> secondary() const override;
+  bool steersWork() const override { return true; }
 
  Q_SIGNALS:
   void thresholdChanged(double threshold_um);

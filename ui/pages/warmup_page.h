@@ -71,6 +71,7 @@ class WarmupPage : public Page {
   PageAction primary() const override;
   /// "load", "save" of plans; "finish", "abort", "note", "again" of runs.
   QVector<PageAction> secondary() const override;
+  bool steersWork() const override { return true; }
 
  Q_SIGNALS:
   void presetChosen(int index);

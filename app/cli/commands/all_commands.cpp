@@ -19,6 +19,7 @@ void add_verify(Cli& cli);
 void add_predict(Cli& cli);
 void add_fit(Cli& cli);
 void add_locate(Cli& cli);
+void add_diagnose(Cli& cli);
 void add_place(Cli& cli);
 void add_simulate(Cli& cli);
 
@@ -39,6 +40,7 @@ void add_all_commands(Cli& cli) {
   add_predict(cli);
   add_fit(cli);
   add_locate(cli);
+  add_diagnose(cli);
   add_place(cli);
   add_simulate(cli);
 }

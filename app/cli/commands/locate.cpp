@@ -54,9 +54,11 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
     ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views));
     ZD_TRY(const vision::FileCalibration learned, vision::calibrate_from_files(target, views, &warnings, context));
     target = learned.target;
+    request.learn = false;
   } else if (stored && stored->region.x == at.x && stored->region.y == at.y && stored->region.width == at.width &&
              stored->region.height == at.height) {
-    target = target.with_mask(stored->mask);
+    target = target.with_mask(stored->mask).with_lens(stored->lens);
+    request.learn = false;
   }
   for (const std::string& text : options.references) {
     vision::TemplateChoice reference{options.image, {}, {}};

@@ -101,7 +101,7 @@ Result<vision::ErrorView> view_of(const commissioning::Job& job, const commissio
   view.camera = device.camera;
   ZD_TRY(const auto plain, vision::Target::create(image, region_of(body.at("roi").get<std::array<int, 4>>()),
                                                   std::nullopt, id + "-template.png"));
-  view.target = std::make_shared<const vision::Target>(plain.with_mask_from(frames));
+  view.target = std::make_shared<const vision::Target>(plain.learned_from(frames));
   if (body.contains("reference_roi")) {
     ZD_TRY(auto reference, vision::Target::create(image, region_of(body.at("reference_roi").get<std::array<int, 4>>()),
                                                   std::nullopt, id + "-template.png"));

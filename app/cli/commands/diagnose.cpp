@@ -1,0 +1,78 @@
+// diagnose --machine M.json --recording R.csv [--recording ...] --out diagnosis.json [--refined M2.json] [--report
+// p.html] The first recording is explained, the others are held out.
+
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "core/base/file.h"
+#include "core/base/json.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/proof_html.h"
+#include "core/recording/csv.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct DiagnoseArguments {
+  std::string machine;
+  std::vector<std::string> recordings;
+  std::string out;
+  std::string refined;
+  std::string report;
+};
+
+std::string text_of(const diagnosis::Diagnosis& d) {
+  std::string text;
+  for (const auto& sentence : d.sentences) text += sentence.english + "\n";
+  for (const auto& effect : d.effects) {
+    text += fmt::format("- {} (confidence {:.2f}): {}\n", effect.id, effect.confidence, effect.explanation.english);
+  }
+  for (const auto& rival : d.ambiguous_with) text += "  " + rival.why.english + "\n";
+  if (d.suggested && !d.suggested->text.english.empty()) text += "  " + d.suggested->text.english + "\n";
+  text += "channel         nominal  re-fitted  with effect  (rms)";
+  for (const auto& channel : d.channels) {
+    text += fmt::format("\n{:<14} {:>8.3g} {:>10.3g} {:>12.3g}", channel.channel, channel.rms_nominal,
+                        channel.rms_refitted, channel.rms_explained);
+  }
+  return text;
+}
+
+Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const TaskContext& context) {
+  CommandOutput output;
+  ZD_TRY(const physics::Machine machine, physics::read_machine(arguments.machine, &output.warnings));
+  std::vector<recording::Recording> recordings;
+  for (const auto& path : arguments.recordings) {
+    ZD_TRY(recording::Recording recording, recording::read_recording(path));
+    recordings.push_back(std::move(recording));
+  }
+  ZD_TRY(const diagnosis::Diagnosis result, diagnosis::diagnose(machine, recordings, {}, context));
+  output.json = diagnosis::to_json(result);
+  ZD_CHECK(write_json_file(arguments.out, output.json));
+  if (!arguments.refined.empty()) ZD_CHECK(write_json_file(arguments.refined, physics::to_json(result.refined)));
+  if (!arguments.report.empty()) ZD_CHECK(write_file(arguments.report, diagnosis::proof_html(machine, result)));
+  output.text = text_of(result);
+  for (const auto& note : result.notes) {
+    if (note == "no_excitation")
+      output.warnings.emplace_back("nothing warms in this recording: little can be learned from it");
+    if (note.rfind("held_out_differs", 0) == 0) {
+      output.warnings.push_back("a held-out recording does not fit this machine (" + note.substr(17) + ")");
+    }
+    if (note.rfind("the recording", 0) == 0) output.warnings.push_back(note);
+  }
+  return output;
+}
+
+}  // namespace
+
+void add_diagnose(Cli& cli) {
+  auto arguments = std::make_shared<DiagnoseArguments>();
+  CLI::App* command = cli.add("diagnose", "Find the physics that a simulation left out",
+                              [arguments](const TaskContext& context) { return run_diagnose(*arguments, context); });
+  command->add_option("--machine", arguments->machine, "Machine description (JSON)")->required();
+  command->add_option("--recording", arguments->recordings, "Recording (CSV); further ones are held out")->required();
+  command->add_option("--out", arguments->out, "Where the diagnosis goes (JSON)")->required();
+  command->add_option("--refined", arguments->refined, "Where the refined machine description goes (JSON)");
+  command->add_option("--report", arguments->report, "Where the proof goes (HTML)");
+}
+
+}  // namespace zerodrift::cli
