@@ -74,7 +74,8 @@ struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> header;  // machine, serial, customer, engineer, date
   std::vector<Section> sections;
-  std::string provenance;  // one line for every page's foot: job hash, program version
+  std::string signature_png;  // drawn by the engineer; empty: not signed
+  std::string provenance;     // one line for every page's foot: job hash, program version
 };
 
 /// Words in the reader's language: given the English text, returns the translation.

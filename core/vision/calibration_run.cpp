@@ -82,7 +82,7 @@ Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, cons
   // With the pixels that stand still taken out, the positions are measured again on the stored frames.
   std::vector<GrayImage> frames;
   for (const Seen& seen : all) frames.push_back(seen.frames.back());
-  const Target masked = target.with_mask_from(frames);
+  const Target masked = target.learned_from(frames);
   std::vector<CalibrationView> views;
   for (const Seen& seen : all) {
     CalibrationView view = seen.view;

@@ -1,5 +1,7 @@
 #include "core/vision/coarse_search.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/vision/opencv_image.h"
@@ -9,6 +11,8 @@ namespace {
 
 constexpr int smallest_template_px = 24;  // a smaller one has lost its pattern
 constexpr int deepest_level = 2;
+constexpr double free_px = 80.0;          // displacements up to here are all equally likely
+constexpr double far_penalty = 0.15;      // of the correlation, at twice that and beyond
 constexpr double sure_correlation = 0.6;  // below this the next finer level is searched as well
 
 GrayImage halved(const GrayImage& image) {
@@ -25,6 +29,17 @@ std::vector<GrayImage> pyramid(const GrayImage& image, std::size_t levels) {
 
 GrayImage cut(const GrayImage& image, const Region& region) {
   return gray_from_mat(mat_view(image)(cv::Rect(region.x, region.y, region.width, region.height)));
+}
+
+// A target drifts by tens of pixels, seldom by hundreds: of equal places the nearer is the likelier.
+void prefer_near(cv::Mat& scores, cv::Point home, int level, cv::Point pad) {
+  const double scale = 1 << level;
+  for (int y = 0; y < scores.rows; ++y) {
+    for (int x = 0; x < scores.cols; ++x) {
+      const double away = std::hypot((x - pad.x) * scale - home.x, (y - pad.y) * scale - home.y);
+      scores.at<float>(y, x) -= static_cast<float>(far_penalty * std::clamp((away - free_px) / free_px, 0.0, 1.0));
+    }
+  }
 }
 
 // Local maxima of the correlation, best first.
@@ -102,13 +117,21 @@ std::vector<Candidate> CoarseSearch::find_from(const std::vector<GrayImage>& fra
   cv::matchTemplate(padded, mat_view(top), scores, cv::TM_CCOEFF_NORMED);
   cv::patchNaNs(scores, -1.0);
   cv::min(scores, 1.0, scores);  // a flat area divides by nothing
+  const cv::Mat plain = scores.clone();
+  prefer_near(scores, {m_region.x, m_region.y}, top_level, {pad_x, pad_y});
+  // Near peaks for patterns that repeat, far ones for broad maxima, which would fill the list with their own slope.
+  std::vector<cv::Point> starts = peaks(scores, count, 2);
+  const std::vector<cv::Point> far = peaks(scores, count, std::min(top.width, top.height) / 4);
+  starts.insert(starts.end(), far.begin(), far.end());
   std::vector<Candidate> candidates;
-  for (const cv::Point& peak : peaks(scores, 2 * count, 2)) {
+  for (const cv::Point& peak : starts) {
     cv::Point corner(peak.x - pad_x, peak.y - pad_y);
-    Candidate one{corner.x, corner.y, scores.at<float>(peak)};
+    const double penalty = plain.at<float>(peak) - scores.at<float>(peak);
+    Candidate one{corner.x, corner.y, plain.at<float>(peak)};
     for (int level = top_level - 1; level >= 0; --level) {
       one = refine(mat_view(frames[level]), m_templates[level], cv::Point(2 * one.dx_px, 2 * one.dy_px), 3);
     }
+    one.correlation -= penalty;
     one.dx_px -= m_region.x;
     one.dy_px -= m_region.y;
     candidates.push_back(one);

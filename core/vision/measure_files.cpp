@@ -59,6 +59,17 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<st
   return out;
 }
 
+// Some of the frames, evenly over the folder, to learn from.
+std::vector<GrayImage> sample_of(const std::vector<fs::path>& files) {
+  constexpr std::size_t most = 15;
+  std::vector<GrayImage> out;
+  const std::size_t step = (files.size() + most - 1) / most;
+  for (std::size_t k = 0; k < files.size(); k += step) {
+    if (Result<DecodedImage> picture = read_image(files[k])) out.push_back(std::move(picture->image));
+  }
+  return out;
+}
+
 Location unreadable(const std::string& reason) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Location location;
@@ -120,7 +131,8 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file) {
     ViewRow view;
     view.name = table.rows[row][static_cast<std::size_t>(columns[0])];
     for (std::size_t k = 1; k < 3; ++k) {
-      ZD_TRY(double& value = k == 1 ? view.x_mm : view.y_mm, recording::number_in(table, row, columns[k]));
+      double& value = k == 1 ? view.x_mm : view.y_mm;
+      ZD_TRY(value, recording::number_in(table, row, columns[k]));
       if (!std::isfinite(value)) {
         return fail(
             ErrorCode::csv_bad_number,
@@ -140,7 +152,7 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
   const std::vector<LoadedView> loaded = load_views(views, warnings);
   std::vector<GrayImage> frames;
   for (const LoadedView& view : loaded) frames.push_back(view.image);
-  const Target masked = target.with_mask_from(frames);
+  const Target masked = target.learned_from(frames);
   std::vector<CalibrationView> used;
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);
@@ -160,6 +172,7 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
                                                     const fs::path& folder, std::vector<std::string>* warnings,
                                                     const TaskContext& context) {
   ZD_TRY(const std::vector<fs::path> files, pictures_in(folder, warnings));
+  const Target taught = request.learn ? target.learned_from(sample_of(files)) : target;
   std::vector<FramePosition> out;
   for (const fs::path& file : files) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);
@@ -172,7 +185,7 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
       warn(warnings, position.frame + ": " + position.location.reason);
     } else {
       if (!picture->note.empty()) warn(warnings, position.frame + ": " + picture->note);
-      position.location = locate_against(target, request.references, picture->image);
+      position.location = locate_against(taught, request.references, picture->image);
       if (position.location.refusal == Refusal::other_size) {
         warn(warnings, fmt::format("{}: {}x{} pixels, the template has {}x{}", position.frame, picture->image.width,
                                    picture->image.height, target.image().width, target.image().height));

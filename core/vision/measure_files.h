@@ -47,6 +47,7 @@ struct FramePosition {
 struct LocateRequest {
   std::vector<Target> references;
   std::optional<Calibration> calibration;
+  bool learn = true;  // mask and lens from the frames themselves; not needed when the target has learned from views
 };
 /// Every picture in the folder by file name. Pictures that cannot be read have a row with their reason; other files and
 /// what was converted are warned of. Errors: file_not_found, not_enough_data when there is no picture at all.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,10 +15,14 @@ namespace {
 
 constexpr int smallest_region_px = 24;
 constexpr int template_margin_px = 12;
-constexpr int candidates_refined = 3;
+constexpr int candidates_refined = 2;
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
-constexpr double rival_correlation = 0.25;     // a candidate further behind the best is not tried
-constexpr double least_energy = 4.0;           // mean squared gradient, grey levels^2 / px^2: below it is noise
+constexpr int candidates_glanced = 8;
+constexpr double rival_correlation = 0.3;  // a candidate further behind the best is not looked at
+constexpr double sure_correlation = 0.98;  // of the best candidate with its rivals far behind: they need no look
+constexpr double sure_lead = 0.15;
+constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
+constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
 
 // Limits of an accepted registration.
 constexpr double least_inliers = 0.55;
@@ -50,9 +55,10 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   return Refusal::none;
 }
 
-// Better of two registrations: more of the target explained, and better.
+// Better of two registrations: more of the target explained, and to a smaller residual; a bad fit has no outliers
+// because its scale is large.
 double merit(const Registration& r) {
-  return r.converged ? r.informed_share * std::max(r.correlation, 0.0) : -1.0;
+  return r.converged ? r.informed_share * std::max(r.correlation, 0.0) / r.residual : -1.0;
 }
 
 }  // namespace
@@ -97,6 +103,22 @@ struct Target::Impl {
         coarse(image, at),
         fine(source_of(*this)) {}
 
+  // Candidates that a glance finds best, best first.
+  std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
+    const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
+    if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
+    std::vector<std::pair<double, Candidate>> rated;
+    for (const Candidate& one : candidates) {
+      if (one.correlation < candidates.front().correlation - rival_correlation) break;
+      rated.emplace_back(merit(fine.glance(frame, one.dx_px, one.dy_px)), one);
+    }
+    std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<Candidate> out;
+    for (std::size_t k = 0; k < std::min<std::size_t>(rated.size(), candidates_refined); ++k)
+      out.push_back(rated[k].second);
+    return out;
+  }
+
   static TemplateSource source_of(const Impl& self) {
     TemplateSource source;
     const Region& at = self.region;
@@ -140,6 +162,10 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
 }
 
 Location Target::locate(const GrayImage& frame) const {
+  return search(frame, nullptr);
+}
+
+Location Target::search(const GrayImage& frame, std::vector<float>* residual_map) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Location out;
   out.point = m_impl->point;
@@ -150,31 +176,33 @@ Location Target::locate(const GrayImage& frame) const {
     return out;
   };
   if (frame.width != m_impl->image.width || frame.height != m_impl->image.height) return refuse(Refusal::other_size);
-  const std::vector<Candidate> candidates = m_impl->coarse.find(frame, candidates_refined);
+  const std::vector<Candidate> candidates = m_impl->coarse.find(frame, candidates_glanced);
   if (candidates.empty() || candidates.front().correlation < hopeless_correlation) return refuse(Refusal::missing);
 
   Registration best;
   double best_coarse = candidates.front().correlation;
-  for (const Candidate& one : candidates) {
-    if (one.correlation < candidates.front().correlation - rival_correlation) break;
-    const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px);
+  for (const Candidate& one : m_impl->likeliest(frame, candidates)) {
+    const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
     if (merit(found) > merit(best)) {
       best = found;
       best_coarse = one.correlation;
     }
-    if (judge(best, best_coarse) == Refusal::none && best.informed_share > 0.9) break;
+    if (judge(best, best_coarse) == Refusal::none && best.correlation > sure_correlation) break;
   }
   out.correlation = best.correlation;
   out.inlier_share = best.inlier_share;
   out.contrast = best.contrast;
   out.blur_px2 = best.blur_px2;
   out.linear = best.linear;
+  out.lens = best.lens;
+  out.structure = best.structure;
   if (best.converged) {
     out.point = {m_impl->point.x_px + best.displacement_px(0), m_impl->point.y_px + best.displacement_px(1)};
   }
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
   out.ok = true;
+  if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   out.refusal = Refusal::none;
   out.x_px = best.displacement_px(0);
   out.y_px = best.displacement_px(1);
@@ -184,13 +212,28 @@ Location Target::locate(const GrayImage& frame) const {
   return out;
 }
 
-Target Target::with_mask_from(const std::vector<GrayImage>& frames) const {
-  std::vector<MovedFrame> moved;
+Target Target::learned_from(const std::vector<GrayImage>& frames) const {
+  std::vector<std::vector<float>> maps;
+  int moved = 0;
   for (const GrayImage& frame : frames) {
-    const Location at = locate(frame);
-    if (at.ok) moved.push_back({&frame, at.x_px, at.y_px});
+    std::vector<float> map;
+    const Location at = search(frame, &map);
+    if (!at.ok) continue;
+    maps.push_back(std::move(map));
+    moved += std::hypot(at.x_px, at.y_px) > least_move_px;
   }
-  return with_mask(travelling_pixels(m_impl->image, m_impl->region, moved));
+  Target masked = *this;
+  if (moved >= 3) masked = with_mask(travelling_pixels(m_impl->region, maps));
+  std::vector<LensTerm> lenses;
+  for (const GrayImage& frame : frames) {
+    const Location at = masked.locate(frame);
+    if (at.ok) lenses.push_back(at.lens);
+  }
+  return masked.with_lens(combined(m_lens, lenses));
+}
+
+Target Target::with_lens(const LensTerm& lens) const {
+  return Target(m_impl, lens);
 }
 
 Target Target::with_mask(const std::vector<std::uint8_t>& mask) const {
@@ -200,9 +243,12 @@ Target Target::with_mask(const std::vector<std::uint8_t>& mask) const {
   auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(both));
   // A mask that leaves hardly anything was learned from frames that do not show the target's motion.
   const double kept = static_cast<double>(impl->fine.model().pixels) / std::max(m_impl->fine.model().pixels, 1);
-  return kept > 0.3 ? Target(std::move(impl)) : *this;
+  return kept > 0.4 ? Target(std::move(impl), m_lens) : *this;
 }
 
+const LensTerm& Target::lens() const {
+  return m_lens;
+}
 const Region& Target::region() const {
   return m_impl->region;
 }

@@ -12,6 +12,7 @@
 
 #include "core/base/result.h"
 #include "core/vision/image.h"
+#include "core/vision/lens_term.h"
 
 namespace zerodrift::vision {
 
@@ -32,8 +33,10 @@ struct Location {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();  // rotation, scale and shear since the template
   double correlation = 0.0;                              // of frame and template after registration, weighted
   double inlier_share = 0.0;
-  double contrast = 0.0;  // of the frame relative to the template
-  double blur_px2 = 0.0;  // change of the blur's variance since the template
+  double contrast = 0.0;   // of the frame relative to the template
+  double blur_px2 = 0.0;   // change of the blur's variance since the template
+  double structure = 0.0;  // left in the residual, in units of its noise
+  LensTerm lens;           // what is known of the lens after this frame
 };
 
 class Target {
@@ -45,13 +48,16 @@ class Target {
 
   Location locate(const GrayImage& frame) const;
 
-  /// The same target without the pixels of its region that do not travel with it, learned from frames in which it was
-  /// moved (the calibration's). Frames in which it is not found are left out; fewer than three teach nothing.
-  Target with_mask_from(const std::vector<GrayImage>& frames) const;
+  /// The same target, having learned from frames in which it was moved (the calibration's): which pixels of its region
+  /// do not travel with it, and the lens. Frames in which it is not found are left out; fewer than three teach no mask.
+  Target learned_from(const std::vector<GrayImage>& frames) const;
+  /// The same with what was measured of the lens.
+  Target with_lens(const LensTerm& lens) const;
 
   /// The same target with a stored mask (one byte a pixel of the region); itself if the mask does not suit.
   Target with_mask(const std::vector<std::uint8_t>& mask) const;
 
+  const LensTerm& lens() const;
   const Region& region() const;
   const PixelPoint& point() const;
   const GrayImage& image() const;
@@ -60,8 +66,10 @@ class Target {
 
  private:
   struct Impl;
-  explicit Target(std::shared_ptr<const Impl> impl) : m_impl(std::move(impl)) {}
+  Location search(const GrayImage& frame, std::vector<float>* residual_map) const;
+  explicit Target(std::shared_ptr<const Impl> impl, LensTerm lens = {}) : m_impl(std::move(impl)), m_lens(lens) {}
   std::shared_ptr<const Impl> m_impl;
+  LensTerm m_lens;
 };
 
 }  // namespace zerodrift::vision

@@ -1,5 +1,6 @@
 #include "core/vision/target_file.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace zerodrift::vision {
@@ -53,6 +54,8 @@ nlohmann::json target_to_json(const Target& target, const std::string& template_
   return {{"template", template_name},
           {"roi_px", {r.x, r.y, r.width, r.height}},
           {"point_px", {target.point().x_px, target.point().y_px}},
+          {"lens_per_px2", target.lens().per_px2},
+          {"lens_sigma_per_px2", target.lens().sigma_per_px2},
           {"mask_runs", runs_of(target.mask())}};
 }
 
@@ -73,6 +76,12 @@ std::optional<StoredTarget> target_from_json(const nlohmann::json& calibration_d
   out.point = {(*point)[0].get<double>(), (*point)[1].get<double>()};
   out.mask = mask_from(*runs, static_cast<std::size_t>(out.region.width) * out.region.height);
   if (out.mask.empty()) return std::nullopt;
+  const auto lens = target->find("lens_per_px2");
+  const auto sigma = target->find("lens_sigma_per_px2");
+  if (lens != target->end() && lens->is_number() && sigma != target->end() && sigma->is_number() &&
+      sigma->get<double>() > 0.0 && std::abs(lens->get<double>()) < 1e-5) {
+    out.lens = {lens->get<double>(), sigma->get<double>()};
+  }
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The target in calibration.json: template file name, region, named point and the mask learned from the views, so that
-// `locate` measures with the same pixels the calibration was made with.
+// The target in calibration.json: template file name, region, named point, and mask and lens learned from the views, so
+// that `locate` measures with the same pixels the calibration was made with.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -17,6 +17,7 @@ struct StoredTarget {
   Region region;
   PixelPoint point;
   std::vector<std::uint8_t> mask;  // region's width * height
+  LensTerm lens;
 };
 /// What calibration.json says of the target; nothing when it says nothing or something else than we write.
 std::optional<StoredTarget> target_from_json(const nlohmann::json& calibration_document);

@@ -1,5 +1,6 @@
 #include "core/vision/target_mask.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -9,19 +10,22 @@ namespace zerodrift::vision {
 namespace {
 
 constexpr int saturated_level = 252;
-constexpr double smooth_px = 1.5;  // noise is averaged over some 28 pixels before the frames are compared
+constexpr int window_px = 5;             // residuals are averaged over it
+constexpr double excess_limit = 2.2;     // mean square over the noise: above it the pixel does not belong to the target
+constexpr float largest_square = 50.0f;  // a single outlier must not spoil its neighbours
 
-cv::Mat moved_back(const MovedFrame& moved, const Region& region) {
-  const cv::Mat back = (cv::Mat_<double>(2, 3) << 1, 0, region.x + moved.x_px, 0, 1, region.y + moved.y_px);
-  cv::Mat frame, out;
-  mat_view(*moved.frame).convertTo(frame, CV_32F);
-  cv::warpAffine(frame, out, back, {region.width, region.height}, cv::INTER_CUBIC | cv::WARP_INVERSE_MAP,
-                 cv::BORDER_REPLICATE);
-  cv::GaussianBlur(out, out, {0, 0}, smooth_px);
-  // The light's gain and offset may have changed between the frames.
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(out, mean, deviation);
-  return (out - mean[0]) / std::max(deviation[0], 1.0);
+// Mean square residual around each pixel, NaN where nothing is known.
+cv::Mat local_squares(const std::vector<float>& map, const Region& region) {
+  cv::Mat squares(region.height, region.width, CV_32F, cv::Scalar(0));
+  cv::Mat known(region.height, region.width, CV_32F, cv::Scalar(0));
+  for (std::size_t k = 0; k < map.size(); ++k) {
+    if (std::isnan(map[k])) continue;
+    squares.ptr<float>()[k] = std::min(map[k] * map[k], largest_square);
+    known.ptr<float>()[k] = 1.0f;
+  }
+  cv::boxFilter(squares, squares, CV_32F, {window_px, window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(known, known, CV_32F, {window_px, window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  return squares / known;  // 0 / 0 is NaN
 }
 
 }  // namespace
@@ -34,34 +38,25 @@ std::vector<std::uint8_t> usable_pixels(const GrayImage& image, const Region& re
   return out;
 }
 
-std::vector<std::uint8_t> travelling_pixels(const GrayImage& image, const Region& region,
-                                            const std::vector<MovedFrame>& frames) {
-  std::vector<cv::Mat> stack{moved_back({&image, 0.0, 0.0}, region)};
-  int moved = 0;
-  for (const MovedFrame& frame : frames) {
-    stack.push_back(moved_back(frame, region));
-    moved += std::hypot(frame.x_px, frame.y_px) > 2.0;
+std::vector<std::uint8_t> travelling_pixels(const Region& region,
+                                            const std::vector<std::vector<float>>& residual_maps) {
+  if (residual_maps.size() < 3) return {};
+  std::vector<cv::Mat> stack;
+  for (const std::vector<float>& map : residual_maps) stack.push_back(local_squares(map, region));
+  std::vector<std::uint8_t> out(static_cast<std::size_t>(region.width) * region.height, 1);
+  std::vector<float> values;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    values.clear();
+    for (const cv::Mat& one : stack) {
+      const float value = one.ptr<float>()[k];
+      if (std::isfinite(value)) values.push_back(value);
+    }
+    if (values.size() < 3) continue;
+    // The median: a chip or a highlight in some of the frames says nothing of the target.
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    out[k] = *middle <= static_cast<float>(excess_limit);
   }
-  if (moved < 3) return {};
-  cv::Mat mean = cv::Mat::zeros(region.height, region.width, CV_32F);
-  cv::Mat square = mean.clone();
-  for (const cv::Mat& one : stack) {
-    mean += one;
-    square += one.mul(one);
-  }
-  mean /= static_cast<double>(stack.size());
-  square = square / static_cast<double>(stack.size()) - mean.mul(mean);
-  cv::Mat gx, gy, steep, spread;
-  cv::Sobel(mean, gx, CV_32F, 1, 0, 3, 1.0 / 8);
-  cv::Sobel(mean, gy, CV_32F, 0, 1, 3, 1.0 / 8);
-  cv::magnitude(gx, gy, steep);
-  cv::sqrt(cv::max(square, 0.0), spread);
-  // A pixel of the target varies by noise, by half a pixel of misfit on its edges (rotation), and by the light.
-  cv::Mat still = spread > 0.06 + 0.5 * steep + 0.02 * cv::abs(mean);
-  cv::morphologyEx(still, still, cv::MORPH_OPEN, cv::Mat::ones(3, 3, CV_8U));
-  cv::dilate(still, still, cv::Mat::ones(3, 3, CV_8U));
-  std::vector<std::uint8_t> out(still.total());
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = still.data[k] == 0;
   return out;
 }
 

@@ -11,15 +11,9 @@ namespace zerodrift::vision {
 /// One byte a pixel of the region: 1 where the template is not saturated (a clipped edge has lost its place).
 std::vector<std::uint8_t> usable_pixels(const GrayImage& image, const Region& region);
 
-struct MovedFrame {
-  const GrayImage* frame = nullptr;
-  double x_px = 0.0;  // displacement of the target since the template
-  double y_px = 0.0;
-};
-
-/// One byte a pixel of the region: 1 where the frames, moved back, agree with the template; what stands still behind
-/// the target does not. Empty when the frames (three or more, moved by over two pixels) cannot tell.
-std::vector<std::uint8_t> travelling_pixels(const GrayImage& image, const Region& region,
-                                            const std::vector<MovedFrame>& frames);
+/// One byte a pixel of the region: 1 where the registered frames agree with the template, 0 where they keep disagreeing
+/// beyond the noise: what stands behind the target does not travel with it. Each map has the residual over its scale at
+/// each pixel, NaN where there is none. Empty when there are fewer than three maps.
+std::vector<std::uint8_t> travelling_pixels(const Region& region, const std::vector<std::vector<float>>& residual_maps);
 
 }  // namespace zerodrift::vision

@@ -1,6 +1,7 @@
 #include "core/vision/template_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -45,21 +46,28 @@ std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<f
   return out;
 }
 
-// Variance of a shift estimated from noise blurred by the same kernel, over that from independent noise of equal power.
-double noise_growth(const FloatImage& gradient, const Eigen::Matrix2d& blur_px2, double kernel_power) {
-  const FloatImage twice = blurred(gradient, 2.0 * blur_px2);
+// Variance of a shift estimated from blurred noise over that from independent noise of equal power: by each of the two
+// blurs, weighted by the noise that it lets through.
+double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d, 2>& blurs_px2) {
   double with = 0.0;
   double plain = 0.0;
-  for (std::size_t k = 0; k < gradient.values.size(); ++k) {
-    with += double{gradient.values[k]} * twice.values[k];
-    plain += double{gradient.values[k]} * gradient.values[k];
+  for (const Eigen::Matrix2d& blur_px2 : blurs_px2) {
+    // A round blur of the same size is near enough and separable.
+    const FloatImage twice = blurred(gradient, blur_px2.trace() * Eigen::Matrix2d::Identity());
+    double power = 0.0;
+    for (const float value : blur_kernel(blur_px2).values) power += double{value} * value;
+    for (std::size_t k = 0; k < gradient.values.size(); ++k) {
+      with += double{gradient.values[k]} * twice.values[k];
+      plain += double{gradient.values[k]} * gradient.values[k] * power;
+    }
   }
-  return plain > 0.0 ? std::max(1.0, with / plain / kernel_power) : 1.0;
+  return plain > 0.0 ? std::max(1.0, with / plain) : 1.0;
 }
 
 }  // namespace
 
-TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2) {
+TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
+                                  const Eigen::Matrix2d& frame_blur_px2) {
   const FloatImage smooth = blurred(source.pixels, blur_px2);
   const SplineImage spline(smooth);
   const FloatImage fx = spline.derivative(1, 0);
@@ -98,10 +106,8 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     model.fyy.push_back(fyy.values[k]);
   }
   model.pixels = static_cast<int>(model.column.size());
-  double kernel_power = 0.0;
-  for (const float value : blur_kernel(blur_px2).values) kernel_power += double{value} * value;
-  model.noise_growth_x = noise_growth(fx, blur_px2, kernel_power);
-  model.noise_growth_y = noise_growth(fy, blur_px2, kernel_power);
+  model.noise_growth_x = noise_growth(fx, {blur_px2, frame_blur_px2});
+  model.noise_growth_y = noise_growth(fy, {blur_px2, frame_blur_px2});
   return model;
 }
 

@@ -30,6 +30,8 @@ struct TemplateSource {
   std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
 };
 
-TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2);
+/// `frame_blur_px2` is the blur of the frame it will be compared with: both carry noise into the result.
+TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
+                                  const Eigen::Matrix2d& frame_blur_px2);
 
 }  // namespace zerodrift::vision

@@ -1,0 +1,23 @@
+#pragma once
+// The part of a frame in which the target is sought: blurred, as a spline, with the pixels that cannot be used.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/vision/image.h"
+#include "core/vision/spline_image.h"
+
+namespace zerodrift::vision {
+
+struct FramePatch {
+  enum State : std::uint8_t { seen, outside, too_bright };
+
+  /// `wide_glare`: leave out the surroundings of bright spots as well, where their flank still falls steeply.
+  FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur_px2, bool wide_glare);
+
+  SplineImage spline;
+  std::vector<std::uint8_t> state;  // one a pixel
+};
+
+}  // namespace zerodrift::vision

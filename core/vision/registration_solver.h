@@ -1,0 +1,86 @@
+#pragma once
+// One Gauss-Newton registration of a template model in one patch of a frame; Registrar decides what is put into it.
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/vision/frame_patch.h"
+#include "core/vision/lens_term.h"
+#include "core/vision/registration.h"
+#include "core/vision/smooth_field.h"
+#include "core/vision/template_model.h"
+
+namespace zerodrift::vision {
+
+inline constexpr int patch_margin_px = 18;  // around the region: rotation, blur and the spline's support
+
+struct RegistrationStart {
+  Eigen::Vector2d whole_px = Eigen::Vector2d::Zero();  // displacement of the region to the patch's middle
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the named point from there
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  LensTerm lens;
+};
+
+class RegistrationSolver {
+ public:
+  /// `field` may be null: no smooth additive field is solved.
+  RegistrationSolver(const TemplateModel& model, const FramePatch& patch, const SmoothField* field,
+                     const RegistrationStart& start);
+
+  /// On all pixels to the end; false when it ran away or too little was left.
+  bool run();
+  /// On the first quarter of the pixels, which is spread evenly over the region.
+  bool glance();
+  /// Of the last step, which used `count` pixels.
+  Registration result(int count) const;
+  /// Errors over their scale at each pixel of the region; NaN where the model has none.
+  std::vector<float> residual_map(int width, int height) const;
+  const Eigen::Vector2d& shift_px() const { return m_shift; }
+  const Eigen::Matrix2d& linear() const { return m_linear; }
+  /// Covariance by which the frame is more blurred than the template.
+  Eigen::Matrix2d extra_blur_px2() const;
+
+ private:
+  // Columns of the solve: motion, then what happens to the light.
+  enum Column { tx, ty, axx, axy, ayx, ayy, bend, gain, gain_x, gain_y, offset, bxx, bxy, byy, column_count };
+  static constexpr int motion_count = 7;
+  static constexpr int light_count = column_count - motion_count;
+  using Normal = Eigen::Matrix<double, column_count, column_count>;
+  using Vector = Eigen::Matrix<double, column_count, 1>;
+  using Rows = Eigen::Matrix<float, column_count, Eigen::Dynamic>;
+
+  void fill_row(int k);
+  void sample(int count);
+  void predict(int count);
+  double scale_of_errors(int count);
+  bool start_light(int count);
+  bool step(int count);
+  bool solve(int count, bool light_only);
+  void add_priors(Vector& right);
+  void apply(const Vector& p);
+  void tell_fit(int count, Registration& out) const;
+  void tell_uncertainty(int count, Registration& out) const;
+
+  const TemplateModel& m_model;
+  const FramePatch& m_patch;
+  const SmoothField* m_field;
+  Eigen::Vector2d m_whole_px;
+  Eigen::Vector2d m_shift;
+  Eigen::Matrix2d m_linear;
+  LensTerm m_prior;
+  double m_lens;  // 1 / px^2
+  Eigen::Matrix<double, light_count, 1> m_light;
+  Eigen::VectorXf m_field_levels;
+  Rows m_rows;
+  Eigen::VectorXf m_frame, m_error, m_weight, m_robust, m_noise_weight;
+  std::vector<std::uint8_t> m_pixel_state;
+  std::vector<float> m_scratch;
+  Normal m_normal;                // the field eliminated
+  Eigen::MatrixXd m_field_share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
+  double m_scale = 1.0;
+  double m_last_step_px = 1.0;
+  int m_iterations = 0;
+};
+
+}  // namespace zerodrift::vision

@@ -1,0 +1,38 @@
+#pragma once
+// A smooth additive field over the region - the halo of a glare, a moving shade, what stands behind the target - as
+// cubic B-splines on a coarse grid, solved together with the motion. Only its coefficients know it; it has no meaning
+// of its own.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/vision/template_model.h"
+
+namespace zerodrift::vision {
+
+class SmoothField {
+ public:
+  SmoothField(const TemplateModel& model, int width, int height, double spacing_px);
+
+  int size() const { return m_columns * m_rows; }
+  /// error -= field, for the first `count` pixels.
+  void subtract_from(Eigen::VectorXf& error, int count, const Eigen::VectorXf& coefficients) const;
+  /// Sum of weight * basis * value.
+  Eigen::VectorXf project(const Eigen::VectorXf& weighted_values, int count) const;
+  /// Sum of weight * basis * basis.
+  Eigen::MatrixXf normal(const Eigen::VectorXf& weights, int count) const;
+  /// Sum of basis * row for rows (columns of the matrix) that already carry their weight; size() x rows.rows().
+  Eigen::MatrixXf cross(const Eigen::MatrixXf& weighted_rows, int count) const;
+
+ private:
+  struct Place {
+    int first;  // index of the first of 4 x 4 coefficients
+    float wx[4];
+    float wy[4];
+  };
+  int m_columns;
+  int m_rows;
+  std::vector<Place> m_places;
+};
+
+}  // namespace zerodrift::vision
