@@ -1,6 +1,6 @@
 // zerodrift-machine as a program: its line, its files, its end.
-#include <gtest/gtest.h>
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>

@@ -75,8 +75,7 @@ Status look_at_cameras(const controller::Profile& profile, const TaskContext& co
     if (frame) {
       row["width_px"] = (*frame)->image.width;
       row["height_px"] = (*frame)->image.height;
-      output.text +=
-          fmt::format("camera {:<8} {} x {} px\n", entry.id, (*frame)->image.width, (*frame)->image.height);
+      output.text += fmt::format("camera {:<8} {} x {} px\n", entry.id, (*frame)->image.width, (*frame)->image.height);
     } else {
       if (profile.error_source == controller::ErrorSourceKind::camera) return fail(frame.error());
       output.warnings.push_back(sentence(frame.error()));
