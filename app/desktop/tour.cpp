@@ -30,9 +30,13 @@ void Tour::start() {
     return;
   }
   m_application.show();
+  QTimer::singleShot(settle_ms, this, &Tour::begin);
+}
+
+void Tour::begin() {
   takePicture(QStringLiteral("start"));
   const QString job = QDir(m_folder).filePath(QStringLiteral("tour.zdj"));
-  for (const char* ending : {"", "-wal", "-shm", ".lock"}) QFile::remove(job + QString::fromLatin1(ending));
+  for (const char* ending : {"", "-wal", "-shm", "-lock"}) QFile::remove(job + QString::fromLatin1(ending));
   m_application.startDemo(m_demo, job);
   openStep();
 }

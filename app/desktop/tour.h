@@ -17,6 +17,7 @@ class Tour : public QObject {
   void start();
 
  private:
+  void begin();
   void openStep();
   void whenIdle(const std::function<void()>& then);
   void stepDone(bool good);

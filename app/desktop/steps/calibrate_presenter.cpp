@@ -43,8 +43,10 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
     }
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
-    if (action == QStringLiteral("repeat")) start({});
+    // Every measurement begins with a new template at rest.
+    if (action == QStringLiteral("repeat") || action == QStringLiteral("template")) start({});
   });
+  page->allow(QStringLiteral("plan"), false, tr("The positions shown are the proposed ones."));
 }
 
 void CalibratePresenter::enter() {

@@ -53,7 +53,7 @@ FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(benc
       run("auto", {});
     }
   });
-  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) { run("auto", {}); });
+  page->allow(QStringLiteral("addRecording"), false, tr("The model is fitted to the warm-up run of this job."));
 }
 
 void FitPresenter::enter() {

@@ -254,7 +254,7 @@ void MachinePresenter::refresh() {
     }
     state.spread_K = high - low;
     state.roundTrip_ms = look->round_trip_ms;
-    state.clockDifference_s = look->clock_difference_s;
+    state.clockDifference_s = std::round(10.0 * look->clock_difference_s) / 10.0 + 0.0;  // no "-0.0"
     for (const auto& [axis, position] : look->sample.axes) {
       const bool turns = axis == "A" || axis == "B" || axis == "C";
       state.parts.append(

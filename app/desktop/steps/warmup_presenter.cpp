@@ -10,6 +10,7 @@
 #include "core/acquisition/job_sink.h"
 #include "core/base/json.h"
 #include "core/flow/steps/warmup_step.h"
+#include "core/recording/csv.h"
 #include "ui/pages/warmup_page.h"
 
 namespace zerodrift::desktop {
@@ -96,6 +97,7 @@ void WarmupPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("abort")) m_feed->abort();
   if (action == QStringLiteral("load")) loadPlan();
   if (action == QStringLiteral("save")) savePlan();
+  if (action == QStringLiteral("export")) exportRun();
   if (action == QStringLiteral("again")) {
     m_again = true;
     refresh();
@@ -116,6 +118,17 @@ void WarmupPresenter::loadPlan() {
   }
   m_preset = -1;
   setPlan(*plan);
+}
+
+void WarmupPresenter::exportRun() {
+  const json body = bench().body("warmup");
+  if (!body.is_object()) return;
+  const QString path = QFileDialog::getSaveFileName(
+      m_page, tr("Save as CSV"), QDir::homePath() + QStringLiteral("/warm-up.csv"), tr("Recordings (*.csv)"));
+  if (path.isEmpty()) return;
+  const auto run = bench().job()->read_series(body.at("series").get<long long>());
+  const Status written = run ? recording::write_recording(path.toStdString(), *run) : Status(fail(run.error()));
+  if (!written) show(written.error());
 }
 
 void WarmupPresenter::savePlan() {

@@ -34,6 +34,7 @@ class WarmupPresenter : public Presenter {
   void showKept();
   void loadPlan();
   void savePlan();
+  void exportRun();
 
   ui::WarmupPage* m_page;
   RunFeed* m_feed;
