@@ -132,11 +132,11 @@ class Diagnoser {
     m_out.excess_after = after.largest;
     const bool found = !m_selection.effects().empty();
     if (!found) {
-      m_out.verdict = after.largest > 2.5 ? Verdict::unexplained : Verdict::consistent;
+      m_out.verdict = after.largest > 2.3 ? Verdict::unexplained : Verdict::consistent;
       m_used = m_selection.base;
     } else {
       const double share = 1.0 - (after.largest - 1.0) / std::max(1e-9, before.largest - 1.0);
-      const bool poor = after.largest > 3.0 && share < 0.95;
+      const bool poor = after.largest > 2.3 && share < 0.965;
       m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
       // A wrong effect can worsen the prediction of another run: it is used only if it really helps.
       const bool helps = after.mean < 0.7 * before.mean;
@@ -332,7 +332,11 @@ class Diagnoser {
       for (const auto& fit : level) {
         if (fit->machine().effects.size() != m_selection.best->machine().effects.size()) continue;
         const std::string& id = fit->machine().effects.back().id;
-        if (id == found.id || seen.count(id) != 0) continue;
+        // The same effects found in another order are no rivals of each other.
+        const bool own =
+            std::any_of(m_selection.best->machine().effects.begin(), m_selection.best->machine().effects.end(),
+                        [&](const auto& spec) { return spec.id == id; });
+        if (own || seen.count(id) != 0) continue;
         seen[id] = fit->log_evidence();
         others += std::exp(std::min(0.0, fit->log_evidence() - best) / temperature);
       }

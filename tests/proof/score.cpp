@@ -1,5 +1,5 @@
 // Draws concealed cases, diagnoses them, opens the answers and prints the table of the proof.
-//   proof [--cases N] [--seed S] [--kind K] [--verbose]
+//   proof [--cases N] [--seed S] [--kind K] [--verbose] [--write DIR]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,9 @@
 #include <map>
 #include <set>
 
+#include "core/base/json.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/recording/csv.h"
 #include "tests/proof/case_generator.h"
 
 namespace {
@@ -124,12 +126,14 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   std::string kind;
   bool verbose = false;
+  std::string folder;
   for (int i = 1; i < argc; ++i) {
     const std::string a = argv[i];
     if (a == "--cases" && i + 1 < argc) cases = std::atoi(argv[++i]);
     if (a == "--seed" && i + 1 < argc) seed = std::strtoull(argv[++i], nullptr, 10);
     if (a == "--kind" && i + 1 < argc) kind = argv[++i];
     if (a == "--verbose") verbose = true;
+    if (a == "--write" && i + 1 < argc) folder = argv[++i];
   }
   Score score;
   for (int i = 0; i < cases; ++i) {
@@ -138,6 +142,12 @@ int main(int argc, char** argv) {
     if (!machine) {
       fmt::print("{}: {}\n", one.name, zerodrift::describe(machine.error()));
       continue;
+    }
+    if (!folder.empty()) {
+      static_cast<void>(zerodrift::write_json_file(folder + "/" + one.name + ".json", one.machine));
+      for (const auto& r : one.recordings) {
+        static_cast<void>(zerodrift::recording::write_recording(folder + "/" + r.name + ".csv", r));
+      }
     }
     const auto d = zerodrift::diagnosis::diagnose(*machine, one.recordings, {false});
     if (!d) {

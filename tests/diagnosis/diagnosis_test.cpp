@@ -1,0 +1,104 @@
+#include "core/diagnosis/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/physics/simulate.h"
+#include "tests/proof/case_generator.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+Diagnosis diagnosed(const proof::Case& one, const TaskContext& context = {}) {
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  auto result = diagnose(*machine, one.recordings, {}, context);
+  EXPECT_TRUE(result.has_value());
+  return result ? *result : Diagnosis{};
+}
+
+}  // namespace
+
+TEST(Diagnosis, NamesAHiddenEffectAndFitsTheSecondRun) {
+  const proof::Case one = proof::make_case(11, "contact_resistance");
+  const Diagnosis d = diagnosed(one);
+  EXPECT_EQ(d.verdict, Verdict::missing_effect);
+  ASSERT_FALSE(d.effects.empty());
+  EXPECT_EQ(d.effects[0].id, "contact_resistance");
+  ASSERT_TRUE(d.effects[0].position_mm.has_value());
+  EXPECT_NEAR(*d.effects[0].position_mm, one.hidden[0].position_mm, 12.0);
+  ASSERT_EQ(d.held_out.size(), 1u);
+  for (const auto& [channel, rms] : d.held_out[0].explained) {
+    if (channel[0] != 'T') continue;
+    EXPECT_LT(rms, 0.15) << channel;
+  }
+}
+
+TEST(Diagnosis, SaysWhenNothingIsMissing) {
+  const Diagnosis d = diagnosed(proof::make_case(21, "none"));
+  EXPECT_EQ(d.verdict, Verdict::consistent);
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_TRUE(d.mismatch.channels.empty());
+}
+
+TEST(Diagnosis, GivesUpOnWhatTheLibraryLacks) {
+  EXPECT_EQ(diagnosed(proof::make_case(31, "unlisted")).verdict, Verdict::unexplained);
+}
+
+TEST(Diagnosis, RefinedDescriptionSimulatesWhatTheDiagnosisPredicted) {
+  const proof::Case one = proof::make_case(41, "cutting_heat");
+  const Diagnosis d = diagnosed(one);
+  const auto again = physics::machine_from_json(physics::to_json(d.refined), "refined.json");
+  ASSERT_TRUE(again.has_value());
+  const auto simulation = physics::simulate(*again, one.recordings[1]);
+  ASSERT_TRUE(simulation.has_value());
+  for (const auto& difference : physics::compare(simulation->prediction, one.clean[1])) {
+    if (!difference.temperature) continue;
+    EXPECT_LT(difference.rms, 0.3) << difference.channel;
+  }
+}
+
+TEST(Diagnosis, JsonHasTheContractsKeys) {
+  const nlohmann::json j = to_json(diagnosed(proof::make_case(51, "sensor_lag")));
+  for (const char* key : {"verdict", "mismatch", "effects", "ambiguous_with", "suggested_experiment", "rmse"}) {
+    EXPECT_TRUE(j.contains(key)) << key;
+  }
+  for (const char* key : {"channels", "component", "position_mm", "time_s", "regime", "missing_heat_W"}) {
+    EXPECT_TRUE(j["mismatch"].contains(key)) << key;
+  }
+  for (const char* key :
+       {"id", "component", "position_mm", "channel", "parameters", "sigma", "confidence", "explanation"}) {
+    EXPECT_TRUE(j["effects"].at(0).contains(key)) << key;
+  }
+  for (const char* key : {"before", "after", "held_out_before", "held_out_after"})
+    EXPECT_TRUE(j["rmse"].contains(key)) << key;
+}
+
+TEST(Diagnosis, CanBeCancelled) {
+  const proof::Case one = proof::make_case(61, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  std::stop_source stop;
+  stop.request_stop();
+  TaskContext context;
+  context.stop = stop.get_token();
+  const auto result = diagnose(*machine, one.recordings, {}, context);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+}
+
+TEST(Diagnosis, ARecordingWithoutExcitationIsNeverAConfidentEffect) {
+  proof::Case one = proof::make_case(71, "none");
+  recording::Recording still = one.recordings[0];
+  for (auto& channel : still.channels) {
+    if (channel.name[0] == 'T' || channel.name == "ambient_C") channel.values.assign(still.rows(), 20.0);
+    if (channel.name[0] == 'd' || channel.name[0] == 's' || channel.name == "coolant_on")
+      channel.values.assign(still.rows(), 0.0);
+  }
+  one.machine["initial_temperature_C"] = 20.0;
+  one.recordings = {still};
+  const Diagnosis d = diagnosed(one);
+  EXPECT_EQ(d.verdict, Verdict::consistent);
+  EXPECT_NE(std::find(d.notes.begin(), d.notes.end(), "no_excitation"), d.notes.end());
+}
+
+}  // namespace zerodrift::diagnosis

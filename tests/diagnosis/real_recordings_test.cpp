@@ -1,0 +1,61 @@
+// Recordings of real hardware, read from where the user keeps them (ZERODRIFT_DATA_DIR); skipped where they are absent.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/recording/csv.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+std::filesystem::path data_folder() {
+  const char* given = std::getenv("ZERODRIFT_DATA_DIR");
+  return given != nullptr ? std::filesystem::path(given)
+                          : std::filesystem::path(ZERODRIFT_SOURCE_DIR).parent_path() / "shared" / "data";
+}
+
+Diagnosis diagnosed(const std::string& set, const std::vector<std::string>& files) {
+  const auto machine = physics::read_machine(data_folder() / set / "machine.json");
+  std::vector<recording::Recording> recordings;
+  for (const auto& file : files) recordings.push_back(*recording::read_recording(data_folder() / set / file));
+  auto result = diagnose(*machine, recordings, {false});
+  EXPECT_TRUE(result.has_value());
+  return result ? *result : Diagnosis{};
+}
+
+bool names(const Diagnosis& d, const std::string& id) {
+  return std::any_of(d.effects.begin(), d.effects.end(), [&](const auto& e) { return e.id == id; });
+}
+
+double largest(const std::map<std::string, double>& rms) {
+  double value = 0.0;
+  for (const auto& [channel, r] : rms) value = std::max(value, r);
+  return value;
+}
+
+#define NEEDS(set) \
+  if (!std::filesystem::exists(data_folder() / (set))) GTEST_SKIP() << "no recordings in " << data_folder()
+
+}  // namespace
+
+TEST(RealRecordings, AluminiumRodLosesHeatToTheRoom) {
+  NEEDS("aluminium-rod");
+  const Diagnosis d = diagnosed("aluminium-rod", {"rod_6_9.csv", "rod_6_7.csv"});
+  EXPECT_TRUE(names(d, "convection"));
+  EXPECT_LT(largest(d.held_out[0].explained), 2.0);
+  EXPECT_GT(largest(d.held_out[0].refitted), 4.0);
+}
+
+TEST(RealRecordings, HeaterBoardHasThreeEffects) {
+  NEEDS("heater-board");
+  const Diagnosis d = diagnosed("heater-board", {"board_step_first_400s.csv", "board_step_rest.csv"});
+  EXPECT_TRUE(names(d, "convection"));
+  EXPECT_TRUE(names(d, "neighbour_heat"));
+  EXPECT_TRUE(names(d, "sensor_lag"));
+  EXPECT_LT(largest(d.held_out[0].explained), 1.0);
+}
+
+}  // namespace zerodrift::diagnosis
