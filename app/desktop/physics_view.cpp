@@ -167,7 +167,8 @@ QString magnitude_of(const json& effect) {
       {"_K", "K"},         {"_s", "s"},           {"_percent", "%"}};
   const json sigma = effect.value("sigma", json::object());
   QString best;
-  for (const auto& [key, value] : effect.value("parameters", json::object()).items()) {
+  const json parameters = effect.value("parameters", json::object());  // outlives the loop
+  for (const auto& [key, value] : parameters.items()) {
     if (!value.is_number() || key == "position_mm" || key == "from_s" || key == "tau_s") continue;
     QString unit;
     for (const auto& [ending, text] : units) {
@@ -204,7 +205,8 @@ QString rivals_of(const json& diagnosis) {
 std::string most_telling(const json& effect) {
   std::string best;
   double largest = -1.0;
-  for (const auto& [channel, value] : effect.value("contribution", json::object()).items()) {
+  const json contribution = effect.value("contribution", json::object());  // outlives the loop
+  for (const auto& [channel, value] : contribution.items()) {
     const bool temperature = recording::kind_of(channel) == recording::ChannelKind::temperature;
     if (!value.is_number() || !temperature || value.get<double>() < largest) continue;
     largest = value.get<double>();
