@@ -1,8 +1,11 @@
 #include "include_rules.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <ostream>
+#include <string>
 
 namespace zerodrift::architecture {
 
@@ -17,11 +20,16 @@ struct Planted {
   const char* rule;
 };
 
+/// The test's name in lists.
+void PrintTo(const Planted& planted, std::ostream* out) {
+  *out << planted.include << " in " << planted.file;
+}
+
 class PlantedViolation : public testing::TestWithParam<Planted> {};
 
 // Each rule must fail when it is broken: a tree with one bad line is made, and the line must be found.
 TEST_P(PlantedViolation, IsFoundWithFileAndLine) {
-  const auto root = std::filesystem::path(testing::TempDir()) / "zd_planted";
+  const auto root = std::filesystem::path(testing::TempDir()) / ("zd_planted_" + std::to_string(::getpid()));
   std::filesystem::remove_all(root);
   const auto path = root / GetParam().file;
   std::filesystem::create_directories(path.parent_path());

@@ -1,6 +1,7 @@
 #include "core/base/file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -9,7 +10,7 @@
 namespace zerodrift {
 
 TEST(File, WritesWholeAndReadsBack) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "zd_file_test";
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("zd_file_test_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   ASSERT_TRUE(write_file(folder / "a.txt", "hello").has_value());
   EXPECT_EQ(read_file(folder / "a.txt").value(), "hello");

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@ using commissioning::NewArtefact;
 class ReportTest : public testing::Test {
  protected:
   void SetUp() override {
-    m_folder = std::filesystem::path(testing::TempDir()) / "zd_report";
+    m_folder = std::filesystem::path(testing::TempDir()) / ("zd_report_" + std::to_string(::getpid()));
     std::filesystem::remove_all(m_folder);
     std::filesystem::create_directories(m_folder);
     m_job = std::make_unique<Job>(Job::create(m_folder / "a.zdj", {"VMC <3>", "17", "", "A. Keller", ""}).value());
