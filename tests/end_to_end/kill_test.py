@@ -45,11 +45,16 @@ def killed_runs(folder, count):
             run.wait()
         for index in range(count):
             run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            deadline = time.time() + dice.uniform(1.0, 4.0)
             acknowledged = before
+            patience = time.time() + 60
+            while acknowledged <= before and time.time() < patience and run.poll() is None:
+                acknowledged = max(acknowledged, rows_on_disk(job))
+                time.sleep(0.01)
+            deadline = time.time() + dice.uniform(0.0, 2.5)
             while time.time() < deadline:
                 acknowledged = max(acknowledged, rows_on_disk(job))
                 time.sleep(0.01)
+            assert acknowledged > before, "the resumed run records nothing"
             assert run.poll() is None, f"the resumed run ended by itself with {run.returncode}"
             run.send_signal(signal.SIGKILL)
             run.wait()
