@@ -8,7 +8,7 @@
 namespace zerodrift::desktop {
 namespace {
 
-constexpr int settle_ms = 900;  // plots redraw, pictures arrive
+constexpr int settle_ms = 1800;  // plots redraw, pictures arrive, the lamps have looked at the machine again
 constexpr int live_picture_ms = 30000;
 
 }  // namespace
