@@ -1,7 +1,7 @@
 #pragma once
 // The whole job without a person: machine, calibrate, warm-up, sensors, fit, physics, upload, verify; a correction and
-// a second verification when the first leaves too much. What the job already holds and is current is not done again, so
-// a commissioning that was broken off goes on where it stopped.
+// a second verification when a part error of the first exceeds its threshold. What the job already holds and is current
+// is not done again, so a commissioning that was broken off goes on where it stopped.
 
 #include <functional>
 #include <nlohmann/json.hpp>
