@@ -35,7 +35,7 @@ const ReplyEntry* reply_entry(const std::string& name) {
   return at == reply_entries.end() ? nullptr : at;
 }
 
-std::string all_names() {
+std::string fault_names() {
   std::string names;
   for (const ReplyEntry& entry : reply_entries) names += std::string(entry.name) + ", ";
   for (const std::string_view name : other_names) names += std::string(name) + ", ";
@@ -52,7 +52,7 @@ Result<Fault> parse_fault(const std::string& text) {
   const bool known = reply_entry(fault.name) != nullptr ||
                      std::find(other_names.begin(), other_names.end(), fault.name) != other_names.end();
   if (!known || (colon != std::string::npos && suffix != "always")) {
-    return fail(ErrorCode::bad_argument, {{"what", "--fault"}, {"found", text}, {"expected", all_names()}});
+    return fail(ErrorCode::bad_argument, {{"what", "--fault"}, {"found", text}, {"expected", fault_names()}});
   }
   fault.always = suffix == "always";
   return fault;

@@ -17,7 +17,7 @@ constexpr double bracket_um_per_K = 2.3;
 constexpr double bracket_memory_s = 1500.0;
 constexpr double camera_self_heat_K = 1.2;
 constexpr double wander_sigma_um = 0.25;
-constexpr double wander_memory_s = 900.0;
+constexpr double bracket_wander_memory_s = 900.0;
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void Machine::advance_cameras() {
   constexpr double step_s = ThermalModel::step_s;
   const double goal_K = m_thermal.room_C() - m_parameters.room_start_C + camera_self_heat_K;
   m_bracket_K += (goal_K - m_bracket_K) * (1.0 - std::exp(-step_s / bracket_memory_s));
-  const double memory = std::exp(-step_s / wander_memory_s);
+  const double memory = std::exp(-step_s / bracket_wander_memory_s);
   for (double& wander : m_bracket_wander_um) {
     wander = memory * wander + wander_sigma_um * std::sqrt(1.0 - memory * memory) * m_bracket_noise.normal();
   }

@@ -9,7 +9,7 @@ namespace {
 
 // Shorter than the host says by more than this share and time: the machine's clock did not run all the while.
 constexpr double clock_share = 0.05;
-constexpr double clock_slack_s = 120.0;
+constexpr double least_clock_slack_s = 120.0;
 constexpr double host_slack_s = 2.0;  // wall
 
 }  // namespace
@@ -67,7 +67,8 @@ Status Run::rejoin(const InterruptedRun& interrupted, const MachineSample& now) 
   const double machine_gap_s = now.machine_time_s - m_start.origin_s - last_s;
   const double host_gap_s = std::chrono::duration<double>(m_clock.utc() - interrupted.last_utc).count();
   const double expected_s = host_gap_s * m_options.time_factor;
-  const double slack_s = std::max({clock_slack_s, clock_share * expected_s, host_slack_s * m_options.time_factor});
+  const double slack_s =
+      std::max({least_clock_slack_s, clock_share * expected_s, host_slack_s * m_options.time_factor});
   m_has_reading = true;
   m_time_s = last_s;
   m_last_row_s = last_s;

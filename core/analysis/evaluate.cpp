@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,10 +27,10 @@ RidgeFit multiple_linear(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   fit.beta = solution.coefficient;
   const double residual = (y.array() - fit.intercept - (z * fit.beta).array()).matrix().squaredNorm();
   fit.sigma_um = std::sqrt(residual / std::max(n - static_cast<double>(z.cols()) - 1.0, 1.0));
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(z, Eigen::ComputeThinV);
-  const Eigen::ArrayXd s = svd.singularValues().array();
+  const ThinSvd svd = thin_svd(z);
+  const Eigen::ArrayXd s = svd.s.array();
   const Eigen::ArrayXd inverse = (s > 1e-8 * s(0)).select(s.square().inverse(), 0.0);
-  fit.covariance = svd.matrixV() * inverse.matrix().asDiagonal() * svd.matrixV().transpose();
+  fit.covariance = svd.v * inverse.matrix().asDiagonal() * svd.v.transpose();
   return fit;
 }
 

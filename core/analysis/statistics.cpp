@@ -97,14 +97,19 @@ double lag_s(const std::vector<double>& time_s, const Eigen::VectorXd& sensor, c
   return static_cast<double>(best) * grid_s;
 }
 
+ThinSvd thin_svd(const Eigen::MatrixXd& a) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+}
+
 Eigen::VectorXd variance_inflation(const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd unit = unit_columns(columns);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(unit, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const ThinSvd svd = thin_svd(unit);
   Eigen::VectorXd vif = Eigen::VectorXd::Zero(columns.cols());
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-    for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) {
-      const double s = std::max(svd.singularValues()(k), 1e-6);
-      vif(j) += svd.matrixV()(j, k) * svd.matrixV()(j, k) / (s * s);
+    for (Eigen::Index k = 0; k < svd.s.size(); ++k) {
+      const double s = std::max(svd.s(k), 1e-6);
+      vif(j) += svd.v(j, k) * svd.v(j, k) / (s * s);
     }
     vif(j) = std::clamp(vif(j), 1.0, 1e12);
   }
@@ -113,8 +118,7 @@ Eigen::VectorXd variance_inflation(const Eigen::MatrixXd& columns) {
 
 double condition_number(const Eigen::MatrixXd& columns) {
   if (columns.cols() == 0) return 1.0;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(unit_columns(columns));
-  const Eigen::VectorXd& s = svd.singularValues();
+  const Eigen::VectorXd s = thin_svd(unit_columns(columns)).s;
   return std::min(s(0) / std::max(s(s.size() - 1), 1e-300), 1e12);
 }
 
@@ -127,8 +131,8 @@ std::vector<int> spread_of(const Eigen::MatrixXd& columns) {
 
 PrincipalComponents principal_components(const Eigen::MatrixXd& items) {
   const Eigen::MatrixXd centred = items.rowwise() - items.colwise().mean();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU);
-  const Eigen::VectorXd& s = svd.singularValues();
+  const ThinSvd svd = thin_svd(centred);
+  const Eigen::VectorXd& s = svd.s;
   Eigen::Index count = 0;
   while (count < s.size() && s(count) > 1e-12 * std::max(s(0), 1e-300)) ++count;
   PrincipalComponents out;
@@ -136,7 +140,7 @@ PrincipalComponents principal_components(const Eigen::MatrixXd& items) {
   out.explained = Eigen::VectorXd::Zero(out.scores.cols());
   const double total = s.squaredNorm();
   for (Eigen::Index k = 0; k < count; ++k) {
-    Eigen::VectorXd score = svd.matrixU().col(k) * s(k);
+    Eigen::VectorXd score = svd.u.col(k) * s(k);
     Eigen::Index largest = 0;
     score.cwiseAbs().maxCoeff(&largest);
     if (score(largest) < 0.0) score = -score;

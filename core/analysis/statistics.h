@@ -25,6 +25,15 @@ double condition_number(const Eigen::MatrixXd& columns);
 /// Golub 1965) of the centred columns, not scaled, so that what hardly moves comes last.
 std::vector<int> spread_of(const Eigen::MatrixXd& columns);
 
+/// a = u diag(s) v', s descending, u and v with as many columns as s (one instance of Eigen's slow-to-compile
+/// template).
+struct ThinSvd {
+  Eigen::MatrixXd u;
+  Eigen::VectorXd s;
+  Eigen::MatrixXd v;
+};
+ThinSvd thin_svd(const Eigen::MatrixXd& a);
+
 struct PrincipalComponents {
   Eigen::MatrixXd scores;     // items x components: coordinates of each row
   Eigen::VectorXd explained;  // share of the variance of each, descending

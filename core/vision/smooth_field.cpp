@@ -15,8 +15,8 @@ void cubic_weights(double t, float* w) {
   w[3] = static_cast<float>(t * t * t / 6.0);
 }
 
-int intervals(int length_px, double spacing_px) {
-  return std::max(1, static_cast<int>(std::lround(length_px / spacing_px)));
+int intervals(int side_px, double spacing_px) {
+  return std::max(1, static_cast<int>(std::lround(side_px / spacing_px)));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr double least_fine_correlation = 0.90;
 constexpr double least_contrast = 0.2;
 constexpr double largest_contrast = 3.0;
 constexpr double largest_linear = 0.035;
-constexpr double largest_blur_px2 = 18.0;
+constexpr double accepted_blur_px2 = 18.0;
 constexpr double least_seen = 0.70;
 
 double linear_change(const Registration& r) {
@@ -47,7 +47,7 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   }
   if (!fits) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::wrong_target;
   if (linear_change(r) > largest_linear) return Refusal::wrong_target;
-  if (r.blur_px2 > largest_blur_px2) return Refusal::blurred;
+  if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
   if (r.inlier_share < least_inliers || r.informed_share < least_informed) {
     if (r.saturated_share > 0.10) return Refusal::glare;
     return coarse_correlation < 0.5 ? Refusal::missing : Refusal::occluded;

@@ -21,7 +21,7 @@ using testing::Pose;
 using testing::render;
 using testing::Speckle;
 
-const Region region{240, 160, 160, 160};
+const Region file_region{240, 160, 160, 160};
 
 class MeasureFiles : public ::testing::Test {
  protected:
@@ -37,7 +37,7 @@ class MeasureFiles : public ::testing::Test {
     ASSERT_TRUE(write_png(m_folder / name, render(Speckle(1), pose, {.noise = 1.0, .seed = seed})));
   }
   Target target() {
-    const auto result = load_target({m_folder / "template.png", region, std::nullopt}, nullptr);
+    const auto result = load_target({m_folder / "template.png", file_region, std::nullopt}, nullptr);
     EXPECT_TRUE(result);
     return *result;
   }
@@ -101,7 +101,7 @@ TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {
   document["target"] = target_to_json(result->target, "template.png");
   const auto stored = target_from_json(document);
   ASSERT_TRUE(stored);
-  EXPECT_EQ(stored->region.width, region.width);
+  EXPECT_EQ(stored->region.width, file_region.width);
   EXPECT_EQ(stored->mask, result->target.mask());
   document["target"]["mask_runs"] = {1, 2, 3};
   EXPECT_FALSE(target_from_json(document));

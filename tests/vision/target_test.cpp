@@ -14,10 +14,10 @@ using testing::Pose;
 using testing::render;
 using testing::Speckle;
 
-const Region region{240, 160, 160, 160};
+const Region target_region{240, 160, 160, 160};
 
 Target target_of(const Speckle& speckle, double noise = 0.0, std::optional<PixelPoint> point = std::nullopt) {
-  auto target = Target::create(render(speckle, {}, {.noise = noise, .seed = 99}), region, point, "template.png");
+  auto target = Target::create(render(speckle, {}, {.noise = noise, .seed = 99}), target_region, point, "template.png");
   EXPECT_TRUE(target) << describe(target.error());
   return *target;
 }
@@ -90,7 +90,8 @@ TEST(Target, ErrorsAgreeWithTheStatedUncertainty) {
   double sum = 0.0;
   const int count = 40;
   for (unsigned k = 0; k < count; ++k) {
-    const auto target = Target::create(render(speckle, {}, {.noise = 2.0, .seed = 1000 + k}), region, {}, "t.png");
+    const auto target =
+        Target::create(render(speckle, {}, {.noise = 2.0, .seed = 1000 + k}), target_region, {}, "t.png");
     ASSERT_TRUE(target);
     const double dx = 0.13 * k - 2.0;
     const Location at = target->locate(render(speckle, {.dx = dx, .dy = 0.4}, {.noise = 2.0, .seed = 5000 + k}));

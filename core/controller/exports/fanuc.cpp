@@ -59,7 +59,7 @@ struct AxisFile {
   double interval_mm = 0.0;
 };
 
-Result<Table> read(std::string_view text, const ExportOptions& options) {
+Result<Table> read_fanuc(std::string_view text, const ExportOptions& options) {
   std::map<int, long> increments;
   std::map<std::string, AxisFile> axes;
   for (const std::string_view line : lines_of(text)) {
@@ -138,7 +138,7 @@ void tell(const std::string& name, const Layout& layout, const std::vector<long>
   }
 }
 
-Result<Exported> write(const Table& table, const ExportOptions& options) {
+Result<Exported> write_fanuc(const Table& table, const ExportOptions& options) {
   const ExportFormat self = fanuc();
   const auto state = state_of(table, options);
   Exported out;
@@ -185,8 +185,8 @@ ExportFormat fanuc() {
            .max_points = 128,
            .resolution_um = 1.0,
            .sign = "increments of -error per interval"},
-          write,
-          read};
+          write_fanuc,
+          read_fanuc};
 }
 
 }  // namespace zerodrift::controller::exports

@@ -13,7 +13,7 @@ namespace {
 
 using compensation::Table;
 
-Result<Table> read(std::string_view text, const ExportOptions&) {
+Result<Table> read_heidenhain(std::string_view text, const ExportOptions&) {
   const auto lines = lines_of(text);
   const std::string_view begin = "BEGIN AXIS_";
   if (lines.empty() || !lines.front().starts_with(begin) || lines.front().size() <= begin.size()) {
@@ -41,7 +41,7 @@ Result<Table> read(std::string_view text, const ExportOptions&) {
   return table;
 }
 
-Result<Exported> write(const Table& table, const ExportOptions& options) {
+Result<Exported> write_heidenhain(const Table& table, const ExportOptions& options) {
   const ExportFormat self = heidenhain();
   ZD_TRY(const std::string name, chosen_axis(table, options));
   const auto& axis = table.axes.at(name);
@@ -74,8 +74,8 @@ Result<Exported> write(const Table& table, const ExportOptions& options) {
 ExportFormat heidenhain() {
   return {"heidenhain",
           {.equidistant = false, .two_directions = false, .max_points = 256, .resolution_um = 0.1, .sign = "+error"},
-          write,
-          read};
+          write_heidenhain,
+          read_heidenhain};
 }
 
 }  // namespace zerodrift::controller::exports

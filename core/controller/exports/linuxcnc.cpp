@@ -12,7 +12,7 @@ namespace {
 
 using compensation::Table;
 
-Result<Table> read(std::string_view text, const ExportOptions& options) {
+Result<Table> read_linuxcnc(std::string_view text, const ExportOptions& options) {
   std::vector<double> x;
   std::vector<double> up;
   std::vector<double> down;
@@ -31,7 +31,7 @@ Result<Table> read(std::string_view text, const ExportOptions& options) {
   return table;
 }
 
-Result<Exported> write(const Table& table, const ExportOptions& options) {
+Result<Exported> write_linuxcnc(const Table& table, const ExportOptions& options) {
   ZD_TRY(const std::string name, chosen_axis(table, options));
   const auto& axis = table.axes.at(name);
   const auto state = state_of(table, options);
@@ -66,8 +66,8 @@ ExportFormat linuxcnc() {
            .max_points = 256,
            .resolution_um = 0.001,
            .sign = "type 0: actual position = nominal + error; type 1: trim = -error"},
-          write,
-          read};
+          write_linuxcnc,
+          read_linuxcnc};
 }
 
 }  // namespace zerodrift::controller::exports

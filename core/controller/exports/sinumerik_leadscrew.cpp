@@ -84,7 +84,7 @@ std::vector<std::string> fields_of(std::string_view inside) {
   return fields;
 }
 
-Result<Table> read(std::string_view text, const ExportOptions&) {
+Result<Table> read_sinumerik_leadscrew(std::string_view text, const ExportOptions&) {
   std::map<std::string, Block> blocks;  // by axis, or by CEC table number
   for (const std::string_view line : lines_of(text)) {
     const auto open = line.find('[');
@@ -117,7 +117,7 @@ Result<Table> read(std::string_view text, const ExportOptions&) {
   return table;
 }
 
-Result<Exported> write(const Table& table, const ExportOptions& options) {
+Result<Exported> write_sinumerik_leadscrew(const Table& table, const ExportOptions& options) {
   const ExportFormat self = sinumerik_leadscrew();
   const auto state = state_of(table, options);
   Exported out;
@@ -159,8 +159,8 @@ ExportFormat sinumerik_leadscrew() {
            .max_points = 200,
            .resolution_um = 0.001,
            .sign = "+error (a positive value moves the axis in the negative direction)"},
-          write,
-          read};
+          write_sinumerik_leadscrew,
+          read_sinumerik_leadscrew};
 }
 
 }  // namespace zerodrift::controller::exports

@@ -76,7 +76,7 @@ struct Straight {
   double slope = 0.0;
 };
 
-Result<Table> read(std::string_view text, const ExportOptions& options) {
+Result<Table> read_sinumerik_thermal(std::string_view text, const ExportOptions& options) {
   std::map<int, double> parameters;
   std::map<std::string, Straight> lines;
   for (const std::string_view line : lines_of(text)) {
@@ -121,7 +121,7 @@ double points_lost_um(const AxisTable& axis, const Temperatures& state) {
   return largest;
 }
 
-Result<Exported> write(const Table& table, const ExportOptions& options) {
+Result<Exported> write_sinumerik_thermal(const Table& table, const ExportOptions& options) {
   const auto parameters = parameters_of(table, options.first_r_parameter);
   const auto state = state_of(table, options);
   Exported out;
@@ -160,8 +160,8 @@ ExportFormat sinumerik_thermal() {
            .max_points = 0,
            .resolution_um = 1e-6,
            .sign = "+error (acts on the actual value)"},
-          write,
-          read};
+          write_sinumerik_thermal,
+          read_sinumerik_thermal};
 }
 
 }  // namespace zerodrift::controller::exports

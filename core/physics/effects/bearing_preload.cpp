@@ -3,7 +3,7 @@
 #include "core/physics/effects/bearings.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace bearing_preload {
 
 struct Form {
   const char* key;
@@ -40,7 +40,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace bearing_preload
 
 extern const Effect bearing_preload_effect;
 const Effect bearing_preload_effect = {"bearing_preload",
@@ -52,7 +52,7 @@ const Effect bearing_preload_effect = {"bearing_preload",
                                         {"speed_share", 1.0, 0.0, 20.0, true},
                                         {"constant_share", 0.8, -0.8, 16.0, true}},
                                        {"growth_1_K", "speed_share", "constant_share"},
-                                       add,
-                                       candidates};
+                                       bearing_preload::add,
+                                       bearing_preload::candidates};
 
 }  // namespace zerodrift::physics

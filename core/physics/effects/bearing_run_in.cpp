@@ -2,7 +2,7 @@
 #include "core/physics/effects/bearings.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace bearing_run_in {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   BearingModifier m;
@@ -25,7 +25,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace bearing_run_in
 
 extern const Effect bearing_run_in_effect;
 const Effect bearing_run_in_effect = {
@@ -36,7 +36,7 @@ const Effect bearing_run_in_effect = {
     "bearing_viscosity",
     {{"excess_share", 0.6, 0.0, 6.0, true}, {"ln_decay_s", 0.7, 6.0, 11.0, false, 8.2}},
     {"excess_share"},
-    add,
-    candidates};
+    bearing_run_in::add,
+    bearing_run_in::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/bearings.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace bearing_viscosity {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   BearingModifier m;
@@ -20,7 +20,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return {at_start, at_40};
 }
 
-}  // namespace
+}  // namespace bearing_viscosity
 
 extern const Effect bearing_viscosity_effect;
 const Effect bearing_viscosity_effect = {
@@ -31,7 +31,7 @@ const Effect bearing_viscosity_effect = {
     "bearing_preload speed_convection",
     {{"beta_1_K", 0.03, 0.0, 0.09, true}},
     {"beta_1_K"},
-    add,
-    candidates};
+    bearing_viscosity::add,
+    bearing_viscosity::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace bracket_slip {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   Observation* seen = observation_of(builder, spec);
@@ -25,7 +25,7 @@ std::vector<EffectSpec> candidates(const Machine&, const RunFacts& facts) {
   return list;
 }
 
-}  // namespace
+}  // namespace bracket_slip
 
 extern const Effect bracket_slip_effect;
 const Effect bracket_slip_effect = {"bracket_slip",
@@ -35,7 +35,7 @@ const Effect bracket_slip_effect = {"bracket_slip",
                                     "structure_driver",
                                     {{"step_um", 5.0, -500.0, 500.0, true}},
                                     {"step_um"},
-                                    add,
-                                    candidates};
+                                    bracket_slip::add,
+                                    bracket_slip::candidates};
 
 }  // namespace zerodrift::physics

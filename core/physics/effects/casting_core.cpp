@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace casting_core {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const int conductance = builder.effect_parameter(spec, index, "conductance_W_K");
@@ -36,7 +36,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace casting_core
 
 extern const Effect casting_core_effect;
 const Effect casting_core_effect = {
@@ -47,7 +47,7 @@ const Effect casting_core_effect = {
     "convection sensor_lag",
     {{"conductance_W_K", 0.5, 0.0, 200.0, true}, {"heat_capacity_J_K", 0.8, 1.0, 1e7, false, 0.0, true}},
     {"conductance_W_K"},
-    add,
-    candidates};
+    casting_core::add,
+    casting_core::candidates};
 
 }  // namespace zerodrift::physics

@@ -3,7 +3,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace chiller_cycle {
 
 Strength law(const LawPoint& at) {
   const double phase = 2.0 * 3.14159265358979 * at.time_s / at.values[2];
@@ -58,7 +58,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace chiller_cycle
 
 extern const Effect chiller_cycle_effect;
 const Effect chiller_cycle_effect = {"chiller_cycle",
@@ -71,7 +71,7 @@ const Effect chiller_cycle_effect = {"chiller_cycle",
                                       {"period_s", 200.0, 300.0, 20000.0},
                                       {"mean_W", 20.0, 0.0, 5000.0, true}},
                                      {"sine_W"},
-                                     add,
-                                     candidates};
+                                     chiller_cycle::add,
+                                     chiller_cycle::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace conductivity_temperature {
 
 Law face_law(double section_over_cell_m, double reference_C) {
   return [=](const LawPoint& at) {
@@ -43,7 +43,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return {};
 }
 
-}  // namespace
+}  // namespace conductivity_temperature
 
 extern const Effect conductivity_temperature_effect;
 const Effect conductivity_temperature_effect = {
@@ -54,7 +54,7 @@ const Effect conductivity_temperature_effect = {
     "radiation bearing_preload",
     {{"slope_1_K", 0.0015, -0.006, 0.006, true}},
     {"slope_1_K"},
-    add,
-    candidates};
+    conductivity_temperature::add,
+    conductivity_temperature::candidates};
 
 }  // namespace zerodrift::physics

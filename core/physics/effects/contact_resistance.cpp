@@ -3,7 +3,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace contact_resistance {
 
 /// Change of one face's conductance k A / dx by the share of the joint that lies on it.
 Law face_law(double face, double cell_m, double section_m2) {
@@ -64,7 +64,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace contact_resistance
 
 extern const Effect contact_resistance_effect;
 const Effect contact_resistance_effect = {
@@ -75,7 +75,7 @@ const Effect contact_resistance_effect = {
     "sensor_lag extra_heat_source heater_body",
     {{"resistance_m2K_W", 1.2e-3, 0.0, 2e-2, true}, {"position_mm", 20.0, 0.0, 30000.0}},
     {"resistance_m2K_W"},
-    add,
-    candidates};
+    contact_resistance::add,
+    contact_resistance::candidates};
 
 }  // namespace zerodrift::physics

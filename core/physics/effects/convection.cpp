@@ -3,7 +3,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace convection {
 
 /// Where a film acts the ends lose heat too; how much, the data say (0 unless the description knows it).
 void add_end_loss(NetworkBuilder& builder, const Component& component, const EffectSpec& spec, int index) {
@@ -69,7 +69,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace convection
 
 extern const Effect convection_effect;
 const Effect convection_effect = {
@@ -80,7 +80,7 @@ const Effect convection_effect = {
     "speed_convection radiation",
     {{"h_W_m2K", 25.0, 0.0, 300.0, true}, {"conductance_W_K", 0.5, 0.0, 100.0, true}},
     {"h_W_m2K", "conductance_W_K"},
-    add,
-    candidates};
+    convection::add,
+    convection::candidates};
 
 }  // namespace zerodrift::physics

@@ -3,7 +3,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace coolant {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
@@ -83,7 +83,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace coolant
 
 extern const Effect coolant_effect;
 const Effect coolant_effect = {
@@ -96,7 +96,7 @@ const Effect coolant_effect = {
      {"conductance_W_K", 0.5, 0.0, 200.0, true},
      {"temperature_C", 2.0, -20.0, 90.0}},
     {"h_W_m2K", "conductance_W_K"},
-    add,
-    candidates};
+    coolant::add,
+    coolant::candidates};
 
 }  // namespace zerodrift::physics

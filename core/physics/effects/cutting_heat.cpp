@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace cutting_heat {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const std::vector<std::string> rods = builder.rods();
@@ -25,7 +25,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace cutting_heat
 
 extern const Effect cutting_heat_effect;
 const Effect cutting_heat_effect = {
@@ -36,7 +36,7 @@ const Effect cutting_heat_effect = {
     "extra_heat_source",
     {{"share", 0.05, 0.0, 1.0, true}},
     {"share"},
-    add,
-    candidates};
+    cutting_heat::add,
+    cutting_heat::candidates};
 
 }  // namespace zerodrift::physics

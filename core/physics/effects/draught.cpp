@@ -3,7 +3,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace draught {
 
 /// Between the moments, with edges of two minutes so that they can be fitted.
 Strength law(const LawPoint& at) {
@@ -60,7 +60,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace draught
 
 extern const Effect draught_effect;
 const Effect draught_effect = {"draught",
@@ -73,7 +73,7 @@ const Effect draught_effect = {"draught",
                                 {"to_s", 1800.0, 0.0, 1e6},
                                 {"colder_K", 3.0, -20.0, 20.0}},
                                {"h_W_m2K"},
-                               add,
-                               candidates};
+                               draught::add,
+                               draught::candidates};
 
 }  // namespace zerodrift::physics

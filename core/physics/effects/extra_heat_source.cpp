@@ -3,7 +3,7 @@
 #include "core/physics/sources.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace extra_heat_source {
 
 Law law(const std::string& form, int speed, double full_rpm) {
   return [=](const LawPoint& at) {
@@ -60,7 +60,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace extra_heat_source
 
 extern const Effect extra_heat_source_effect;
 const Effect extra_heat_source_effect = {
@@ -71,7 +71,7 @@ const Effect extra_heat_source_effect = {
     "bearing_preload cutting_heat standing_heat",
     {{"power_W", 50.0, 0.0, 1e5, true}, {"position_mm", 20.0, 0.0, 30000.0}},
     {"power_W"},
-    add,
-    candidates};
+    extra_heat_source::add,
+    extra_heat_source::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace heater_body {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const std::string component = spec.word_or("component", "");
@@ -37,7 +37,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace heater_body
 
 extern const Effect heater_body_effect;
 const Effect heater_body_effect = {
@@ -48,7 +48,7 @@ const Effect heater_body_effect = {
     "sensor_lag contact_resistance",
     {{"heat_capacity_J_K", 15.0, 0.0, 2000.0, true}, {"contact_W_K", 1.0, 0.005, 100.0, false, 0.0, true}},
     {"heat_capacity_J_K"},
-    add,
-    candidates};
+    heater_body::add,
+    heater_body::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace neighbour_heat {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const Component* one = builder.machine().find(spec.word_or("component", ""));
@@ -62,7 +62,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace neighbour_heat
 
 extern const Effect neighbour_heat_effect;
 const Effect neighbour_heat_effect = {"neighbour_heat",
@@ -72,7 +72,7 @@ const Effect neighbour_heat_effect = {"neighbour_heat",
                                       "extra_heat_source room_sensor_fault",
                                       {{"conductance_W_K", 2.0, 0.0, 500.0, true}},
                                       {"conductance_W_K"},
-                                      add,
-                                      candidates};
+                                      neighbour_heat::add,
+                                      neighbour_heat::candidates};
 
 }  // namespace zerodrift::physics

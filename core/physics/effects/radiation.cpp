@@ -3,7 +3,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace radiation {
 
 constexpr double stefan_boltzmann = 5.670374419e-8;  // W/(m2 K4)
 constexpr double kelvin = 273.15;
@@ -48,7 +48,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return {};
 }
 
-}  // namespace
+}  // namespace radiation
 
 extern const Effect radiation_effect;
 const Effect radiation_effect = {"radiation",
@@ -59,7 +59,7 @@ const Effect radiation_effect = {"radiation",
                                  "convection speed_convection",
                                  {{"emissivity", 0.6, 0.0, 1.0, true}},
                                  {"emissivity"},
-                                 add,
-                                 candidates};
+                                 radiation::add,
+                                 radiation::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace room_sensor_fault {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const int room = builder.room();
@@ -23,7 +23,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
           {"room_sensor_fault", true, {{"drift_K_per_h", 0.0}}, {}}};
 }
 
-}  // namespace
+}  // namespace room_sensor_fault
 
 extern const Effect room_sensor_fault_effect;
 const Effect room_sensor_fault_effect = {
@@ -34,7 +34,7 @@ const Effect room_sensor_fault_effect = {
     "standing_heat convection draught",
     {{"offset_K", 1.5, -15.0, 15.0, true}, {"drift_K_per_h", 0.5, -5.0, 5.0, true}},
     {"offset_K", "drift_K_per_h"},
-    add,
-    candidates};
+    room_sensor_fault::add,
+    room_sensor_fault::candidates};
 
 }  // namespace zerodrift::physics

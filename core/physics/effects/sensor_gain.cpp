@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace sensor_gain {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   if (Observation* seen = observation_of(builder, spec))
@@ -13,7 +13,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return one_a_sensor(machine, facts, "sensor_gain", "gain_error");
 }
 
-}  // namespace
+}  // namespace sensor_gain
 
 extern const Effect sensor_gain_effect;
 const Effect sensor_gain_effect = {"sensor_gain",
@@ -23,7 +23,7 @@ const Effect sensor_gain_effect = {"sensor_gain",
                                    "contact_resistance sensor_lag",
                                    {{"gain_error", 0.08, -0.6, 0.6, true}},
                                    {"gain_error"},
-                                   add,
-                                   candidates};
+                                   sensor_gain::add,
+                                   sensor_gain::candidates};
 
 }  // namespace zerodrift::physics

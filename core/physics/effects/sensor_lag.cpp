@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace sensor_lag {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   if (Observation* seen = observation_of(builder, spec)) seen->lag_s = builder.effect_parameter(spec, index, "lag_s");
@@ -12,7 +12,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return one_a_sensor(machine, facts, "sensor_lag", "lag_s");
 }
 
-}  // namespace
+}  // namespace sensor_lag
 
 extern const Effect sensor_lag_effect;
 const Effect sensor_lag_effect = {"sensor_lag",
@@ -22,7 +22,7 @@ const Effect sensor_lag_effect = {"sensor_lag",
                                   "contact_resistance heater_body",
                                   {{"lag_s", 200.0, 0.0, 3000.0, true}},
                                   {"lag_s"},
-                                  add,
-                                  candidates};
+                                  sensor_lag::add,
+                                  sensor_lag::candidates};
 
 }  // namespace zerodrift::physics

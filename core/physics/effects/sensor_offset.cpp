@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace sensor_offset {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   Observation* seen = observation_of(builder, spec);
@@ -22,7 +22,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace sensor_offset
 
 extern const Effect sensor_offset_effect;
 const Effect sensor_offset_effect = {"sensor_offset",
@@ -32,7 +32,7 @@ const Effect sensor_offset_effect = {"sensor_offset",
                                      "contact_resistance",
                                      {{"offset_K", 1.2, -20.0, 20.0, true}},
                                      {"offset_K"},
-                                     add,
-                                     candidates};
+                                     sensor_offset::add,
+                                     sensor_offset::candidates};
 
 }  // namespace zerodrift::physics

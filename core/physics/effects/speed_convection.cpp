@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace speed_convection {
 
 Law law(int speed, double full_rpm) {
   return [=](const LawPoint& at) {
@@ -40,7 +40,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return {};
 }
 
-}  // namespace
+}  // namespace speed_convection
 
 extern const Effect speed_convection_effect;
 const Effect speed_convection_effect = {
@@ -51,7 +51,7 @@ const Effect speed_convection_effect = {
     "bearing_viscosity convection",
     {{"a_W_m2K", 30.0, 0.0, 400.0, true}, {"exponent", 0.15, 0.4, 1.1, false, 0.7}},
     {"a_W_m2K"},
-    add,
-    candidates};
+    speed_convection::add,
+    speed_convection::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace standing_heat {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const int power = builder.effect_parameter(spec, index, "power_W");
@@ -29,7 +29,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace standing_heat
 
 extern const Effect standing_heat_effect;
 const Effect standing_heat_effect = {"standing_heat",
@@ -39,7 +39,7 @@ const Effect standing_heat_effect = {"standing_heat",
                                      "extra_heat_source convection",
                                      {{"power_W", 20.0, 0.0, 1e5, true}},
                                      {"power_W"},
-                                     add,
-                                     candidates};
+                                     standing_heat::add,
+                                     standing_heat::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace structure_ambient {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   Observation* seen = observation_of(builder, spec);
@@ -28,7 +28,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace structure_ambient
 
 extern const Effect structure_ambient_effect;
 const Effect structure_ambient_effect = {
@@ -39,7 +39,7 @@ const Effect structure_ambient_effect = {
     "structure_bending",
     {{"um_per_K", 5.0, -60.0, 60.0, true}, {"lag_s", 0.7, 200.0, 40000.0, false, 4000.0, true}},
     {"um_per_K"},
-    add,
-    candidates};
+    structure_ambient::add,
+    structure_ambient::candidates};
 
 }  // namespace zerodrift::physics

@@ -4,7 +4,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace structure_bending {
 
 /// Nominal heat of all sources of a kind, in W.
 int heat_signal(NetworkBuilder& builder, SourceKind kind) {
@@ -103,7 +103,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   return list;
 }
 
-}  // namespace
+}  // namespace structure_bending
 
 extern const Effect structure_bending_effect;
 const Effect structure_bending_effect = {
@@ -117,7 +117,7 @@ const Effect structure_bending_effect = {
      {"second_lag_s", 0.9, 100.0, 60000.0, false, 4000.0, true},
      {"room_um_per_K", 1.5, -30.0, 30.0, true}},
     {"um_per_unit"},
-    add,
-    candidates};
+    structure_bending::add,
+    structure_bending::candidates};
 
 }  // namespace zerodrift::physics

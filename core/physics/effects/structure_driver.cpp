@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace structure_driver {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const Component* driver = builder.machine().find(spec.word_or("driver", ""));
@@ -46,7 +46,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace structure_driver
 
 extern const Effect structure_driver_effect;
 const Effect structure_driver_effect = {
@@ -57,7 +57,7 @@ const Effect structure_driver_effect = {
     "structure_ambient structure_lag",
     {{"um_per_K", 5.0, -200.0, 200.0, true}, {"lag_s", 1.2, 1.0, 40000.0, false, 600.0, true}},
     {"um_per_K"},
-    add,
-    candidates};
+    structure_driver::add,
+    structure_driver::candidates};
 
 }  // namespace zerodrift::physics

@@ -2,7 +2,7 @@
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
-namespace {
+namespace structure_lag {
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   if (Observation* seen = observation_of(builder, spec)) seen->lag_s = builder.effect_parameter(spec, index, "lag_s");
@@ -18,7 +18,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   return list;
 }
 
-}  // namespace
+}  // namespace structure_lag
 
 extern const Effect structure_lag_effect;
 const Effect structure_lag_effect = {
@@ -29,7 +29,7 @@ const Effect structure_lag_effect = {
     "structure_driver",
     {{"lag_s", 1500.0, 0.0, 40000.0, true}},
     {"lag_s"},
-    add,
-    candidates};
+    structure_lag::add,
+    structure_lag::candidates};
 
 }  // namespace zerodrift::physics
