@@ -39,22 +39,14 @@ MeasuredChannel make_channel(const recording::Channel* source, const physics::Ob
   return channel;
 }
 
-/// One step of the scalar Kalman filter's gains (the same for residual and columns).
-struct Gain {
-  double fade = 1.0;     // of the mean since the sample before
-  double inverse = 0.0;  // 1 / sqrt(S)
-  double update = 0.0;   // Kalman gain
-  bool present = false;
-};
-
-double gains_of(const MeasuredChannel& channel, const std::vector<double>& time_s, std::vector<Gain>& gains) {
-  gains.resize(time_s.size());
+void set_gains(MeasuredChannel& channel, const std::vector<double>& time_s) {
+  channel.gains.resize(time_s.size());
   const double drift2 = channel.drift * channel.drift;
   const double white2 = channel.white * channel.white;
   double variance = drift2;
   double log_determinant = 0.0;
   for (std::size_t k = 0; k < time_s.size(); ++k) {
-    Gain& g = gains[k];
+    Gain& g = channel.gains[k];
     g = Gain{};
     if (k > 0) {
       g.fade = std::exp(-(time_s[k] - time_s[k - 1]) / drift_time_s);
@@ -68,7 +60,7 @@ double gains_of(const MeasuredChannel& channel, const std::vector<double>& time_
     g.update = variance / total;
     variance *= 1.0 - g.update;
   }
-  return log_determinant;
+  channel.log_determinant = log_determinant;
 }
 
 }  // namespace
@@ -79,6 +71,12 @@ int Dataset::samples() const {
   return count;
 }
 
+void Dataset::prepare() {
+  for (auto& channel : channels) {
+    if (channel.samples > 0) set_gains(channel, time_s);
+  }
+}
+
 Dataset make_dataset(const recording::Recording& recording, const physics::Network& network) {
   Dataset data;
   data.recording = &recording;
@@ -86,11 +84,13 @@ Dataset make_dataset(const recording::Recording& recording, const physics::Netwo
   for (const auto& seen : network.observations) {
     data.channels.push_back(make_channel(recording.find(seen.channel), seen, data.rows()));
   }
+  data.prepare();
   return data;
 }
 
 Dataset with_drift(Dataset data, double factor) {
   for (auto& channel : data.channels) channel.drift *= factor;
+  data.prepare();
   return data;
 }
 
@@ -109,23 +109,24 @@ void set_timing_noise(Dataset& data, const physics::Network& network, const phys
       before = moved;
     }
   }
+  data.prepare();
 }
 
 double whiten(const Dataset& data, const physics::Prediction& prediction, Eigen::VectorXd* residual) {
   residual->setZero(static_cast<Eigen::Index>(data.stacked()));
-  std::vector<Gain> gains;
   double log_determinant = 0.0;
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
     const MeasuredChannel& channel = data.channels[c];
     if (channel.samples == 0) continue;
-    log_determinant += gains_of(channel, data.time_s, gains);
+    log_determinant += channel.log_determinant;
     double mean = 0.0;
     for (std::size_t k = 0; k < data.rows(); ++k) {
-      mean *= gains[k].fade;
-      if (!gains[k].present) continue;
+      const Gain& g = channel.gains[k];
+      mean *= g.fade;
+      if (!g.present) continue;
       const double innovation = channel.values[k] - prediction.channels[c].values[k] - mean;
-      (*residual)[static_cast<Eigen::Index>(c * data.rows() + k)] = innovation * gains[k].inverse;
-      mean += gains[k].update * innovation;
+      (*residual)[static_cast<Eigen::Index>(c * data.rows() + k)] = innovation * g.inverse;
+      mean += g.update * innovation;
     }
   }
   return log_determinant;
@@ -134,15 +135,13 @@ double whiten(const Dataset& data, const physics::Prediction& prediction, Eigen:
 void whiten_columns(const Dataset& data, const physics::Prediction& prediction, const std::vector<double>& slopes,
                     RowMatrix& jacobian, const std::vector<int>& target_columns) {
   const std::size_t count = prediction.columns;
-  std::vector<Gain> gains;
   std::vector<double> mean(count);
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
     const MeasuredChannel& channel = data.channels[c];
     if (channel.samples == 0) continue;
-    gains_of(channel, data.time_s, gains);
     std::fill(mean.begin(), mean.end(), 0.0);
     for (std::size_t k = 0; k < data.rows(); ++k) {
-      const Gain& g = gains[k];
+      const Gain& g = channel.gains[k];
       for (std::size_t p = 0; p < count; ++p) mean[p] *= g.fade;
       if (!g.present) continue;
       const double* by = prediction.channels[c].derivatives.data() + k * count;

@@ -17,6 +17,14 @@ namespace zerodrift::diagnosis {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// One step of the scalar Kalman filter, whose gains do not depend on what is measured.
+struct Gain {
+  double fade = 1.0;     // of the mean since the sample before
+  double inverse = 0.0;  // 1 / sqrt(S)
+  double update = 0.0;   // Kalman gain
+  bool present = false;
+};
+
 struct MeasuredChannel {
   std::string name;
   bool temperature = true;
@@ -26,6 +34,8 @@ struct MeasuredChannel {
   double drift = 0.0;          // sigma of the slow drift
   std::vector<double> timing;  // variance added at each sample by unknown switching times
   int samples = 0;
+  std::vector<Gain> gains;       // of white, drift and timing: set by prepare()
+  double log_determinant = 0.0;  // sum(ln S)
 };
 
 struct Dataset {
@@ -36,6 +46,8 @@ struct Dataset {
   std::size_t rows() const { return time_s.size(); }
   std::size_t stacked() const { return rows() * channels.size(); }
   int samples() const;
+  /// Computes the channels' gains; to be called after noise widths were changed.
+  void prepare();
 };
 
 Dataset make_dataset(const recording::Recording& recording, const physics::Network& network);

@@ -10,6 +10,7 @@
 #include "core/diagnosis/locate.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/selection.h"
+#include "core/diagnosis/thinning.h"
 #include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis {
@@ -54,7 +55,11 @@ class Diagnoser {
  public:
   Diagnoser(const Machine& machine, const std::vector<Recording>& recordings, const DiagnoseOptions& options,
             const TaskContext& context)
-      : m_machine(machine), m_recordings(recordings), m_options(options), m_context(context) {}
+      : m_machine(machine),
+        m_recordings(recordings),
+        m_fitted(thinned(recordings.front(), most_rows)),
+        m_options(options),
+        m_context(context) {}
 
   Result<Diagnosis> run() {
     const auto start = std::chrono::steady_clock::now();
@@ -83,7 +88,10 @@ class Diagnoser {
   }
 
  private:
-  const Recording& recording() const { return m_recordings.front(); }
+  static constexpr std::size_t most_rows = 1500;
+
+  /// What is fitted: the first recording, thinned if it is long.
+  const Recording& recording() const { return m_fitted; }
 
   void prepare() {
     const physics::Network network = physics::build_network(m_machine, recording());
@@ -445,6 +453,7 @@ class Diagnoser {
 
   const Machine& m_machine;
   const std::vector<Recording>& m_recordings;
+  const Recording m_fitted;
   DiagnoseOptions m_options;
   const TaskContext& m_context;
   SelectionOptions m_limits;

@@ -117,6 +117,7 @@ Eigen::MatrixXd Model::hessian() const {
 /// Chord steps: the base's columns change little, so only the effect's are renewed each step; all of them after a large
 /// gain or three steps.
 void Model::fit(const FitOptions& options) {
+  m_log_evidence.reset();
   const Index n = static_cast<Index>(m_free.size());
   const std::vector<int> all = all_unknowns();
   const std::vector<int> effects = effect_unknowns();
@@ -177,8 +178,10 @@ void Model::fit(const FitOptions& options) {
 }
 
 double Model::log_evidence() const {
+  if (m_log_evidence) return *m_log_evidence;
   const Eigen::LDLT<Eigen::MatrixXd> factors(hessian());
-  return -0.5 * m_cost - 0.5 * factors.vectorD().array().max(1e-300).log().sum();
+  m_log_evidence = -0.5 * m_cost - 0.5 * factors.vectorD().array().max(1e-300).log().sum();
+  return *m_log_evidence;
 }
 
 double Model::log_evidence_total() const {

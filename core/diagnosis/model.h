@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/task_context.h"
@@ -74,6 +75,7 @@ class Model {
   bool m_have_columns = false;
   double m_cost = 0.0;
   double m_log_determinant = 0.0;
+  mutable std::optional<double> m_log_evidence;  // of today's columns and cost
 };
 
 /// Excess of slow variation per channel: mean square of sums of the whitened residual over blocks of 15 minutes; about
