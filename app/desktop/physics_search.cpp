@@ -8,8 +8,6 @@
 
 #include "core/base/hash.h"
 #include "core/base/json.h"
-#include "core/flow/steps/inputs.h"
-#include "core/flow/steps/physics_step.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::desktop {
@@ -21,27 +19,6 @@ using nlohmann::json;
 namespace {
 
 constexpr int case_timeout_ms = 120000;
-
-json heat_json(const Diagnosis& found) {
-  if (!found.heat || found.heat->position_mm.size() < 2 || found.heat->time_s.size() < 2) return nullptr;
-  const auto& heat = *found.heat;
-  json watts = json::array();
-  for (const auto& row : heat.watts) {
-    json line = json::array();
-    for (const double w : row) line.push_back(std::isfinite(w) ? json(std::round(100.0 * w) / 100.0) : json());
-    watts.push_back(std::move(line));
-  }
-  return {{"component", heat.component},   {"from_mm", heat.position_mm.front()}, {"to_mm", heat.position_mm.back()},
-          {"from_s", heat.time_s.front()}, {"to_s", heat.time_s.back()},          {"watts", watts}};
-}
-
-std::string refined_csv(const Diagnosis& found) {
-  recording::Recording refined;
-  refined.name = "refined";
-  refined.time_s = found.time_s;
-  for (const auto& channel : found.channels) refined.ensure(channel.channel).values = channel.explained;
-  return recording::to_csv(refined);
-}
 
 /// Root mean square over the temperature channels.
 double pooled(const std::map<std::string, double>& rms) {
@@ -69,32 +46,6 @@ Status write_trial_case(const QString& program, const QString& folder, int seed,
 }
 
 }  // namespace
-
-Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContext& context) {
-  ZD_TRY(NewArtefact made, flow::compare_physics(job, context));
-  ZD_TRY(const auto profile, flow::profile_of(job, "physics"));
-  if (profile.machine == nullptr) return made;
-  ZD_TRY(json body, parse_json(made.body, "physics"));
-  ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
-  ZD_TRY(const auto warmup, flow::need(job, "physics", "warmup"));
-  std::vector<recording::Recording> runs(1);
-  ZD_TRY(runs.front(), flow::run_of(job, warmup));
-  if (const auto verification = flow::need(job, "physics", "verification")) {
-    if (auto second = flow::run_of(job, *verification)) runs.push_back(std::move(*second));
-  }
-  ZD_TRY(const Diagnosis found, diagnosis::diagnose(machine, runs, {}, context));
-  body["diagnosis"] = diagnosis::to_json(found);
-  body["rmse"]["after"] = body["diagnosis"]["rmse"]["after"];
-  for (const auto& sentence : found.sentences) body["sentences"].push_back(sentence.english);
-  for (const auto& effect : found.effects) body["sentences"].push_back(effect.explanation.english);
-  body["heat"] = heat_json(found);
-  body["refined_machine"] = physics::to_json(found.refined);
-  body["adopted"] = json::array();
-  body["rejected"] = json::array();
-  made.body = body.dump();
-  made.blobs.push_back({"refined.csv", refined_csv(found)});
-  return made;
-}
 
 Result<NewArtefact> judged(const commissioning::Job& job, const std::string& effect, bool adopted, bool rejected) {
   ZD_TRY(const auto artefact, job.latest("physics"));

@@ -80,7 +80,7 @@ json camera_json(View view, const Endpoints& endpoints) {
 
 }  // namespace
 
-json machine_description(const HiddenEffect& hidden) {
+json machine_description(const HiddenEffects& hidden) {
   json description = {
       {"format", "zerodrift-machine/1"},
       {"name", "Virtual five-axis"},
@@ -99,7 +99,7 @@ json machine_description(const HiddenEffect& hidden) {
   return description;
 }
 
-json connection_profile(const Endpoints& endpoints, const HiddenEffect& hidden) {
+json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden) {
   json sensors = json::array();
   for (int i = 0; i < sensor_count; ++i) {
     const SensorPlace& place = sensor_places()[i];

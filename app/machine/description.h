@@ -10,7 +10,7 @@
 namespace zerodrift::machine {
 
 /// The description; it leaves out what is hidden.
-nlohmann::json machine_description(const HiddenEffect& hidden);
+nlohmann::json machine_description(const HiddenEffects& hidden);
 
 struct Endpoints {
   std::string host = "127.0.0.1";
@@ -18,6 +18,6 @@ struct Endpoints {
   int camera_port = 8090;
   int speedup = 1;
 };
-nlohmann::json connection_profile(const Endpoints& endpoints, const HiddenEffect& hidden);
+nlohmann::json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden);
 
 }  // namespace zerodrift::machine

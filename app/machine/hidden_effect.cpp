@@ -47,9 +47,21 @@ constexpr std::array effects{
     ConcealableEffect{"sensor_gain", "fraction", 0.05, 0.15, false, true, "a sensor that reads its rise too large"},
 };
 
-const ConcealableEffect* find(const std::string& id) {
-  const auto* at = std::find_if(effects.begin(), effects.end(), [&](const auto& effect) { return effect.id == id; });
-  return at == effects.end() ? nullptr : at;
+constexpr std::array unlisted{
+    ConcealableEffect{"unlisted:wandering_heat", "power_W", 15, 45, true, false,
+                      "a heat that comes and goes by itself, whatever the machine does"},
+    ConcealableEffect{"unlisted:slack", "step_um", 4, 10, false, false,
+                      "dZ jumps by this much, softly, whenever the spindle's growth passes a certain length"},
+    ConcealableEffect{"unlisted:creep", "um", 2, 5, false, false, "the nest settles: dZ follows ln(1 + t / 900 s)"},
+};
+
+const ConcealableEffect* find_entry(const std::string& id) {
+  for (const auto table : {std::span<const ConcealableEffect>(effects), std::span<const ConcealableEffect>(unlisted)}) {
+    for (const ConcealableEffect& entry : table) {
+      if (entry.id == id) return &entry;
+    }
+  }
+  return nullptr;
 }
 
 std::string all_names() {
@@ -64,11 +76,25 @@ std::span<const ConcealableEffect> concealable_effects() {
   return effects;
 }
 
+std::span<const ConcealableEffect> unlisted_effects() {
+  return unlisted;
+}
+
+const HiddenEffect* HiddenEffects::find(std::string_view name) const {
+  const auto at = std::find_if(m_list.begin(), m_list.end(), [&](const auto& effect) { return effect.is(name); });
+  return at == m_list.end() ? nullptr : &*at;
+}
+
+double HiddenEffects::size_if(std::string_view name) const {
+  const HiddenEffect* effect = find(name);
+  return effect == nullptr ? 0.0 : effect->size;
+}
+
 Result<HiddenEffect> draw_effect(const std::string& name, unsigned long long seed) {
   HiddenEffect drawn;
   if (name.empty() || name == "none") return drawn;
   Noise noise(seed * 0x9E3779B97F4A7C15ULL + 77);
-  const ConcealableEffect* effect = name == "random" ? &effects[noise.index(effects.size())] : find(name);
+  const ConcealableEffect* effect = name == "random" ? &effects[noise.index(effects.size())] : find_entry(name);
   if (effect == nullptr) {
     return fail(ErrorCode::bad_argument, {{"what", "--conceal"}, {"found", name}, {"expected", all_names()}});
   }
@@ -80,6 +106,8 @@ Result<HiddenEffect> draw_effect(const std::string& name, unsigned long long see
   if (effect->has_sensor) drawn.sensor = 1 + static_cast<int>(noise.index(5));  // the five of the spindle
   constexpr std::array laws{"on", "n", "n2"};
   if (drawn.is("extra_heat_source")) drawn.law = laws[noise.index(laws.size())];
+  if (drawn.is("unlisted:creep") && noise.uniform() < 0.5) drawn.size = -drawn.size;
+  if (drawn.is("unlisted:slack")) drawn.from_um = noise.uniform(8, 20);
   const bool lags = drawn.is("structure_ambient") || drawn.is("structure_bending") || drawn.is("bearing_run_in");
   if (lags)
     drawn.time_constant_s = drawn.is("structure_ambient") ? noise.uniform(2400, 7200) : noise.uniform(600, 3000);
@@ -87,26 +115,42 @@ Result<HiddenEffect> draw_effect(const std::string& name, unsigned long long see
   return drawn;
 }
 
-nlohmann::json to_json(const HiddenEffect& effect) {
-  if (effect.id.empty()) return {{"id", "none"}};
-  const ConcealableEffect* entry = find(effect.id);
+namespace {
+
+nlohmann::json json_of(const HiddenEffect& effect) {
+  const ConcealableEffect* entry = find_entry(effect.id);
   nlohmann::json out = {{"id", effect.id}, {"parameters", {{std::string(entry->size_name), effect.size}}}};
-  if (entry->has_position) out["position_mm"] = effect.position_mm;
+  if (entry->has_position || effect.is("contact_resistance")) out["position_mm"] = effect.position_mm;
   if (entry->has_sensor) out["channel"] = fmt::format("T{}_C", effect.sensor);
   if (!effect.law.empty()) out["parameters"]["law"] = effect.law;
   if (effect.time_constant_s > 0) out["parameters"]["time_constant_s"] = effect.time_constant_s;
   if (effect.from_s > 0) out["parameters"]["from_s"] = effect.from_s;
+  if (effect.from_um > 0) out["parameters"]["from_um"] = effect.from_um;
   return out;
 }
 
-Commitment commit_to(const HiddenEffect& effect) {
+}  // namespace
+
+nlohmann::json to_json(const HiddenEffects& hidden) {
+  if (hidden.list().empty()) return {{"id", "none"}};
+  if (hidden.list().size() == 1) return json_of(hidden.list().front());
+  nlohmann::json several = nlohmann::json::array();
+  for (const HiddenEffect& effect : hidden.list()) several.push_back(json_of(effect));
+  return {{"effects", several}};
+}
+
+Commitment seal(std::string answer) {
   // The salt must not follow from the seed, or the answer could be guessed by trying the table.
   std::random_device source;
   Commitment commitment;
   for (int i = 0; i < 4; ++i) commitment.salt += fmt::format("{:08x}", source());
-  commitment.answer = to_json(effect).dump();
+  commitment.answer = std::move(answer);
   commitment.sha256 = sha256_hex(commitment.salt + commitment.answer);
   return commitment;
+}
+
+Commitment commit_to(const HiddenEffects& hidden) {
+  return seal(to_json(hidden).dump());
 }
 
 }  // namespace zerodrift::machine

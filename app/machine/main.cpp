@@ -82,7 +82,7 @@ Result<std::vector<Fault>> parse_faults(const std::vector<std::string>& texts) {
   return faults;
 }
 
-Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t& endings) {
+Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t& endings) {
   ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
   TruthLog truth;
   if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
@@ -116,7 +116,7 @@ Status serve(const Options& options, const HiddenEffect& hidden, const sigset_t&
 
 /// What is hidden is promised on stderr before and opened there at the end; stdout holds the line "ready" alone.
 Status work(const Options& options, const sigset_t& endings) {
-  ZD_TRY(const HiddenEffect hidden, draw_effect(options.conceal, options.seed));
+  ZD_TRY(const HiddenEffects hidden, draw_effect(options.conceal, options.seed));
   if (!options.case_folder.empty()) return write_case(options.case_folder, hidden, options.seed);
   if (options.conceal.empty()) return serve(options, hidden, endings);
   const Commitment commitment = commit_to(hidden);

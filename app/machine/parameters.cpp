@@ -7,7 +7,7 @@
 
 namespace zerodrift::machine {
 
-MachineParameters build_machine(std::uint64_t seed, HiddenEffect hidden) {
+MachineParameters build_machine(std::uint64_t seed, HiddenEffects hidden) {
   MachineParameters built;
   built.seed = seed;
   Noise noise(seed * 0xD1B54A32D192ED03ULL + 11);

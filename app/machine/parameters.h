@@ -37,9 +37,9 @@ struct MachineParameters {
   double room_phase_h = 8.0;  // hour of the day at the start
   std::array<double, sensor_count> sensor_offset_K{};
   std::uint64_t noise_day = 0;  // another day: other noise and weather, the same machine
-  HiddenEffect hidden;
+  HiddenEffects hidden;
 };
 
-MachineParameters build_machine(std::uint64_t seed, HiddenEffect hidden = {});
+MachineParameters build_machine(std::uint64_t seed, HiddenEffects hidden = {});
 
 }  // namespace zerodrift::machine

@@ -77,15 +77,21 @@ double place_temperature_C(const SensorPlace& place, const ThermalNetwork& netwo
   return network.temperature_C(place.node(structure));
 }
 
+double SensorBoard::expected_C(int sensor, double true_C) const {
+  if (sensor == 0) return true_C;
+  double shown_C = true_C + m_parameters.sensor_offset_K[sensor - 1];
+  for (const HiddenEffect& effect : m_parameters.hidden.list()) {
+    if (effect.sensor != sensor) continue;
+    if (effect.is("sensor_offset")) shown_C += effect.size;
+    if (effect.is("sensor_gain")) shown_C += effect.size * (true_C - m_parameters.room_start_C);
+  }
+  return shown_C;
+}
+
 std::int16_t SensorBoard::reading(int sensor, double true_C, std::uint64_t second) const {
   const std::uint64_t counter = (m_parameters.seed << 40U) + (m_parameters.noise_day << 38U) + second * 64ULL +
                                 static_cast<std::uint64_t>(sensor);
-  double shown_C = true_C + noise_sigma_C * normal_of(counter);
-  if (sensor > 0) shown_C += m_parameters.sensor_offset_K[sensor - 1];
-  const HiddenEffect& hidden = m_parameters.hidden;
-  if (sensor > 0 && hidden.sensor == sensor) {
-    shown_C += hidden.size_if("sensor_offset") + hidden.size_if("sensor_gain") * (true_C - m_parameters.room_start_C);
-  }
+  const double shown_C = expected_C(sensor, true_C) + noise_sigma_C * normal_of(counter);
   return static_cast<std::int16_t>(std::lround(std::clamp(shown_C, -200.0, 600.0) * 16.0));
 }
 

@@ -35,6 +35,8 @@ class SensorBoard {
 
   /// sensor 1 to 20, or 0 for the room.
   std::int16_t reading(int sensor, double true_C, std::uint64_t second) const;
+  /// What it would show without noise and steps: the truth, its own offset and hidden faults.
+  double expected_C(int sensor, double true_C) const;
 
  private:
   MachineParameters m_parameters;

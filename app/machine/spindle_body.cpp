@@ -146,12 +146,12 @@ void SpindleBody::prepare(ThermalNetwork& network, const SpindleInputs& inputs, 
   }
   for (const int stator : m_stator) network.add_heat(stator, stator_W / static_cast<double>(m_stator.size()));
   m_idle_load_W += rotor_W + stator_W;
-  prepare_hidden_heat(network, inputs);
+  prepare_hidden_heat(network, inputs, time_s);
   prepare_joint(network);
 }
 
 void SpindleBody::prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front) {
-  const HiddenEffect& hidden = m_parameters.hidden;
+  const HiddenEffects& hidden = m_parameters.hidden;
   double bearing_C = 0.0;
   for (int cell = 0; cell < cells; ++cell) {
     const double middle =
@@ -161,8 +161,8 @@ void SpindleBody::prepare_bearing(ThermalNetwork& network, Bearing& bearing, con
   const double rise_K = bearing_C - m_parameters.room_start_C;
   const double viscosity = std::exp(-hidden.size_if("bearing_viscosity") * rise_K);
   const double load = std::max(0.2, 1.0 + hidden.size_if("bearing_preload") * rise_K);
-  const double run_in =
-      hidden.is("bearing_run_in") ? 1.0 + hidden.size * std::exp(-m_turning_s / hidden.time_constant_s) : 1.0;
+  const HiddenEffect* fresh = hidden.find("bearing_run_in");
+  const double run_in = fresh != nullptr ? 1.0 + fresh->size * std::exp(-m_turning_s / fresh->time_constant_s) : 1.0;
   const nominal::Bearing& drawing = front ? nominal::front_bearing : nominal::rear_bearing;
   const double scale = (front ? m_parameters.front_heat : m_parameters.rear_heat) * run_in;
   const double heat_W = 1.047e-4 * inputs.speed_rpm * scale * friction_Nmm(drawing, inputs.speed_rpm, viscosity, load);
@@ -178,13 +178,14 @@ void SpindleBody::prepare_bearing(ThermalNetwork& network, Bearing& bearing, con
 }
 
 void SpindleBody::prepare_films(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s) {
-  const HiddenEffect& hidden = m_parameters.hidden;
+  const HiddenEffects& hidden = m_parameters.hidden;
   const double relative = relative_speed(inputs.speed_rpm);
-  const double emissivity = hidden.is("radiation") ? hidden.size : bright_metal_emissivity;
+  const HiddenEffect* draught = hidden.find("draught");
+  const double emissivity = hidden.is("radiation") ? hidden.size_if("radiation") : bright_metal_emissivity;
   double film = nominal::film_W_m2K * m_parameters.film - bright_metal_film_W_m2K;
-  if (hidden.is("convection")) film = hidden.size;
+  if (hidden.is("convection")) film = hidden.size_if("convection");
   film += hidden.size_if("speed_convection") * std::pow(relative, 0.7);
-  if (hidden.is("draught") && time_s >= hidden.from_s) film += hidden.size;
+  if (draught != nullptr && time_s >= draught->from_s) film += draught->size;
   // air gap: conduction through 0.2 mm of air, more as the flow in it turns over
   const double gap_film = 0.027 / 0.0002 * (1.0 + 1.2 * std::sqrt(relative));
   const double conductivity = nominal::conductivity_W_mK * m_parameters.conductivity;
@@ -206,34 +207,44 @@ void SpindleBody::prepare_films(ThermalNetwork& network, const SpindleInputs& in
   network.set_boundary_link(m_nose_film, (8.0 + 15.0 * std::pow(relative, 0.7)) * nose_m2);
 }
 
-void SpindleBody::prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs) {
-  const HiddenEffect& hidden = m_parameters.hidden;
-  if (hidden.is("cutting_heat")) {
-    const double heat_W = hidden.size * inputs.load_W;
-    for (int ring = 0; ring < shaft_rings; ++ring) network.add_heat(node(cells - 1, ring), heat_W / shaft_rings);
-    return;
-  }
-  double heat_W = hidden.size_if("standing_heat");
-  if (hidden.is("extra_heat_source") && inputs.speed_rpm > 1.0) {
-    const double against_3000 = inputs.speed_rpm / 3000.0;
-    heat_W = hidden.size * (hidden.law == "n" ? against_3000 : hidden.law == "n2" ? against_3000 * against_3000 : 1.0);
-  }
-  if (heat_W == 0.0) return;
-  const CellShare share = share_of(hidden.position_mm - 8.0, hidden.position_mm + 8.0);
+void SpindleBody::add_hidden_heat(ThermalNetwork& network, double position_mm, double heat_W) {
+  const CellShare share = share_of(position_mm - 8.0, position_mm + 8.0);
   for (int cell = 0; cell < cells; ++cell) {
     network.add_heat(node(cell, shaft_rings), 0.75 * heat_W * share[cell]);
     network.add_heat(node(cell, shaft_rings - 1), 0.25 * heat_W * share[cell]);
   }
-  m_idle_load_W += hidden.is("extra_heat_source") ? heat_W : 0.0;
+}
+
+void SpindleBody::prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs, double time_s) {
+  const HiddenEffects& hidden = m_parameters.hidden;
+  if (const HiddenEffect* cutting = hidden.find("cutting_heat")) {
+    const double heat_W = cutting->size * inputs.load_W;
+    for (int ring = 0; ring < shaft_rings; ++ring) network.add_heat(node(cells - 1, ring), heat_W / shaft_rings);
+  }
+  if (const HiddenEffect* standing = hidden.find("standing_heat")) {
+    add_hidden_heat(network, standing->position_mm, standing->size);
+  }
+  const HiddenEffect* extra = hidden.find("extra_heat_source");
+  if (extra != nullptr && inputs.speed_rpm > 1.0) {
+    const double against_3000 = inputs.speed_rpm / 3000.0;
+    const double law = extra->law == "n" ? against_3000 : extra->law == "n2" ? against_3000 * against_3000 : 1.0;
+    add_hidden_heat(network, extra->position_mm, extra->size * law);
+    m_idle_load_W += extra->size * law;
+  }
+  if (const HiddenEffect* wandering = hidden.find("unlisted:wandering_heat")) {
+    const double phase = static_cast<double>(m_parameters.seed % 7);
+    const double level = std::sin(time_s / 2700.0 + 1.3 * std::sin(time_s / 1130.0 + phase));
+    add_hidden_heat(network, wandering->position_mm, wandering->size * std::max(0.0, level));
+  }
 }
 
 void SpindleBody::prepare_joint(ThermalNetwork& network) {
-  const HiddenEffect& hidden = m_parameters.hidden;
-  if (!hidden.is("contact_resistance")) return;
+  const HiddenEffect* joint = m_parameters.hidden.find("contact_resistance");
+  if (joint == nullptr) return;
   for (const AxialLink& axial : m_axial) {
     // a joint between two faces acts on both, by its distance
-    const double weight = std::max(0.0, 1.0 - std::abs(hidden.position_mm - axial.face_mm) / (cell_m * 1000.0));
-    network.set_link(axial.link, 1.0 / (1.0 / axial.conductance + weight * hidden.size / axial.face_area_m2));
+    const double weight = std::max(0.0, 1.0 - std::abs(joint->position_mm - axial.face_mm) / (cell_m * 1000.0));
+    network.set_link(axial.link, 1.0 / (1.0 / axial.conductance + weight * joint->size / axial.face_area_m2));
   }
 }
 

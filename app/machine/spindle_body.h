@@ -58,7 +58,8 @@ class SpindleBody {
   static CellShare share_of(double from_mm, double to_mm);
   void prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front);
   void prepare_films(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s);
-  void prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs);
+  void add_hidden_heat(ThermalNetwork& network, double position_mm, double heat_W);
+  void prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs, double time_s);
   void prepare_joint(ThermalNetwork& network);
   int node(int cell, int ring) const { return m_nodes[cell * rings + ring]; }
 

@@ -71,21 +71,31 @@ void ThermalModel::evaluate() {
 }
 
 void ThermalModel::evaluate_hidden() {
-  const HiddenEffect& hidden = m_parameters.hidden;
+  const HiddenEffects& hidden = m_parameters.hidden;
   double y_um = 0.0;
   double z_um = 0.0;
-  if (hidden.is("structure_ambient") || hidden.is("structure_bending")) {
-    const double driver = hidden.is("structure_ambient")
-                              ? m_room.temperature_C() - m_parameters.room_start_C
-                              : m_spindle.housing_C(m_network, 340) - m_spindle.housing_C(m_network, 30);
-    m_hidden_lag_K += (driver - m_hidden_lag_K) * (1.0 - std::exp(-step_s / hidden.time_constant_s));
-    (hidden.is("structure_ambient") ? z_um : y_um) += hidden.size * m_hidden_lag_K;
+  const auto follow = [](double& state, double driver, double time_constant_s) {
+    state += (driver - state) * (1.0 - std::exp(-step_s / time_constant_s));
+    return state;
+  };
+  if (const HiddenEffect* effect = hidden.find("structure_ambient")) {
+    const double driver = m_room.temperature_C() - m_parameters.room_start_C;
+    z_um += effect->size * follow(m_room_lag_K, driver, effect->time_constant_s);
   }
-  if (hidden.is("bracket_slip") && m_time_s >= hidden.from_s) z_um += hidden.size;
-  if (hidden.is("sensor_lag")) {
-    double& sensor = m_sensor_C[hidden.sensor - 1];
-    m_sensor_lag_C += (sensor - m_sensor_lag_C) * (1.0 - std::exp(-step_s / hidden.size));
-    sensor = m_sensor_lag_C;
+  if (const HiddenEffect* effect = hidden.find("structure_bending")) {
+    const double driver = m_spindle.housing_C(m_network, 340) - m_spindle.housing_C(m_network, 30);
+    y_um += effect->size * follow(m_bending_lag_K, driver, effect->time_constant_s);
+  }
+  const HiddenEffect* slip = hidden.find("bracket_slip");
+  if (slip != nullptr && m_time_s >= slip->from_s) z_um += slip->size;
+  if (const HiddenEffect* slack = hidden.find("unlisted:slack")) {
+    const auto side = [&](double growth_um) { return std::tanh((growth_um - slack->from_um) / 3.0); };
+    z_um += 0.5 * slack->size * (side(m_growth_um) - side(0.0));
+  }
+  z_um += hidden.size_if("unlisted:creep") * std::log1p(m_time_s / 900.0);
+  if (const HiddenEffect* lag = hidden.find("sensor_lag")) {
+    double& sensor = m_sensor_C[lag->sensor - 1];
+    sensor = follow(m_sensor_lag_C, sensor, lag->size);
   }
   m_errors.um[1] += y_um;
   m_errors.um[2] += z_um;

@@ -62,7 +62,8 @@ class ThermalModel {
   double m_jacket_C;
   double m_load_W = 0.0;
   double m_growth_um = 0.0;
-  double m_hidden_lag_K = 0.0;  // structure effects' driver, first-order lag
+  double m_room_lag_K = 0.0;  // drivers of the structure effects after their first-order lag
+  double m_bending_lag_K = 0.0;
   double m_sensor_lag_C;
   std::array<double, sensor_count> m_sensor_C{};
   std::array<double, 2> m_against_head_um{};  // Y, Z

@@ -4,10 +4,10 @@
 
 #include "core/flow/devices.h"
 #include "core/flow/steps/calibrate_step.h"
+#include "core/flow/steps/diagnose_step.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/machine_step.h"
-#include "core/flow/steps/physics_step.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/flow/steps/verify_step.h"
 #include "core/flow/steps/warmup_step.h"
@@ -70,7 +70,7 @@ class Commissioning {
   Status analyse() {
     ZD_CHECK(step("sensors", 0.02, [&](const auto& c) { return choose_sensors(m_job, {}, c); }));
     ZD_CHECK(step("fit", 0.03, [&](const auto& c) { return fit_model(m_job, {}, c); }));
-    return step("physics", 0.03, [&](const auto& c) { return compare_physics(m_job, c); });
+    return step("physics", 0.03, [&](const auto& c) { return find_missing(m_job, c); });
   }
 
   Status compensate(const std::optional<compensation::Table>& table) {

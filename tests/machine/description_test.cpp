@@ -35,7 +35,7 @@ TEST(Description, KnowsNothingOfWhatIsHidden) {
 TEST(Description, IsNearTheTruthWhenNothingIsHidden) {
   const auto description = machine_description({});
   const auto& spindle = description["components"][0];
-  const auto run = record_case({}, 6, false);
+  const auto run = record_case({}, 6);
   const double length_m = spindle["length_mm"].get<double>() / 1000;
   const double outer_m = spindle["outer_diameter_mm"].get<double>() / 1000;
   const double bore_m = spindle["bore_diameter_mm"].get<double>() / 1000;

@@ -1,6 +1,7 @@
 #include "tests/proof/case_generator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -388,6 +389,7 @@ HiddenEffect hide(Truth& m, const std::string& id, Noise& noise, double strength
     m.extra_W = around(0.08, 0.35) * heat_W;
     m.extra_x = m.length * noise.uniform(0.1, 0.92);
     m.extra_law = static_cast<int>(noise.index(4));
+    hidden.law = std::array{"constant", "on", "n", "n2"}[static_cast<std::size_t>(m.extra_law)];
     hidden.position_mm = 1e3 * m.extra_x;
   }
   if (id == "contact_resistance") {

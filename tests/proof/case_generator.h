@@ -16,6 +16,7 @@ struct HiddenEffect {
   std::string id;  // of the contract, or "unlisted:..." for what no library has
   double position_mm = -1.0;
   std::string channel;
+  std::string law = {};  // of an extra heat source
 };
 
 struct Case {

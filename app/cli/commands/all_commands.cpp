@@ -21,6 +21,7 @@ void add_fit(Cli& cli);
 void add_locate(Cli& cli);
 void add_diagnose(Cli& cli);
 void add_place(Cli& cli);
+void add_prove(Cli& cli);
 void add_simulate(Cli& cli);
 
 void add_all_commands(Cli& cli) {
@@ -42,6 +43,7 @@ void add_all_commands(Cli& cli) {
   add_locate(cli);
   add_diagnose(cli);
   add_place(cli);
+  add_prove(cli);
   add_simulate(cli);
 }
 

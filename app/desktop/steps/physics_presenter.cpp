@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/desktop/physics_view.h"
+#include "core/flow/steps/diagnose_step.h"
 #include "ui/pages/physics_page.h"
 
 namespace zerodrift::desktop {
@@ -94,7 +95,7 @@ void PhysicsPresenter::find(std::function<void(bool good)> done) {
   if (job == nullptr) return;
   runStep(
       tr("Looking for what the simulation lacks"),
-      [job](const TaskContext& context) { return find_missing(*job, context); }, std::move(done));
+      [job](const TaskContext& context) { return flow::find_missing(*job, context); }, std::move(done));
 }
 
 void PhysicsPresenter::judge(const QString& effect, bool adopt, bool reject) {

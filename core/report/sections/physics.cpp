@@ -11,16 +11,70 @@ Table rmse_table(const Source& source, const nlohmann::json& body) {
   Table table;
   table.id = "simulation_rmse";
   table.title = source.say("Simulation against recording, RMS difference");
-  table.header = {source.say("channel"), source.say("as described"), source.say("with what was found")};
   table.trace = source.trace("physics", "rmse");
+  const auto diagnosis = body.value("diagnosis", nlohmann::json::object());
   const auto rmse = body.value("rmse", nlohmann::json::object());
-  const auto after = rmse.value("after", nlohmann::json::object());
+  const auto searched = diagnosis.value("rmse", nlohmann::json::object());
   const auto before = rmse.value("before", nlohmann::json::object());
+  const auto part = [&](const char* key) { return searched.value(key, nlohmann::json::object()); };
+  const auto refitted = part("refitted");
+  const auto after = part("after");
+  const auto noise = part("noise");
+  table.header = {source.say("channel"), source.say("as described"), source.say("re-fitted without"),
+                  source.say("with what was found"), source.say("noise of the sensor")};
   for (const auto& [channel, value] : before.items()) {
     if (!value.is_number()) continue;
-    table.rows.push_back({channel, shown(value.get<double>(), 2), shown(number_of(after, channel), 2)});
+    table.rows.push_back({channel, shown(value.get<double>(), 2), shown(number_of(refitted, channel), 2),
+                          shown(number_of(after, channel), 2), shown(number_of(noise, channel), 2)});
   }
   return table;
+}
+
+/// What was left out, what cannot be excluded and which run would decide.
+void add_answer(const nlohmann::json& diagnosis, const Source& source, Section& section) {
+  const bool unexplained = text_of(diagnosis, "verdict") == "unexplained";
+  for (const auto& sentence : diagnosis.value("sentences", nlohmann::json::array())) {
+    section.blocks.emplace_back(Text{sentence.get<std::string>(), unexplained});
+  }
+  for (const auto& effect : diagnosis.value("effects", nlohmann::json::array())) {
+    std::string text = text_of(effect, "explanation");
+    const double confidence = number_of(effect, "confidence");
+    if (std::isfinite(confidence)) {
+      text += " " + source.say("Confidence:") + " " + shown(100.0 * confidence, 0) + " %.";
+    }
+    section.blocks.emplace_back(Text{text, false});
+  }
+  for (const auto& rival : diagnosis.value("ambiguous_with", nlohmann::json::array())) {
+    section.blocks.emplace_back(Text{text_of(rival, "why"), false});
+  }
+  const auto experiment = diagnosis.value("suggested_experiment", nlohmann::json());
+  if (experiment.is_object()) section.blocks.emplace_back(Text{text_of(experiment, "text"), false});
+}
+
+Curve curve_of(const nlohmann::json& one, const char* key, const std::string& name) {
+  Curve curve{name, {}, {}, false};
+  const auto hours = one.value("time_h", nlohmann::json::array());
+  const auto values = one.value(key, nlohmann::json::array());
+  for (const auto& x : hours) curve.x.push_back(x.get<double>());
+  for (const auto& y : values) curve.y.push_back(y.is_number() ? y.get<double>() : std::nan(""));
+  return curve;
+}
+
+Plot plot_of(const nlohmann::json& one, const recording::Recording* run, const Source& source) {
+  Plot plot;
+  const std::string channel = text_of(one, "channel");
+  plot.id = "simulation_" + channel;
+  plot.title = source.say("Recorded and simulated:") + " " + channel;
+  plot.x_label = source.say("hours");
+  plot.y_label = text_of(one, "unit");
+  if (run != nullptr) {
+    plot.curves = curves_of(*run, {channel}, false);
+    for (auto& curve : plot.curves) curve.name = source.say("recorded");
+  }
+  plot.curves.push_back(curve_of(one, "values", source.say("simulated")));
+  if (one.contains("refined")) plot.curves.push_back(curve_of(one, "refined", source.say("with what was found")));
+  plot.trace = source.trace("physics", "curves " + channel);
+  return plot;
 }
 
 }  // namespace
@@ -29,32 +83,15 @@ std::optional<Section> physics_section(const Source& source) {
   const LoadedArtefact* physics = source.find("physics");
   if (physics == nullptr) return std::nullopt;
   Section section{"physics", source.say("Physics: simulation against recording"), {}};
-  for (const auto& sentence : physics->body.value("sentences", nlohmann::json::array())) {
+  const auto& body = physics->body;
+  if (body.contains("diagnosis")) add_answer(body.at("diagnosis"), source, section);
+  for (const auto& sentence : body.value("sentences", nlohmann::json::array())) {
     section.blocks.emplace_back(Text{sentence.get<std::string>(), false});
   }
-  section.blocks.emplace_back(rmse_table(source, physics->body));
+  section.blocks.emplace_back(rmse_table(source, body));
   const auto* run = source.run_of("warmup");
-  const auto curves = physics->body.value("curves", nlohmann::json::array());
-  for (const auto& one : curves) {
-    Plot plot;
-    const std::string channel = text_of(one, "channel");
-    plot.id = "simulation_" + channel;
-    plot.title = source.say("Recorded and simulated:") + " " + channel;
-    plot.x_label = source.say("hours");
-    plot.y_label = text_of(one, "unit");
-    if (run != nullptr) {
-      plot.curves = curves_of(*run, {channel}, false);
-      for (auto& curve : plot.curves) curve.name = source.say("recorded");
-    }
-    Curve simulated{source.say("simulated"), {}, {}, false};
-    for (const auto& x : one.value("time_h", nlohmann::json::array())) simulated.x.push_back(x.get<double>());
-    for (const auto& y : one.value("values", nlohmann::json::array())) {
-      simulated.y.push_back(y.is_number() ? y.get<double>() : std::nan(""));
-    }
-    plot.curves.push_back(std::move(simulated));
-    plot.trace = source.trace("physics", "curves " + channel);
-    section.blocks.emplace_back(std::move(plot));
-  }
+  const auto curves = body.value("curves", nlohmann::json::array());
+  for (const auto& one : curves) section.blocks.emplace_back(plot_of(one, run, source));
   return section;
 }
 

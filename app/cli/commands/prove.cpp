@@ -1,0 +1,55 @@
+// prove [--cases N] [--seed N] --out DIR: the blind trial on concealed physics, with its report.
+
+#include <fmt/format.h>
+
+#include <QApplication>
+#include <random>
+
+#include "app/cli/command.h"
+#include "app/proof/proof_report.h"
+#include "app/proof/trial.h"
+#include "app/reporting/writers.h"
+
+namespace zerodrift::cli {
+namespace {
+
+struct ProveArguments {
+  int cases = 300;
+  std::optional<std::uint64_t> seed;
+  std::string out;
+};
+
+Result<CommandOutput> run_prove(const ProveArguments& arguments, const TaskContext& context) {
+  proof::TrialOptions options;
+  options.cases = arguments.cases;
+  // Without a seed nobody, not even who tunes the diagnosis, has seen these cases before.
+  options.seed = arguments.seed ? *arguments.seed : std::random_device{}();
+  options.folder = arguments.out;
+  ZD_TRY(const proof::Trial trial, proof::run_trial(options, context));
+  context.progress(0.99, "report");
+  CommandOutput output;
+  if (qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr) {
+    const report::Report report = proof::report_of(trial);
+    ZD_CHECK(reporting::write_report(report, options.folder / "report.html"));
+    ZD_CHECK(reporting::write_report(report, options.folder / "report.pdf"));
+  } else {
+    output.warnings.emplace_back("this program was started without fonts: the report is result.json alone");
+  }
+  output.json = trial.to_json();
+  output.text = trial.score.text() + fmt::format("seed {}, promises kept {} of {}, in {}", options.seed,
+                                                 trial.seals_kept, options.cases, options.folder.string());
+  return output;
+}
+
+}  // namespace
+
+void add_prove(Cli& cli) {
+  auto arguments = std::make_shared<ProveArguments>();
+  CLI::App* command = cli.add("prove", "Blind trial: concealed physics, sealed answers, diagnosis, score and report",
+                              [arguments](const TaskContext& context) { return run_prove(*arguments, context); });
+  command->add_option("--cases", arguments->cases, "How many cases")->check(CLI::Range(1, 100000));
+  command->add_option("--seed", arguments->seed, "Seed of the cases; without it nobody knows them");
+  command->add_option("--out", arguments->out, "Folder for cases, seals, answers and report")->required();
+}
+
+}  // namespace zerodrift::cli

@@ -1,0 +1,115 @@
+#pragma once
+// Scoring of blind trials: what was hidden against what diagnosis.json says. Knows neither who made the cases nor how
+// the diagnosis works, so that every source of cases is judged by the same rules.
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zerodrift::proof {
+
+struct TrueEffect {
+  std::string id;
+  std::optional<double> position_mm;
+  std::string channel;
+  std::string law;  // of a heat source: "constant", "on", "n", "n2"
+};
+
+/// The opened answer of one case.
+struct OpenedAnswer {
+  std::string name;
+  std::vector<TrueEffect> effects;      // empty: nothing was hidden
+  bool unlisted = false;                // no library of effects has it: "unexplained" is the right answer
+  std::string worst_channel;            // which the hidden effects change most, in noise widths; empty: nothing hidden
+  double strength = 0.0;                // how many noise widths (rms) that is
+  std::map<std::string, double> floor;  // noise of each channel in the second recording: no model can be better
+
+  std::string words() const;  // "none", "coolant", "coolant+sensor_lag"
+};
+
+enum class Outcome {
+  right,        // every effect, and no other; or rightly consistent; or an unlisted one rightly unexplained
+  first_right,  // the first named is one of the hidden, the list is not complete or too long
+  wrong_name,
+  given_up,     // unexplained although the library has it
+  missed,       // consistent although something was hidden
+  false_alarm,  // something although nothing was hidden
+  failed,       // the diagnosis refused the files
+};
+std::string name_of(Outcome outcome);
+
+struct Judgement {
+  std::string name, truth, answer;
+  Outcome outcome = Outcome::failed;
+  double confidence = 0.0;  // of the first effect
+  double seconds = 0.0;
+  double strength = 0.0;
+  std::optional<double> location_error_mm;
+};
+
+/// A figure of the proof beside what it must reach.
+struct ProofFigure {
+  std::string id, label, value, unit, limit;
+  std::optional<bool> met;  // empty: no limit, or too little to judge
+};
+
+class Score {
+ public:
+  /// Judges one case by its diagnosis.json.
+  Judgement add(const OpenedAnswer& truth, const nlohmann::json& diagnosis);
+  /// The diagnosis refused: counts as wrong.
+  Judgement add_failure(const OpenedAnswer& truth, const std::string& answer);
+
+  std::vector<ProofFigure> figures() const;
+  /// Confusion: truth -> answer -> cases.
+  const std::map<std::string, std::map<std::string, int>>& confusion() const { return m_confusion; }
+  const std::vector<Judgement>& judgements() const { return m_judgements; }
+
+  struct Bin {
+    double low = 0.0, high = 0.0, confidence = 0.0, right = 0.0;  // means of the bin
+    int cases = 0;
+  };
+  /// Reliability of the confidence of named effects: stated against how often it was right.
+  std::vector<Bin> reliability() const;
+  double expected_calibration_error() const;
+
+  /// Medians over channels and cases of the rms in K or um: "T", "dZ", "dY".
+  struct Improvement {
+    std::string kind;
+    bool second = false;  // on the second recording, which was not fitted
+    double nominal = 0.0, refitted = 0.0, explained = 0.0, floor = 0.0, worst_over_floor = 0.0;
+    int channels = 0;
+  };
+  std::vector<Improvement> improvements() const;
+
+  nlohmann::json to_json() const;
+  std::string text() const;
+
+ private:
+  struct Tally {
+    int good = 0, all = 0;
+    void add(bool ok) {
+      good += ok ? 1 : 0;
+      ++all;
+    }
+    double share() const { return all > 0 ? static_cast<double>(good) / all : 0.0; }
+  };
+  struct Rms {
+    std::vector<double> nominal, refitted, explained, floor;
+  };
+
+  void count_outcome(const OpenedAnswer& truth, const Judgement& judgement);
+  void count_location(const OpenedAnswer& truth, const nlohmann::json& diagnosis, Judgement& judgement);
+  void count_rms(const OpenedAnswer& truth, const nlohmann::json& diagnosis);
+
+  Tally m_first, m_all_right, m_pairs, m_quiet, m_missed, m_unlisted, m_channel;
+  std::vector<double> m_location_mm, m_seconds;
+  std::vector<std::pair<double, bool>> m_confidence;
+  std::map<std::pair<std::string, bool>, Rms> m_rms;  // (kind of channel, second recording)
+  std::map<std::string, std::map<std::string, int>> m_confusion;
+  std::vector<Judgement> m_judgements;
+};
+
+}  // namespace zerodrift::proof

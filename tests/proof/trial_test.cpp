@@ -1,0 +1,76 @@
+#include "app/proof/trial.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "app/proof/concealed_case.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/base/json.h"
+
+namespace zerodrift::proof {
+
+namespace fs = std::filesystem;
+
+TEST(ConcealedCase, IsRepeatableUnderItsSeedAndSealedAnew) {
+  const ConcealedCase one = draw_case(8, 3, "sensor_lag", false);
+  const ConcealedCase again = draw_case(8, 3, "sensor_lag", false);
+  EXPECT_EQ(one.seal.answer, again.seal.answer);
+  EXPECT_NE(one.seal.sha256, again.seal.sha256);
+  EXPECT_EQ(one.seal.sha256, sha256_hex(one.seal.salt + one.seal.answer));
+  EXPECT_GE(one.truth.strength, 2.5);
+  const auto opened = truth_from(one.seal.answer, "answer");
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->words(), "sensor_lag");
+  EXPECT_EQ(opened->effects[0].channel, opened->worst_channel);
+  EXPECT_EQ(opened->floor.count("T1_C"), 1u);
+}
+
+TEST(ConcealedCase, AMachineMayHideTwoEffects) {
+  const ConcealedCase pair = draw_case(8, 4, "pair", false);
+  ASSERT_EQ(pair.truth.effects.size(), 2u);
+  EXPECT_NE(pair.truth.effects[0].id, pair.truth.effects[1].id);
+  EXPECT_NE(pair.truth.words().find('+'), std::string::npos);
+}
+
+TEST(Trial, PromisesFirstAndOpensEverySealAfterwards) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("zd_trial_" + std::to_string(::getpid()));
+  TrialOptions options{2, 12, folder};
+  TaskContext context;
+  bool promised_first = true;
+  double last_fraction = 0.0;
+  context.report = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, last_fraction);
+    last_fraction = progress.fraction;
+    const bool diagnosed = fs::exists(folder / "cases" / "case-001" / "diagnosis.json");
+    const bool opened = fs::exists(folder / "cases" / "case-001" / "answer.json");
+    if (diagnosed) promised_first = promised_first && fs::exists(folder / "commitments.json") && !opened;
+  };
+  const auto trial = run_trial(options, context);
+  ASSERT_TRUE(trial);
+  EXPECT_TRUE(promised_first);
+  EXPECT_GT(last_fraction, 0.9);
+  EXPECT_EQ(trial->seals_kept, 2);
+  EXPECT_EQ(trial->score.judgements().size(), 2u);
+  EXPECT_EQ(trial->digest, sha256_hex(*read_file(folder / "commitments.json")));
+  const auto answer = read_json_file(folder / "cases" / "case-002" / "answer.json");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->at("sha256").get<std::string>(),
+            sha256_hex(answer->at("salt").get<std::string>() + answer->at("sealed_text").get<std::string>()));
+  EXPECT_TRUE(fs::exists(folder / "result.json"));
+  fs::remove_all(folder);
+}
+
+TEST(Trial, StopsWhenAsked) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("zd_trial_stop_" + std::to_string(::getpid()));
+  std::stop_source stop;
+  TaskContext context;
+  context.stop = stop.get_token();
+  context.report = [&](const Progress&) { stop.request_stop(); };
+  const auto trial = run_trial({50, 12, folder}, context);
+  ASSERT_FALSE(trial);
+  EXPECT_EQ(trial.error().code, ErrorCode::cancelled);
+  fs::remove_all(folder);
+}
+
+}  // namespace zerodrift::proof
