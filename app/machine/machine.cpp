@@ -9,7 +9,7 @@ namespace {
 constexpr double longest_step_s = 0.1;
 constexpr double spindle_rpm_per_s = 1500.0;
 // Low pass of the temperatures that the table sees: without it a reading's noise times um/K would shake the axes.
-constexpr double filter_s = 40.0;
+constexpr double filter_s = 10.0;
 constexpr double probe_lever_mm = 100.0;
 constexpr double nest_reach_mm = 0.5;
 // The cameras' aluminium bracket, 100 mm long, follows the room and warms with the camera itself.

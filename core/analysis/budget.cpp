@@ -47,6 +47,49 @@ std::vector<std::string> spread_order(const TrainingSet& set, Method method) {
   return order;
 }
 
+Result<std::vector<std::string>> nearest_order(const TrainingSet& set) {
+  const Recipe all = make_recipe(Method::ridge, set.sensors, set);
+  ZD_TRY(const Eigen::MatrixXd x, design(set, all.features));
+  const Eigen::VectorXd noise_C = set.feature_noise_C(all.features);
+  const Eigen::MatrixXd centred = x.rowwise() - x.colwise().mean();
+  const Eigen::MatrixXd moment = centred.transpose() * centred / static_cast<double>(x.rows());
+  Eigen::MatrixXd full(x.cols(), set.error_um.cols());  // um/K of every sensor, one column an error
+  for (const auto& group : error_groups(set)) {
+    const Rows rows = rows_of(set, x, group.samples, group.errors.front());
+    ZD_TRY(const std::vector<RidgeFit> fits,
+           fit_rows(rows, errors_at(set, group, group.samples), Method::ridge, set.duration_s(), noise_C));
+    for (std::size_t g = 0; g < fits.size(); ++g) full.col(group.errors[g]) = fits[g].raw_coefficients();
+  }
+  const Eigen::MatrixXd covariance = moment * full;  // of every sensor with the full model's predictions
+  std::vector<int> taken;
+  std::vector<int> left(set.sensors.size());
+  for (std::size_t c = 0; c < left.size(); ++c) left[c] = static_cast<int>(c);
+  while (!left.empty()) {
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      std::vector<int> tried = taken;
+      tried.push_back(left[k]);
+      Eigen::MatrixXd noisy = moment(tried, tried);
+      for (std::size_t i = 0; i < tried.size(); ++i) {
+        noisy(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) +=
+            noise_C(tried[i]) * noise_C(tried[i]) + 1e-12;
+      }
+      const Eigen::MatrixXd part = covariance(tried, Eigen::all);
+      const double explained = part.cwiseProduct(noisy.llt().solve(part)).sum();
+      if (explained > most) {
+        most = explained;
+        best = k;
+      }
+    }
+    taken.push_back(left[best]);
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  std::vector<std::string> order;
+  for (const int c : taken) order.push_back(set.sensors[static_cast<std::size_t>(c)]);
+  return order;
+}
+
 Result<BudgetPoint> price_set(const TrainingSet& set, Method method, const std::vector<std::string>& sensors,
                               const TaskContext& context) {
   ZD_TRY(const Evaluation evaluation, evaluate(set, make_recipe(method, sensors, set), 0.9, context));

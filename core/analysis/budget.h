@@ -17,6 +17,12 @@ namespace zerodrift::analysis {
 /// sensor.
 std::vector<std::string> spread_order(const TrainingSet& set, Method method = Method::ridge);
 
+/// Sensors in the order in which a static model on so many of them comes nearest to the static model on all of them,
+/// the noise of their readings included (projection onto a reference model: Goutis and Robert 1998; Piironen and
+/// Vehtari 2017). The errors speak only through the full model, whose predictions carry little of their noise: a choice
+/// among many sets by the errors themselves would fit that noise.
+Result<std::vector<std::string>> nearest_order(const TrainingSet& set);
+
 struct BudgetPoint {
   std::vector<std::string> sensors;
   double held_out_rms_um = 0.0;   // mean over the errors

@@ -86,15 +86,21 @@ Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const
 }
 
 Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, Method method,
-                                       double duration_s) {
+                                       double duration_s, const Eigen::VectorXd& noise_C) {
   const Eigen::Index needed = method == Method::mlr ? rows.x.cols() + 2 : 6;
   if (rows.size() < needed) {
     return fail(ErrorCode::not_enough_data, {{"what", "the regression"},
                                              {"found", fmt::format("{} measurements", rows.size())},
                                              {"needed", fmt::format("at least {}", needed)}});
   }
-  if (method != Method::mlr) return fit_ridge(rows, errors_um, default_choice(duration_s));
   std::vector<RidgeFit> fits;
+  if (method != Method::mlr) {
+    fits = fit_ridge(rows, errors_um, default_choice(duration_s));
+    if (method == Method::ridge) {
+      for (auto& fit : fits) fit = for_noisy_readings(fit, rows.x, noise_C);
+    }
+    return fits;
+  }
   for (Eigen::Index e = 0; e < errors_um.cols(); ++e) fits.push_back(multiple_linear(rows.x, errors_um.col(e)));
   return fits;
 }
@@ -106,6 +112,7 @@ struct BandData {
   std::vector<FoldResult> folds;
   std::vector<double> deviations;
   std::vector<double> studentised;
+  double noise_square = 0.0;  // summed over the left-out samples
 };
 
 /// Leaves one fold out of one group of errors and predicts it.
@@ -119,7 +126,9 @@ Status leave_out(const TrainingSet& set, const Recipe& recipe, const Eigen::Matr
   if (left_out.empty()) return {};
   Rows train = rows_of(set, x, in, group.errors.front());
   Rows test = rows_of(set, x, left_out, group.errors.front());
-  ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(train, errors_at(set, group, in), recipe.method, set.duration_s()));
+  ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(train, errors_at(set, group, in), recipe.method, set.duration_s(),
+                                                    set.feature_noise_C(recipe.features)));
+  const Eigen::VectorXd noise_C = set.feature_noise_C(recipe.features);
   for (std::size_t g = 0; g < group.errors.size(); ++g) {
     const Eigen::Index e = group.errors[g];
     train = rows_of(set, x, in, e);
@@ -128,6 +137,9 @@ Status leave_out(const TrainingSet& set, const Recipe& recipe, const Eigen::Matr
         recipe.method == Method::dynamic ? predict_left_out(fits[g], train, test) : fits[g].predict(test.x);
     const Eigen::VectorXd deviation = fits[g].deviation(test.x);
     BandData& band = bands[static_cast<std::size_t>(e)];
+    // Every fold speaks for as many samples as it has.
+    band.noise_square +=
+        static_cast<double>(test.size()) * fits[g].raw_coefficients().cwiseProduct(noise_C).squaredNorm();
     for (Eigen::Index i = 0; i < test.size(); ++i) {
       out.predicted_um(left_out[static_cast<std::size_t>(i)], e) = predicted(i);
       band.deviations.push_back(deviation(i));
@@ -156,6 +168,12 @@ Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double
     const auto column = static_cast<Eigen::Index>(e);
     out.held_out.push_back(residual_figures(set.error_um.col(column), out.predicted_um.col(column)));
     out.bands.push_back(band_of(bands[e].folds, bands[e].deviations, bands[e].studentised, coverage, set.folds.cycles));
+    const double noise_square =
+        bands[e].noise_square / static_cast<double>(std::max<std::size_t>(bands[e].deviations.size(), 1));
+    out.noise_um.push_back(std::sqrt(noise_square));
+    out.mean_noise_um += out.noise_um.back() / static_cast<double>(set.errors.size());
+    out.expected_um +=
+        std::hypot(out.held_out.back().rms_um, out.noise_um.back()) / static_cast<double>(set.errors.size());
     out.rms_um += out.held_out.back().rms_um / static_cast<double>(set.errors.size());
     out.peak_um += out.held_out.back().peak_um / static_cast<double>(set.errors.size());
   }

@@ -22,13 +22,17 @@ struct Evaluation {
   std::vector<ResidualFigures> held_out;  // of each error, all left-out samples together
   std::vector<Band> bands;                // of each error
   Eigen::MatrixXd predicted_um;  // samples x errors, each from the fit that did not see it; NaN: never left out
+  std::vector<double> noise_um;  // of each error: what the noise of single readings adds when the model runs
+  double mean_noise_um = 0.0;    // mean over the errors
+  double expected_um = 0.0;      // rms of left-out errors and that noise together, mean over the errors
   double rms_um = 0.0;           // mean over the errors
   double peak_um = 0.0;          // mean over the errors
 };
 
-/// Every error of a group (one column each) with the given method. Too few rows for it is not_enough_data.
+/// Every error of a group (one column each) with the given method. Too few rows for it is not_enough_data. `noise_C` of
+/// each feature: a ridge on temperatures alone is made for a controller, which multiplies single readings.
 Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, Method method,
-                                       double duration_s);
+                                       double duration_s, const Eigen::VectorXd& noise_C);
 /// The errors of a group at some of its samples, one column each.
 Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const std::vector<int>& samples);
 

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "core/analysis/budget.h"
+#include "core/analysis/clustering.h"
 #include "core/analysis/evaluate.h"
+#include "core/analysis/sensor_choice.h"
 #include "core/analysis/training.h"
 
 namespace zerodrift::analysis {
@@ -22,39 +24,53 @@ struct Trial {
   Candidate summary;
 };
 
-/// How many sensors a static model gets when nobody says: as many as the published pipeline takes.
-constexpr std::size_t few_sensors = 5;
-
-std::vector<std::string> first_of(std::vector<std::string> names, std::size_t count) {
-  if (names.size() > count) names.resize(count);
-  return names;
+/// The sensitive points of the first run, as published; none when it cannot be clustered.
+std::vector<std::string> sensitive_points(const std::vector<recording::Recording>& recordings, const TrainingSet& set) {
+  constexpr std::size_t published = 5;
+  ClusterOptions options;
+  options.clusters = static_cast<int>(std::min(published, set.sensors.size()));
+  options.errors = set.errors;
+  options.suggest = options.stability = false;
+  auto clusters = cluster(recordings.front(), options);
+  return clusters ? std::move(clusters->sensitive_points) : std::vector<std::string>{};
 }
 
-/// From simple to complex: the order in which ties are broken.
-std::vector<Recipe> recipes(const FitOptions& options, const TrainingSet& set) {
-  const bool choose_sensors = options.sensors.empty();
-  const auto most =
-      choose_sensors && options.max_sensors > 0 ? static_cast<std::size_t>(options.max_sensors) : set.sensors.size();
-  const auto best = [&](Method method, std::size_t count) {
-    return count < set.sensors.size() ? first_of(spread_order(set, method), count) : set.sensors;
-  };
-  const auto all = best(Method::ridge, most);
-  std::vector<std::vector<std::string>> choices{all};
-  if (choose_sensors && all.size() > few_sensors) choices.insert(choices.begin(), best(Method::ridge, few_sensors));
+/// What to try, from simple to complex: the order in which ties are broken.
+struct Plan {
+  std::vector<Recipe> recipes;
+  SensorChoice sensors;  // how those of static models were chosen; without sets: by the caller
+};
+
+Result<Plan> plan_for(const FitOptions& options, const std::vector<recording::Recording>& recordings,
+                      const TrainingSet& set, const TaskContext& context) {
   const bool any = options.method == Method::automatic;
-  std::vector<Recipe> out;
-  // Ridge first: on the controller it is as simple as the plain regression, and never worse for correlated sensors. The
-  // plain one is tried on few sensors only: on many it fits noise.
-  if (options.method != Method::mlr) {
-    for (const auto& sensors : choices) out.push_back(make_recipe(Method::ridge, sensors, set));
-  }
-  if (any || options.method == Method::mlr) out.push_back(make_recipe(Method::mlr, choices.front(), set));
   // One cycle cannot tell the answer to speed from the answer to time.
-  const bool can_judge_dynamics = set.folds.cycles >= 2;
-  if ((any && can_judge_dynamics) || options.method == Method::dynamic) {
-    out.push_back(make_recipe(Method::dynamic, best(Method::dynamic, most), set));
+  const bool dynamic = options.method == Method::dynamic || (any && set.folds.cycles >= 2);
+  Plan plan;
+  std::vector<std::string> few = set.sensors;
+  std::vector<std::string> many = set.sensors;
+  if (options.sensors.empty()) {
+    if (options.max_sensors > 0) {
+      const auto order = spread_order(set, Method::dynamic);
+      const auto most = std::min(static_cast<std::size_t>(options.max_sensors), order.size());
+      many.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
+    }
+    if (options.method != Method::dynamic) {
+      ChoiceOptions choice;
+      choice.most = static_cast<std::size_t>(options.max_sensors);
+      choice.sensitive_points = sensitive_points(recordings, set);
+      ZD_TRY(plan.sensors, choose_sensor_set(set, choice, context));
+      few = plan.sensors.sets[plan.sensors.chosen].sensors;
+    }
   }
-  return out;
+  // Ridge first: on the controller it is as simple as the plain regression, and never worse for correlated sensors.
+  if (any || options.method == Method::ridge) plan.recipes.push_back(make_recipe(Method::ridge, few, set));
+  if (any || options.method == Method::mlr) plan.recipes.push_back(make_recipe(Method::mlr, few, set));
+  if (dynamic) {
+    if (!any) plan.recipes.push_back(make_recipe(Method::ridge, many, set));  // for the table
+    plan.recipes.push_back(make_recipe(Method::dynamic, many, set));
+  }
+  return plan;
 }
 
 Result<Trial> try_out(const TrainingSet& set, const Recipe& recipe, double coverage, const TaskContext& context) {
@@ -68,6 +84,7 @@ Result<Trial> try_out(const TrainingSet& set, const Recipe& recipe, double cover
                         recipe.method == Method::dynamic ? " and the inputs" : "");
   c.held_out_rms_um = trial.evaluation.rms_um;
   c.held_out_peak_um = trial.evaluation.peak_um;
+  c.noise_um = trial.evaluation.mean_noise_um;
   c.runs_on_controller = recipe.method != Method::dynamic;
   return trial;
 }
@@ -79,10 +96,10 @@ const Trial* choose(const std::vector<Trial>& trials, Method method, bool static
   };
   double best = std::numeric_limits<double>::infinity();
   for (const auto& t : trials) {
-    if (allowed(t)) best = std::min(best, t.evaluation.rms_um);
+    if (allowed(t)) best = std::min(best, t.evaluation.expected_um);
   }
   for (const auto& t : trials) {
-    if (allowed(t) && t.evaluation.rms_um <= margin * best) return &t;
+    if (allowed(t) && t.evaluation.expected_um <= margin * best) return &t;
   }
   return nullptr;
 }
@@ -91,7 +108,7 @@ std::string reason_for(const Trial& chosen, const std::vector<Trial>& trials, co
                        const TrainingSet& set) {
   const Trial* best = &trials.front();
   for (const auto& t : trials) {
-    if (t.evaluation.rms_um < best->evaluation.rms_um) best = &t;
+    if (t.evaluation.expected_um < best->evaluation.expected_um) best = &t;
   }
   const auto left = fmt::format("leaves {:.2f} um rms with {} left out", chosen.evaluation.rms_um, set.folds.in_words);
   if (options.method != Method::automatic) return fmt::format("{} as asked for; {}", chosen.summary.label, left);
@@ -117,8 +134,8 @@ Result<Fitted> fit_all(const TrainingSet& set, const Recipe& recipe) {
   const int last_run = static_cast<int>(set.runs.size()) - 1;
   for (const auto& group : error_groups(set)) {
     Rows rows = rows_of(set, x, group.samples, group.errors.front());
-    ZD_TRY(std::vector<RidgeFit> fits,
-           fit_rows(rows, errors_at(set, group, group.samples), recipe.method, set.duration_s()));
+    ZD_TRY(std::vector<RidgeFit> fits, fit_rows(rows, errors_at(set, group, group.samples), recipe.method,
+                                                set.duration_s(), set.feature_noise_C(recipe.features)));
     for (std::size_t g = 0; g < fits.size(); ++g) {
       const auto e = static_cast<std::size_t>(group.errors[g]);
       rows.y = rows_of(set, x, group.samples, group.errors[g]).y;
@@ -149,14 +166,6 @@ Result<std::vector<TableTerms>> table_of(const TrainingSet& set, const Trial& tr
     out.push_back(std::move(terms));
   }
   return out;
-}
-
-/// Deviation of a sensor's readings from the smooth course of its temperature.
-double reading_noise_C(const TrainingSet& set, const std::string& sensor) {
-  const Prepared& run = set.runs.front();
-  const int column = run.sensor(sensor);
-  const auto noise = run.temperature_C.col(column) - set.smoothed_C.front().col(column);
-  return std::sqrt(noise.squaredNorm() / static_cast<double>(run.rows()));
 }
 
 Domain domain_of(const TrainingSet& set, const std::vector<std::string>& sensors, bool with_inputs) {
@@ -272,9 +281,8 @@ Result<Model> assemble(const TrainingSet& set, const FitOptions& options, const 
   model.sensors = chosen.recipe.sensors;
   model.features = chosen.recipe.features;
   model.reference_C = start_references(set.runs.front(), model.features);
-  for (const auto& spec : model.features) {
-    model.noise_C.push_back(spec.temperature && spec.time_constant_s <= 0.0 ? reading_noise_C(set, spec.channel) : 0.0);
-  }
+  const Eigen::VectorXd noise_C = set.feature_noise_C(model.features);
+  model.noise_C.assign(noise_C.begin(), noise_C.end());
   ZD_TRY(Fitted fitted, fit_all(set, chosen.recipe));
   for (std::size_t e = 0; e < set.errors.size(); ++e) {
     ErrorModel error;
@@ -302,6 +310,23 @@ Result<Model> assemble(const TrainingSet& set, const FitOptions& options, const 
   return model;
 }
 
+/// The sets of sensors that were not taken, beside the methods that were tried.
+void add_sets(const SensorChoice& choice, Model& model) {
+  for (std::size_t i = 0; i < choice.sets.size(); ++i) {
+    const SensorSet& s = choice.sets[i];
+    if (i == choice.chosen) continue;
+    Candidate c;
+    c.method = Method::ridge;
+    c.sensors = s.sensors;
+    c.label = fmt::format("ridge on {} sensors ({})", s.sensors.size(), in_words(s.kind));
+    c.held_out_rms_um = s.held_out_rms_um;
+    c.held_out_peak_um = s.held_out_peak_um;
+    c.noise_um = s.noise_um;
+    c.runs_on_controller = true;
+    model.candidates.push_back(std::move(c));
+  }
+}
+
 }  // namespace
 
 Result<Model> fit(const std::vector<recording::Recording>& recordings, const FitOptions& options,
@@ -316,7 +341,8 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
   prepare_options.errors = options.errors;
   ZD_TRY(const TrainingSet set, make_training(recordings, prepare_options));
   std::vector<Trial> trials;
-  const std::vector<Recipe> list = recipes(options, set);
+  ZD_TRY(const Plan plan, plan_for(options, recordings, set, context));
+  const std::vector<Recipe>& list = plan.recipes;
   for (const auto& recipe : list) {
     context.progress(0.9 * static_cast<double>(trials.size()) / static_cast<double>(list.size()), "fitting");
     auto trial = try_out(set, recipe, options.coverage, context);
@@ -336,10 +362,12 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
   if (chosen->summary.runs_on_controller) table_trial = chosen;
   ZD_TRY(Model model, assemble(set, options, *chosen, *table_trial));
   model.reason = reason_for(*chosen, trials, options, set);
+  if (!plan.sensors.sets.empty() && chosen->summary.runs_on_controller) model.reason += ". " + plan.sensors.reason;
   for (const auto& t : trials) {
     model.candidates.push_back(t.summary);
     model.candidates.back().chosen = &t == chosen;
   }
+  add_sets(plan.sensors, model);
   context.progress(1.0, "fitting");
   return model;
 }

@@ -211,6 +211,21 @@ Eigen::VectorXd RidgeFit::deviation(const Eigen::MatrixXd& x) const {
   return (sigma_um * (1.0 + noise.nugget + leverage).sqrt()).matrix();
 }
 
+RidgeFit for_noisy_readings(const RidgeFit& fit, const Eigen::MatrixXd& x, const Eigen::VectorXd& noise) {
+  const Eigen::MatrixXd z = (x.rowwise() - fit.mean.transpose()) * fit.scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd moment = z.transpose() * z / static_cast<double>(z.rows());
+  Eigen::MatrixXd noisy = moment;
+  noisy.diagonal() += noise.cwiseQuotient(fit.scale).cwiseAbs2();
+  noisy.diagonal().array() += 1e-12;  // a feature that never moved, read without noise
+  RidgeFit out = fit;
+  out.beta = noisy.llt().solve(moment * fit.beta);
+  if (fit.sigma_um > 0.0) {
+    const Eigen::VectorXd given_up = (fit.beta - out.beta) / fit.sigma_um;
+    out.covariance += given_up * given_up.transpose();
+  }
+  return out;
+}
+
 double remembered_um(const RidgeFit& fit, const Rows& past, double time_s, int run) {
   if (fit.noise.memory_s <= 0.0) return 0.0;
   std::vector<int> mine;

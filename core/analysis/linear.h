@@ -70,6 +70,12 @@ RidgeFit fit_ridge(const Rows& rows, const RidgeChoice& choice);
 /// Several errors measured in the same rows, one column each (rows.y is not looked at): the costly part is shared.
 std::vector<RidgeFit> fit_ridge(const Rows& rows, const Eigen::MatrixXd& errors_um, const RidgeChoice& choice);
 
+/// The fit for a controller that multiplies noisy readings with the coefficients: of all coefficients those with the
+/// least expected error, (b - c)' S (b - c) + c' D c, with S the second moments of the features in `x` (smoothed) and D
+/// the variances of their readings. So c = (S + D)^-1 S b: what only the difference of two noisy readings says is given
+/// up, what they agree on stays. `noise`: deviation of each raw feature's reading. What is given up joins `covariance`.
+RidgeFit for_noisy_readings(const RidgeFit& fit, const Eigen::MatrixXd& x, const Eigen::VectorXd& noise);
+
 /// What the slow noise still holds at time_s of a run, given residuals of earlier rows of the same run (best linear
 /// prediction). It fades as exp(-(t - time_s) / memory).
 double remembered_um(const RidgeFit& fit, const Rows& past, double time_s, int run);

@@ -79,7 +79,7 @@ struct Candidate {
   std::vector<std::string> sensors;
   double held_out_rms_um = 0.0;  // mean over the errors
   double held_out_peak_um = 0.0;
-  double fit_rms_um = 0.0;
+  double noise_um = 0.0;  // rms that the noise of single readings adds when the model runs
   bool runs_on_controller = false;
   bool chosen = false;
 };

@@ -107,6 +107,7 @@ json candidates_json(const Model& model) {
                     {"sensors", c.sensors},
                     {"held_out_rms_um", c.held_out_rms_um},
                     {"held_out_peak_um", c.held_out_peak_um},
+                    {"noise_um", c.noise_um},
                     {"runs_on_controller", c.runs_on_controller},
                     {"chosen", c.chosen}});
   }
@@ -221,6 +222,7 @@ void candidates_from(JsonObject& o, Model& model) {
     candidate.sensors = c.texts_or_empty("sensors");
     candidate.held_out_rms_um = c.number("held_out_rms_um", not_negative);
     candidate.held_out_peak_um = c.number("held_out_peak_um", not_negative);
+    candidate.noise_um = c.number_or("noise_um", 0.0, not_negative);
     candidate.runs_on_controller = c.flag_or("runs_on_controller", false);
     candidate.chosen = c.flag_or("chosen", false);
     model.candidates.push_back(std::move(candidate));

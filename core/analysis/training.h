@@ -22,9 +22,12 @@ struct TrainingSet {
   std::vector<double> time_s;        // of each sample
   std::vector<int> run;              // of each sample
   Eigen::MatrixXd error_um;          // samples x errors; NaN: not measured
+  std::vector<double> noise_C;       // of each sensor: deviation of one reading from the course of its temperature
   std::vector<Finding> findings;
 
   double duration_s() const;  // of the longest run
+  /// Deviation of each feature's reading as a controller multiplies it; 0 for filtered features and inputs.
+  Eigen::VectorXd feature_noise_C(const std::vector<FeatureSpec>& specs) const;
 };
 
 /// A recording that goes on where the one before ended (time and temperatures) is joined to it; filters and slow noise

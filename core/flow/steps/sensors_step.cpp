@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/clustering.h"
+#include "core/analysis/sensor_choice.h"
+#include "core/analysis/training.h"
 #include "core/flow/steps/inputs.h"
 
 namespace zerodrift::flow {
@@ -19,10 +21,18 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   cluster_options.clusters = options.clusters;
   ZD_TRY(const auto clusters, analysis::cluster(run, cluster_options, context));
   json body = analysis::to_json(clusters);
-  const auto& chosen = options.chosen.empty() ? clusters.sensitive_points : options.chosen;
+  // What the fit gets when nobody says: the set with the least error to expect, which need not be the published one.
+  ZD_TRY(const auto training, analysis::make_training({run}, {}));
+  analysis::ChoiceOptions choice_options;
+  choice_options.sensitive_points = clusters.sensitive_points;
+  choice_options.few = clusters.sensitive_points.size();
+  ZD_TRY(const auto choice, analysis::choose_sensor_set(training, choice_options, context));
+  const auto& best = choice.sets[choice.chosen];
+  const auto& chosen = options.chosen.empty() ? best.sensors : options.chosen;
   for (const auto& one : chosen) ZD_CHECK(run.require(one).map([](auto) {}));
+  body["choice"] = analysis::to_json(choice);
   body["chosen"] = chosen;
-  body["chosen_by"] = options.chosen.empty() ? "clustering" : "hand";
+  body["chosen_by"] = options.chosen.empty() ? std::string(analysis::name_of(best.kind)) : "hand";
   json table = json::array();
   for (const auto& sensor : clusters.sensors) {
     std::string label;

@@ -1,7 +1,9 @@
 #pragma once
-// Step "sensors" (S1, S2): clusters the temperature series of the warm-up run and keeps the sensitive points. Makes the
-// artefact "sensors": the clustering's own JSON (core/analysis/clustering.h) and
-//   "chosen": [...], "chosen_by": "clustering"|"hand", "table": [{channel, label, cluster, correlation_sum, kept}]
+// Step "sensors" (S1, S2): clusters the temperature series of the warm-up run and compares the sensitive points with
+// other sets of sensors; the one with the least error to expect is kept. Makes the artefact "sensors": the clustering's
+// own JSON (core/analysis/clustering.h) and
+//   "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets} (core/analysis/sensor_choice.h),
+//   "table": [{channel, label, cluster, correlation_sum, kept}]
 
 #include <string>
 #include <vector>
@@ -13,7 +15,7 @@ namespace zerodrift::flow {
 
 struct SensorsOptions {
   int clusters = 5;                 // 0: as suggested
-  std::vector<std::string> chosen;  // by hand; empty: one for each cluster
+  std::vector<std::string> chosen;  // by hand; empty: the set with the least error to expect
 };
 
 Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job, const SensorsOptions& options,
