@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "core/vision/opencv_image.h"
@@ -14,6 +15,14 @@ constexpr int deepest_level = 2;
 constexpr double free_px = 80.0;          // displacements up to here are all equally likely
 constexpr double far_penalty = 0.15;      // of the correlation, at twice that and beyond
 constexpr double sure_correlation = 0.6;  // below this the next finer level is searched as well
+
+constexpr int climb_steps = 5;  // of half pixels: a quarter pixel's peak is never further off
+
+struct Peak {
+  double x;
+  double y;
+  double correlation;
+};
 
 GrayImage halved(const GrayImage& image) {
   cv::Mat small;
@@ -58,21 +67,75 @@ std::vector<cv::Point> peaks(const cv::Mat& scores, int count, int apart) {
   return out;
 }
 
-// The best position of the template within `reach` of a start, on one level. Positions are of the template's corner.
-Candidate refine(const cv::Mat& frame, const GrayImage& pattern, cv::Point start, int reach) {
-  const cv::Rect wanted(start.x - reach, start.y - reach, pattern.width + 2 * reach, pattern.height + 2 * reach);
-  cv::Mat part;
-  const cv::Rect there = wanted & cv::Rect(0, 0, frame.cols, frame.rows);
-  if (there.empty()) return {start.x, start.y, -1.0};
-  cv::copyMakeBorder(frame(there), part, there.y - wanted.y, wanted.br().y - there.br().y, there.x - wanted.x,
-                     wanted.br().x - there.br().x, cv::BORDER_REPLICATE);
-  cv::Mat scores;
-  cv::matchTemplate(part, mat_view(pattern), scores, cv::TM_CCOEFF_NORMED);
-  cv::Point best;
-  double value = 0.0;
-  cv::minMaxLoc(scores, nullptr, &value, nullptr, &best);
-  return {wanted.x + best.x, wanted.y + best.y, value};
-}
+// Zero-mean normalized correlation of the pattern with the frame at places near some start, each computed once.
+class Climb {
+ public:
+  Climb(const cv::Mat& frame, const GrayImage& pattern) : m_frame(frame), m_pattern(pattern) {
+    const double n = static_cast<double>(pattern.pixels.size());
+    double squares = 0.0;
+    for (const std::uint8_t value : pattern.pixels) {
+      m_sum += value;
+      squares += value * value;
+    }
+    m_spread = squares - m_sum * m_sum / n;
+  }
+
+  double at(int x, int y) {
+    if (x < 0 || y < 0 || x + m_pattern.width > m_frame.cols || y + m_pattern.height > m_frame.rows) return -1.0;
+    const auto [place, is_new] = m_known.try_emplace({x, y}, 0.0);
+    if (is_new) place->second = correlation(x, y);
+    return place->second;
+  }
+
+  /// Uphill from the start to a local maximum, at most `steps` away; its place with the top of a parabola.
+  Peak top(cv::Point start, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      cv::Point best = start;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (at(start.x + dx, start.y + dy) > at(best.x, best.y)) best = {start.x + dx, start.y + dy};
+        }
+      }
+      if (best == start) break;
+      start = best;
+    }
+    const double here = at(start.x, start.y);
+    const auto between = [here](double before, double after) {
+      const double bend = before + after - 2.0 * here;
+      return bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+    };
+    return {start.x + between(at(start.x - 1, start.y), at(start.x + 1, start.y)),
+            start.y + between(at(start.x, start.y - 1), at(start.x, start.y + 1)), here};
+  }
+
+ private:
+  double correlation(int x, int y) const {
+    std::int64_t product = 0, sum = 0, squares = 0;
+    for (int row = 0; row < m_pattern.height; ++row) {
+      const std::uint8_t* a = m_frame.ptr(y + row) + x;
+      const std::uint8_t* b = m_pattern.pixels.data() + static_cast<std::size_t>(row) * m_pattern.width;
+      std::int32_t p = 0, s = 0, q = 0;
+      for (int k = 0; k < m_pattern.width; ++k) {
+        p += a[k] * b[k];
+        s += a[k];
+        q += a[k] * a[k];
+      }
+      product += p;
+      sum += s;
+      squares += q;
+    }
+    const double n = static_cast<double>(m_pattern.pixels.size());
+    const double spread = static_cast<double>(squares) - static_cast<double>(sum) * static_cast<double>(sum) / n;
+    if (spread <= 0.0 || m_spread <= 0.0) return -1.0;
+    return (static_cast<double>(product) - static_cast<double>(sum) * m_sum / n) / std::sqrt(spread * m_spread);
+  }
+
+  const cv::Mat& m_frame;
+  const GrayImage& m_pattern;
+  double m_sum = 0.0;
+  double m_spread = 0.0;
+  std::map<std::pair<int, int>, double> m_known;
+};
 
 void sort_and_merge(std::vector<Candidate>& candidates, int count) {
   std::sort(candidates.begin(), candidates.end(),
@@ -123,18 +186,23 @@ std::vector<Candidate> CoarseSearch::find_from(const std::vector<GrayImage>& fra
   std::vector<cv::Point> starts = peaks(scores, count, 2);
   const std::vector<cv::Point> far = peaks(scores, count, std::min(top.width, top.height) / 4);
   starts.insert(starts.end(), far.begin(), far.end());
+  // From a quarter of the resolution up to half of it, which leaves a pixel at most for the fine registration.
+  const bool finer = top_level > 1;
+  cv::Mat half;
+  if (finer)
+    cv::copyMakeBorder(mat_view(frames[1]), half, 2 * pad_y, 2 * pad_y, 2 * pad_x, 2 * pad_x, cv::BORDER_REPLICATE);
+  Climb climb(finer ? half : padded, finer ? m_templates[1] : top);
+  const int level = finer ? 1 : top_level;
   std::vector<Candidate> candidates;
   for (const cv::Point& peak : starts) {
-    cv::Point corner(peak.x - pad_x, peak.y - pad_y);
     const double penalty = plain.at<float>(peak) - scores.at<float>(peak);
-    Candidate one{corner.x, corner.y, plain.at<float>(peak)};
-    for (int level = top_level - 1; level >= 0; --level) {
-      one = refine(mat_view(frames[level]), m_templates[level], cv::Point(2 * one.dx_px, 2 * one.dy_px), 3);
-    }
-    one.correlation -= penalty;
-    one.dx_px -= m_region.x;
-    one.dy_px -= m_region.y;
-    candidates.push_back(one);
+    const Peak found = climb.top(finer ? 2 * peak : peak, climb_steps);
+    const int pad = 1 << (finer ? 1 : 0);
+    const auto full = [&](double place, int border, int home) {
+      return static_cast<int>(std::lround((place - pad * border) * (1 << level))) - home;
+    };
+    candidates.push_back(
+        {full(found.x, pad_x, m_region.x), full(found.y, pad_y, m_region.y), found.correlation - penalty});
   }
   sort_and_merge(candidates, count);
   return candidates;

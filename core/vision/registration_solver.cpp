@@ -1,33 +1,45 @@
 #include "core/vision/registration_solver.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace zerodrift::vision {
 namespace {
 
-constexpr double reach_px = 8.0;        // the coarse search is never further off
-constexpr double length_px = 100.0;     // scale of coordinates in the linear columns, for conditioning
-constexpr double lens_unit = 1e-8;      // of the lens column, likewise
-constexpr double linear_prior = 0.02;   // standard deviation of the affine part: keeps rings, which cannot see rotation
-constexpr double read_variance = 12.0;  // of the noise at black in units of that of one grey level: shot noise model
-constexpr double tukey_wide = 7.0;      // while the motion settles
-constexpr double tukey_narrow = 4.7;    // 95 % efficient for normal noise
+constexpr double reach_px = 8.0;  // the coarse search is never further off
+constexpr double lens_unit = registration_lens_unit;
+constexpr double length_px = registration_length_px;
+constexpr double linear_prior = 0.02;  // standard deviation of the affine part: keeps rings, which cannot see rotation
 constexpr double field_prior_levels = 60.0;
+constexpr double middle_grey = 128.0;
+constexpr double usual_read_variance = 25.0;  // of the noise at black in units of that of one grey level: shot noise
+constexpr double least_read_variance = 5.0;
+constexpr double largest_read_variance = 500.0;  // practically the same noise at all levels
+constexpr double tukey_wide = 7.0;               // while the motion settles, and when there are no outliers
+constexpr double tukey_narrow = 4.7;             // 95 % efficient for normal noise
+constexpr double outlier_sigmas = 4.0;
+constexpr double outlier_share = 0.0015;  // of the pixels: normal noise has 0.00006 beyond 4 sigma
 constexpr double settled_px = 3e-5;
 constexpr double nearly_settled_px = 2e-3;
-constexpr int light_rounds = 6;
+constexpr double weight_change = 0.03;  // of the weights' sum: beyond it the normal matrix is made anew
+constexpr double least_weight = 0.4;    // of the pixels' own weight must be left by their neighbours
+constexpr int light_rounds = 4;
 constexpr int settle_iterations = 5;
 constexpr int largest_iterations = 24;
 constexpr std::size_t least_pixels = 100;
-constexpr int tiles_a_side = 8;
+constexpr int scale_samples = 4000;  // of the errors are enough for their median
 
 double median_of(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// 1 / variance: that of shot noise and of noise at black, which counts as much as `read` grey levels.
+Eigen::VectorXf noise_weights(const Eigen::Ref<const Eigen::VectorXf>& levels, double read) {
+  return static_cast<float>(middle_grey + read) / (levels.array().max(0.0f) + static_cast<float>(read));
 }
 
 }  // namespace
@@ -42,12 +54,17 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
       m_linear(start.linear),
       m_prior(start.lens),
       m_lens(start.lens.per_px2),
-      m_normal(Normal::Zero()) {
+      m_judge(model, model.noise_correlation),
+      m_tukey(tukey_narrow) {
   const int n = model.pixels;
   m_rows.resize(column_count, n);
-  for (Eigen::VectorXf* one : {&m_frame, &m_error, &m_weight, &m_robust, &m_noise_weight}) one->setZero(n);
+  for (Eigen::VectorXf* one : {&m_frame, &m_error, &m_weight, &m_robust}) one->setZero(n);
+  m_neighbours.setOnes(n);
   m_pixel_state.assign(static_cast<std::size_t>(n), FramePatch::seen);
   for (int k = 0; k < n; ++k) fill_row(k);
+  const Eigen::Map<const Eigen::VectorXf> value(model.value.data(), n);
+  m_noise_weight = noise_weights(value, usual_read_variance);
+  m_noise_root = m_noise_weight.cwiseSqrt();
   m_light.setZero();
   m_light(0) = 1.0;
   if (m_field != nullptr) m_field_levels.setZero(m_field->size());
@@ -66,7 +83,6 @@ void RegistrationSolver::fill_row(int k) {
   const float f = m_model.value[k];
   m_rows.col(k) << fx, fy, fx * x, fx * y, fy * x, fy * y, 0.0f, f, f * x, f * y, 1.0f, m_model.fxx[k], m_model.fxy[k],
       m_model.fyy[k];
-  m_noise_weight(k) = 1.0f / (std::max(f, 0.0f) + static_cast<float>(read_variance));
 }
 
 // The frame's value at each pixel of the template moved by the present motion.
@@ -76,8 +92,8 @@ void RegistrationSolver::sample(int count) {
   // The lens moves a pixel at w from the point by 2 (w s) w + |w|^2 s times its constant, s being the displacement.
   const Eigen::Vector2f way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
   const auto bent = static_cast<float>(m_lens / lens_unit);
-  const int last_column = m_patch.spline.width() - 4;
-  const int last_row = m_patch.spline.height() - 4;
+  const int last_column = m_patch.spline.width() - SplineImage::reach_after;
+  const int last_row = m_patch.spline.height() - SplineImage::reach_after;
   for (int k = 0; k < count; ++k) {
     const float x = m_model.x[k];
     const float y = m_model.y[k];
@@ -109,11 +125,49 @@ void RegistrationSolver::predict(int count) {
   if (m_field != nullptr) m_field->subtract_from(m_error, count, m_field_levels);
 }
 
+// How the noise grows with the level, from the errors themselves: their median square in classes of levels, fitted by
+// a straight line.
+void RegistrationSolver::find_noise_model(int count) {
+  constexpr int classes = 8;
+  std::array<std::vector<float>, classes> errors;
+  std::array<double, classes> level{};
+  for (int k = 0; k < count; ++k) {
+    if (m_pixel_state[k] != FramePatch::seen) continue;
+    const int at = std::clamp(static_cast<int>(m_model.value[k] * classes / 256.0f), 0, classes - 1);
+    errors[at].push_back(std::abs(m_error(k)));
+    level[at] += m_model.value[k];
+  }
+  // Least squares of variance = b (level + read), twice: the second time weighted with what the first found.
+  double read = usual_read_variance;
+  for (int round = 0; round < 2; ++round) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (int c = 0; c < classes; ++c) {
+      if (errors[c].size() < least_pixels / 2) continue;
+      const double n = static_cast<double>(errors[c].size());
+      const double variance = std::pow(1.4826 * median_of(errors[c]), 2);
+      const Eigen::Vector2d row(level[c] / n, 1.0);
+      const double weight = n / std::pow(row(0) + read, 2);
+      normal += weight * row * row.transpose();
+      right += weight * variance * row;
+    }
+    const double determinant = normal.determinant();
+    if (determinant < 1e-6 * normal(0, 0) * normal(1, 1)) return;  // one level only: nothing to learn
+    const Eigen::Vector2d fit = normal.inverse() * right;
+    if (!fit.allFinite() || fit.maxCoeff() <= 0.0) return;
+    read =
+        fit(0) <= 0.0 ? largest_read_variance : std::clamp(fit(1) / fit(0), least_read_variance, largest_read_variance);
+  }
+  m_noise_weight = noise_weights(Eigen::Map<const Eigen::VectorXf>(m_model.value.data(), m_model.pixels), read);
+  m_noise_root = m_noise_weight.cwiseSqrt();
+}
+
 // Robust standard deviation of the errors in units of the noise model; 0 when too few pixels are left.
 double RegistrationSolver::scale_of_errors(int count) {
   m_scratch.clear();
-  for (int k = 0; k < count; ++k) {
-    if (m_pixel_state[k] == FramePatch::seen) m_scratch.push_back(std::abs(m_error(k)) * std::sqrt(m_noise_weight(k)));
+  const int stride = std::max(1, count / scale_samples);
+  for (int k = 0; k < count; k += stride) {
+    if (m_pixel_state[k] == FramePatch::seen) m_scratch.push_back(std::abs(m_error(k)) * m_noise_root(k));
   }
   return m_scratch.size() < least_pixels ? 0.0 : 1.4826 * median_of(m_scratch) + 1e-3;
 }
@@ -133,7 +187,7 @@ bool RegistrationSolver::start_light(int count) {
     if (round > 0) {
       const auto inverse = static_cast<float>(1.0 / (2.0 * m_scale));
       for (int k = 0; k < count; ++k) {
-        const float u = m_error(k) * std::sqrt(m_noise_weight(k)) * inverse;
+        const float u = m_error(k) * m_noise_root(k) * inverse;
         m_robust(k) = m_pixel_state[k] == FramePatch::seen ? 1.0f / (1.0f + u * u) : 0.0f;
         m_weight(k) = m_robust(k) * m_noise_weight(k);
       }
@@ -148,66 +202,91 @@ bool RegistrationSolver::step(int count) {
   predict(count);
   m_scale = scale_of_errors(count);
   if (m_scale == 0.0) return false;
-  const double tukey = m_iterations > settle_iterations ? tukey_narrow : tukey_wide;
-  const auto inverse = static_cast<float>(1.0 / (tukey * m_scale));
-  for (int k = 0; k < count; ++k) {
-    const float u = m_error(k) * std::sqrt(m_noise_weight(k)) * inverse;
-    const float left = std::max(0.0f, 1.0f - u * u);
-    m_robust(k) = m_pixel_state[k] == FramePatch::seen ? left * left : 0.0f;
-    m_weight(k) = m_robust(k) * m_noise_weight(k);
-  }
+  weigh(count);
   ++m_iterations;
   return solve(count, false);
 }
 
-void RegistrationSolver::add_priors(Vector& right) {
-  const double linear = std::pow(m_scale / (length_px * linear_prior), 2);
-  const Eigen::Vector4d away(m_linear(0, 0) - 1.0, m_linear(0, 1), m_linear(1, 0), m_linear(1, 1) - 1.0);
-  right.segment<4>(axx) += linear * length_px * away;
-  m_normal.diagonal().segment<4>(axx).array() += linear;
-  const double lens = std::pow(m_scale * lens_unit / m_prior.sigma_per_px2, 2);
-  right(bend) += lens * (m_lens - m_prior.per_px2) / lens_unit;
-  m_normal(bend, bend) += lens;
+// The pixels' weights from the present errors.
+void RegistrationSolver::weigh(int count) {
+  const double tukey = m_iterations > settle_iterations ? m_tukey : tukey_wide;
+  const auto inverse = static_cast<float>(1.0 / (tukey * m_scale));
+  for (int k = 0; k < count; ++k) {
+    const float u = m_error(k) * m_noise_root(k) * inverse;
+    const float left = std::max(0.0f, 1.0f - u * u);
+    m_robust(k) = m_pixel_state[k] == FramePatch::seen ? left * left : 0.0f;
+  }
+  if (m_settled) {
+    const Eigen::VectorXf standard = m_error.cwiseProduct(m_noise_root) / static_cast<float>(m_scale);
+    m_judge.judge(standard, m_robust, m_neighbours);
+    // A model that fits nowhere has suspicious patches everywhere: then they say nothing.
+    if (m_neighbours.dot(m_robust) < least_weight * m_robust.sum()) m_neighbours.setOnes();
+  }
+  m_weight.head(count) =
+      m_robust.head(count).cwiseProduct(m_neighbours.head(count)).cwiseProduct(m_noise_weight.head(count));
+}
+
+bool RegistrationSolver::outdated(int count, bool light_only) const {
+  if (m_prepared.count != count || m_prepared.light_only != light_only) return true;
+  const double change = (m_weight.head(count) - m_prepared.weight).lpNorm<1>();
+  return change > weight_change * m_prepared.weight.sum();
+}
+
+bool RegistrationSolver::prepare_normal(int count, bool light_only) {
+  Prepared& p = m_prepared;
+  p.count = count;
+  p.light_only = light_only;
+  p.weight = m_weight.head(count);
+  p.gain = m_light(0);
+  const auto rows = m_rows.leftCols(count);
+  const Eigen::MatrixXf weighted = rows.array().rowwise() * p.weight.transpose().array();
+  Vector motion_gain = Vector::Ones();
+  motion_gain.head<motion_count>().setConstant(p.gain);
+  p.normal = motion_gain.asDiagonal() * (weighted * rows.transpose()).cast<double>() * motion_gain.asDiagonal();
+  if (m_field != nullptr) {
+    const Eigen::MatrixXd cross = m_field->cross(weighted, count).cast<double>() * motion_gain.asDiagonal();
+    Eigen::MatrixXd normal = m_field->normal(p.weight, count).cast<double>();
+    p.field_prior = std::pow(m_scale / field_prior_levels, 2);
+    normal.diagonal().array() += p.field_prior + 1e-9 * normal.diagonal().maxCoeff();
+    p.field.compute(normal);
+    if (p.field.info() != Eigen::Success) return false;
+    p.field_share = p.field.solve(cross);
+    p.normal -= cross.transpose() * p.field_share;
+  }
+  p.linear_prior = std::pow(m_scale / (length_px * linear_prior), 2);
+  p.lens_prior = std::pow(m_scale * lens_unit / m_prior.sigma_per_px2, 2);
+  p.normal.diagonal().segment<4>(axx).array() += p.linear_prior;
+  p.normal(bend, bend) += p.lens_prior;
+  if (light_only) {
+    p.normal.diagonal().head<motion_count>().array() += 1e12;
+    p.normal.diagonal().tail<light_count>() *= 1.0 + 1e-6;
+  }
+  p.normal.diagonal() *= 1.0 + 1e-9;
+  p.solved.compute(p.normal);
+  return p.solved.info() == Eigen::Success;
 }
 
 // One step from the errors and weights at hand.
 bool RegistrationSolver::solve(int count, bool light_only) {
-  const auto rows = m_rows.leftCols(count);
-  Eigen::MatrixXf weighted = rows.array().rowwise() * m_weight.head(count).transpose().array();
-  m_normal = (weighted * rows.transpose()).cast<double>();
-  Vector right = (weighted * m_error.head(count)).cast<double>();
-  Vector motion_gain = Vector::Ones();
-  motion_gain.head<motion_count>().setConstant(m_light(0));
-  m_normal = motion_gain.asDiagonal() * m_normal * motion_gain.asDiagonal();
-  right = motion_gain.cwiseProduct(right);
+  if (outdated(count, light_only) && !prepare_normal(count, light_only)) return false;
+  const Prepared& ready = m_prepared;
+  const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
+  Vector right = (m_rows.leftCols(count) * weighted_errors).cast<double>();
+  right.head<motion_count>() *= ready.gain;
   Eigen::VectorXd field_step;
   if (m_field != nullptr) {
-    Eigen::MatrixXd cross = m_field->cross(weighted, count).cast<double>() * motion_gain.asDiagonal();
-    Eigen::MatrixXd normal = m_field->normal(m_weight, count).cast<double>();
-    const double prior = std::pow(m_scale / field_prior_levels, 2);
-    normal.diagonal().array() += prior + 1e-9 * normal.diagonal().maxCoeff();
-    const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
     const Eigen::VectorXd field_right =
-        m_field->project(weighted_errors, count).cast<double>() - prior * m_field_levels.cast<double>();
-    const Eigen::LLT<Eigen::MatrixXd> solved(normal);
-    if (solved.info() != Eigen::Success) return false;
-    m_field_share = solved.solve(cross);
-    field_step = solved.solve(field_right);
-    m_normal -= cross.transpose() * m_field_share;
-    right -= cross.transpose() * field_step;
+        m_field->project(weighted_errors, count).cast<double>() - ready.field_prior * m_field_levels.cast<double>();
+    field_step = ready.field.solve(field_right);
+    right -= ready.field_share.transpose() * field_right;
   }
-  add_priors(right);
-  if (light_only) {
-    m_normal.diagonal().head<motion_count>().array() += 1e12;
-    m_normal.diagonal().tail<light_count>() *= 1.0 + 1e-6;
-  }
-  m_normal.diagonal() *= 1.0 + 1e-9;
-  const Eigen::LDLT<Normal> solved(m_normal);
-  if (solved.info() != Eigen::Success) return false;
-  Vector p = solved.solve(right);
+  const Eigen::Vector4d away(m_linear(0, 0) - 1.0, m_linear(0, 1), m_linear(1, 0), m_linear(1, 1) - 1.0);
+  right.segment<4>(axx) += ready.linear_prior * length_px * away;
+  right(bend) += ready.lens_prior * (m_lens - m_prior.per_px2) / lens_unit;
+  Vector p = ready.solved.solve(right);
   if (!p.allFinite()) return false;
   if (light_only) p.head<motion_count>().setZero();
-  if (m_field != nullptr) m_field_levels += (field_step - m_field_share * p).cast<float>();
+  if (m_field != nullptr) m_field_levels += (field_step - ready.field_share * p).cast<float>();
   m_light += p.tail<light_count>();
   if (!light_only) apply(p);
   return m_linear.allFinite() && (m_linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() < 0.5;
@@ -237,12 +316,29 @@ bool RegistrationSolver::glance() {
 bool RegistrationSolver::run() {
   const Eigen::Vector2d start = m_shift;
   if (!glance()) return false;
+  find_noise_model(m_model.pixels / 4);
   m_iterations = settle_iterations + 1;
+  bool with_neighbours = false;
   while (m_iterations < largest_iterations) {
     if (!step(m_model.pixels) || (m_shift - start).norm() > reach_px) return false;
-    if (m_last_step_px < settled_px) break;
+    if (m_last_step_px < settled_px && with_neighbours) break;
+    with_neighbours = m_settled;
+    if (!m_settled && m_last_step_px < nearly_settled_px) {
+      choose_tukey();
+      m_settled = true;
+    }
   }
   return m_last_step_px < 1e-2;
+}
+
+// Without outliers nothing need be paid for robustness.
+void RegistrationSolver::choose_tukey() {
+  const Eigen::ArrayXf standard = m_error.cwiseProduct(m_noise_root).array().abs() / static_cast<float>(m_scale);
+  const auto far = (standard > static_cast<float>(outlier_sigmas)).count();
+  const auto not_seen = std::count_if(m_pixel_state.begin(), m_pixel_state.end(),
+                                      [](std::uint8_t state) { return state != FramePatch::seen; });
+  const bool clean = static_cast<double>(far + not_seen) < outlier_share * m_model.pixels;
+  m_tukey = clean ? tukey_wide : tukey_narrow;
 }
 
 Registration RegistrationSolver::result(int count) const {
@@ -256,120 +352,6 @@ Registration RegistrationSolver::result(int count) const {
   tell_fit(count, out);
   tell_uncertainty(count, out);
   return out;
-}
-
-std::vector<float> RegistrationSolver::residual_map(int width, int height) const {
-  std::vector<float> out(static_cast<std::size_t>(width) * height, std::nanf(""));
-  for (int k = 0; k < m_model.pixels; ++k) {
-    if (m_pixel_state[k] != FramePatch::seen) continue;
-    const auto scale = static_cast<float>(m_scale);
-    out[static_cast<std::size_t>(m_model.row[k]) * width + m_model.column[k]] =
-        m_error(k) * std::sqrt(m_noise_weight(k)) / scale;
-  }
-  return out;
-}
-
-void RegistrationSolver::tell_fit(int count, Registration& out) const {
-  double sum_w = 0.0, sum_m = 0.0, sum_g = 0.0, energy = 0.0, kept_energy = 0.0;
-  int inliers = 0, seen = 0, bright = 0;
-  // The smooth field is taken off the frame first: it is no part of the target.
-  const auto light_of_target = [&](int k) {
-    return static_cast<double>(m_rows.col(k).tail<light_count>().dot(m_light.cast<float>()));
-  };
-  std::vector<double> model(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    const double w = m_robust(k);
-    model[k] = light_of_target(k);
-    sum_w += w;
-    sum_m += w * model[k];
-    sum_g += w * (model[k] + m_error(k));
-    const double e = double{m_model.fx[k]} * m_model.fx[k] + double{m_model.fy[k]} * m_model.fy[k];
-    energy += e;
-    if (w > 0.25) kept_energy += e;
-    inliers += w > 0.25;
-    seen += m_pixel_state[k] != FramePatch::outside;
-    bright += m_pixel_state[k] == FramePatch::too_bright;
-  }
-  double mm = 0.0, gg = 0.0, mg = 0.0;
-  for (int k = 0; k < count; ++k) {
-    const double w = m_robust(k);
-    const double m = model[k] - sum_m / sum_w;
-    const double g = model[k] + m_error(k) - sum_g / sum_w;
-    mm += w * m * m;
-    gg += w * g * g;
-    mg += w * m * g;
-  }
-  out.correlation = mg / std::sqrt(mm * gg + 1e-9);
-  out.inlier_share = static_cast<double>(inliers) / count;
-  out.informed_share = kept_energy / energy;
-  out.seen_share = static_cast<double>(seen) / count;
-  out.saturated_share = static_cast<double>(bright) / count;
-}
-
-// Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
-// in the residual: the scores summed over tiles instead of pixels (cluster-robust sandwich), which sees what the noise
-// formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
-void RegistrationSolver::tell_uncertainty(int count, Registration& out) const {
-  constexpr int tiles = tiles_a_side * tiles_a_side;
-  Eigen::Matrix<double, column_count, Eigen::Dynamic> scores =
-      Eigen::Matrix<double, column_count, Eigen::Dynamic>::Zero(column_count, tiles);
-  std::vector<Eigen::VectorXf> field_errors;
-  std::array<double, tiles> sum_error{}, sum_weight{};
-  const int width = *std::max_element(m_model.column.begin(), m_model.column.end()) + 1;
-  const int height = *std::max_element(m_model.row.begin(), m_model.row.end()) + 1;
-  Vector motion_gain = Vector::Ones();
-  motion_gain.head<motion_count>().setConstant(m_light(0));
-  if (m_field != nullptr) field_errors.assign(tiles, Eigen::VectorXf());
-  double psi2 = 0.0, slope = 0.0, sum_w = 0.0;
-  int used = 0;
-  std::vector<int> tile_of(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    const int tile = m_model.row[k] * tiles_a_side / height * tiles_a_side + m_model.column[k] * tiles_a_side / width;
-    tile_of[k] = tile;
-    const double w = m_robust(k);
-    if (w <= 0.0) continue;
-    const double z = m_error(k) * std::sqrt(m_noise_weight(k));
-    const double u2 = std::pow(z / (tukey_narrow * m_scale), 2);
-    ++used;
-    sum_w += w;
-    psi2 += w * z * w * z;
-    slope += (1.0 - u2) * (1.0 - 5.0 * u2);
-    sum_error[tile] += w * z;
-    sum_weight[tile] += w;
-    scores.col(tile) += (m_weight(k) * m_error(k)) * m_rows.col(k).cast<double>();
-  }
-  scores = motion_gain.asDiagonal() * scores;
-  if (m_field != nullptr) {
-    for (int tile = 0; tile < tiles; ++tile) {
-      Eigen::VectorXf own = Eigen::VectorXf::Zero(count);
-      for (int k = 0; k < count; ++k) {
-        if (tile_of[k] == tile) own(k) = m_weight(k) * m_error(k);
-      }
-      scores.col(tile) -= m_field_share.transpose() * m_field->project(own, count).cast<double>();
-    }
-  }
-  const double variance = psi2 / std::max(used - static_cast<int>(column_count), 1);
-  double structure = 0.0;
-  int tiles_used = 0;
-  for (int tile = 0; tile < tiles; ++tile) {
-    if (sum_weight[tile] < 30.0) continue;
-    structure += sum_error[tile] * sum_error[tile] / (sum_weight[tile] * variance);
-    ++tiles_used;
-  }
-  out.structure = tiles_used > 4 ? std::sqrt(structure / tiles_used) : 0.0;
-  const double shrink = sum_w / std::max(slope, 0.1 * sum_w);
-  const Normal inverse = m_normal.inverse();
-  const double factor = variance * used / sum_w * shrink * shrink;
-  const Eigen::Vector2d growth(std::sqrt(m_model.noise_growth_x), std::sqrt(m_model.noise_growth_y));
-  const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;
-  const Normal sandwich = inverse * (scores * scores.transpose()) * inverse * (shrink * shrink);
-  out.covariance_px2 = noise;
-  // Each axis grows to what the tiles say; the correlation of the noise formula is kept.
-  const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, sandwich(0, 0) / noise(0, 0))),
-                              std::sqrt(std::max(1.0, sandwich(1, 1) / noise(1, 1))));
-  out.covariance_px2 = ratio.asDiagonal() * noise * ratio.asDiagonal();
-  out.lens.per_px2 = m_lens;
-  out.lens.sigma_per_px2 = std::sqrt(std::max(inverse(bend, bend) * factor, 0.0)) * lens_unit;
 }
 
 }  // namespace zerodrift::vision

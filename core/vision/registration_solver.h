@@ -1,19 +1,22 @@
 #pragma once
 // One Gauss-Newton registration of a template model in one patch of a frame; Registrar decides what is put into it.
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "core/vision/frame_patch.h"
 #include "core/vision/lens_term.h"
+#include "core/vision/neighbour_weights.h"
 #include "core/vision/registration.h"
 #include "core/vision/smooth_field.h"
 #include "core/vision/template_model.h"
 
 namespace zerodrift::vision {
 
-inline constexpr int patch_margin_px = 18;  // around the region: rotation, blur and the spline's support
+inline constexpr double registration_length_px = 100.0;  // scale of coordinates in the linear columns, for conditioning
+inline constexpr double registration_lens_unit = 1e-8;   // of the lens column, likewise
+inline constexpr int patch_margin_px = 18;               // around the region: rotation, blur and the spline's support
 
 struct RegistrationStart {
   Eigen::Vector2d whole_px = Eigen::Vector2d::Zero();  // displacement of the region to the patch's middle
@@ -49,18 +52,24 @@ class RegistrationSolver {
   using Normal = Eigen::Matrix<double, column_count, column_count>;
   using Vector = Eigen::Matrix<double, column_count, 1>;
   using Rows = Eigen::Matrix<float, column_count, Eigen::Dynamic>;
+  struct Scores;  // sums over tiles, for the uncertainty
 
   void fill_row(int k);
   void sample(int count);
   void predict(int count);
+  void find_noise_model(int count);
   double scale_of_errors(int count);
   bool start_light(int count);
   bool step(int count);
+  void weigh(int count);
+  void choose_tukey();
+  bool outdated(int count, bool light_only) const;
+  bool prepare_normal(int count, bool light_only);
   bool solve(int count, bool light_only);
-  void add_priors(Vector& right);
   void apply(const Vector& p);
   void tell_fit(int count, Registration& out) const;
   void tell_uncertainty(int count, Registration& out) const;
+  Scores scores_of_tiles(int count) const;
 
   const TemplateModel& m_model;
   const FramePatch& m_patch;
@@ -73,14 +82,31 @@ class RegistrationSolver {
   Eigen::Matrix<double, light_count, 1> m_light;
   Eigen::VectorXf m_field_levels;
   Rows m_rows;
-  Eigen::VectorXf m_frame, m_error, m_weight, m_robust, m_noise_weight;
+  Eigen::VectorXf m_frame, m_error;
+  Eigen::VectorXf m_noise_weight, m_noise_root;  // 1 / variance of the noise, in units of that of middle grey
+  Eigen::VectorXf m_robust, m_neighbours;        // what the error and the surroundings say of each pixel, 0 .. 1
+  Eigen::VectorXf m_weight;                      // all three together
   std::vector<std::uint8_t> m_pixel_state;
   std::vector<float> m_scratch;
-  Normal m_normal;                // the field eliminated
-  Eigen::MatrixXd m_field_share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
+  NeighbourWeights m_judge;
+  double m_tukey;
   double m_scale = 1.0;
   double m_last_step_px = 1.0;
   int m_iterations = 0;
+  bool m_settled = false;  // near enough to the end for the neighbours to be asked
+
+  // The normal equations. Their matrix changes with the weights alone, so it is made anew only when those have changed;
+  // where the steps end does not depend on it.
+  struct Prepared {
+    int count = 0;
+    bool light_only = false;
+    Eigen::VectorXf weight;
+    double gain = 1.0, linear_prior = 0.0, lens_prior = 0.0, field_prior = 0.0;
+    Normal normal;  // the field eliminated
+    Eigen::LDLT<Normal> solved;
+    Eigen::LLT<Eigen::MatrixXd> field;
+    Eigen::MatrixXd field_share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
+  } m_prepared;
 };
 
 }  // namespace zerodrift::vision

@@ -25,38 +25,46 @@ SmoothField::SmoothField(const TemplateModel& model, int width, int height, doub
     : m_columns(intervals(width, spacing_px) + 3), m_rows(intervals(height, spacing_px) + 3) {
   const double step_x = static_cast<double>(width) / (m_columns - 3);
   const double step_y = static_cast<double>(height) / (m_rows - 3);
-  m_places.resize(static_cast<std::size_t>(model.pixels));
-  for (std::size_t k = 0; k < m_places.size(); ++k) {
+  m_along.resize(static_cast<std::size_t>(model.pixels));
+  int row = -1;
+  for (int k = 0; k < model.pixels; ++k) {
     const double x = (model.column[k] + 0.5) / step_x;
     const double y = (model.row[k] + 0.5) / step_y;
     const int ix = std::min(static_cast<int>(x), m_columns - 4);
     const int iy = std::min(static_cast<int>(y), m_rows - 4);
-    m_places[k].first = iy * m_columns + ix;
-    cubic_weights(x - ix, m_places[k].wx);
-    cubic_weights(y - iy, m_places[k].wy);
+    const int first = iy * m_columns + ix;
+    cubic_weights(x - ix, m_along[k].wx);
+    if (model.row[k] != row || m_segments.empty() || m_segments.back().first != first) {
+      m_segments.push_back({k, k, first, {}});
+      cubic_weights(y - iy, m_segments.back().wy);
+      row = model.row[k];
+    }
+    m_segments.back().end = k + 1;
   }
 }
 
 void SmoothField::subtract_from(Eigen::VectorXf& error, int count, const Eigen::VectorXf& coefficients) const {
-  for (int k = 0; k < count; ++k) {
-    const Place& at = m_places[static_cast<std::size_t>(k)];
-    float sum = 0.0f;
+  for (const Segment& at : m_segments) {
+    float c[4] = {};
     for (int j = 0; j < 4; ++j) {
-      const float* c = coefficients.data() + at.first + j * m_columns;
-      sum += at.wy[j] * (at.wx[0] * c[0] + at.wx[1] * c[1] + at.wx[2] * c[2] + at.wx[3] * c[3]);
+      for (int i = 0; i < 4; ++i) c[i] += at.wy[j] * coefficients(at.first + j * m_columns + i);
     }
-    error(k) -= sum;
+    for (int k = at.begin; k < std::min(at.end, count); ++k) {
+      const float* w = m_along[k].wx;
+      error(k) -= w[0] * c[0] + w[1] * c[1] + w[2] * c[2] + w[3] * c[3];
+    }
   }
 }
 
 Eigen::VectorXf SmoothField::project(const Eigen::VectorXf& weighted_values, int count) const {
   Eigen::VectorXf out = Eigen::VectorXf::Zero(size());
-  for (int k = 0; k < count; ++k) {
-    const Place& at = m_places[static_cast<std::size_t>(k)];
+  for (const Segment& at : m_segments) {
+    float sum[4] = {};
+    for (int k = at.begin; k < std::min(at.end, count); ++k) {
+      for (int i = 0; i < 4; ++i) sum[i] += weighted_values(k) * m_along[k].wx[i];
+    }
     for (int j = 0; j < 4; ++j) {
-      const float w = weighted_values(k) * at.wy[j];
-      float* c = out.data() + at.first + j * m_columns;
-      for (int i = 0; i < 4; ++i) c[i] += w * at.wx[i];
+      for (int i = 0; i < 4; ++i) out(at.first + j * m_columns + i) += at.wy[j] * sum[i];
     }
   }
   return out;
@@ -64,16 +72,15 @@ Eigen::VectorXf SmoothField::project(const Eigen::VectorXf& weighted_values, int
 
 Eigen::MatrixXf SmoothField::normal(const Eigen::VectorXf& weights, int count) const {
   Eigen::MatrixXf out = Eigen::MatrixXf::Zero(size(), size());
-  for (int k = 0; k < count; ++k) {
-    if (weights(k) == 0.0f) continue;
-    const Place& at = m_places[static_cast<std::size_t>(k)];
-    for (int a = 0; a < 16; ++a) {
-      const float wa = weights(k) * at.wy[a / 4] * at.wx[a % 4];
-      float* column = out.data() + static_cast<std::ptrdiff_t>(at.first + (a / 4) * m_columns + a % 4) * out.rows();
-      for (int j = 0; j < 4; ++j) {
-        const float w = wa * at.wy[j];
-        float* c = column + at.first + j * m_columns;
-        for (int i = 0; i < 4; ++i) c[i] += w * at.wx[i];
+  for (const Segment& at : m_segments) {
+    Eigen::Matrix4f sum = Eigen::Matrix4f::Zero();
+    for (int k = at.begin; k < std::min(at.end, count); ++k) {
+      const Eigen::Map<const Eigen::Vector4f> w(m_along[k].wx);
+      sum.noalias() += (weights(k) * w) * w.transpose();
+    }
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) {
+        out.block<4, 4>(at.first + a * m_columns, at.first + b * m_columns) += (at.wy[a] * at.wy[b]) * sum;
       }
     }
   }
@@ -81,14 +88,30 @@ Eigen::MatrixXf SmoothField::normal(const Eigen::VectorXf& weights, int count) c
 }
 
 Eigen::MatrixXf SmoothField::cross(const Eigen::MatrixXf& weighted_rows, int count) const {
-  Eigen::MatrixXf out = Eigen::MatrixXf::Zero(weighted_rows.rows(), size());
-  for (int k = 0; k < count; ++k) {
-    const Place& at = m_places[static_cast<std::size_t>(k)];
-    for (int a = 0; a < 16; ++a) {
-      out.col(at.first + (a / 4) * m_columns + a % 4) += (at.wy[a / 4] * at.wx[a % 4]) * weighted_rows.col(k);
+  const Eigen::Index n = weighted_rows.rows();
+  Eigen::MatrixXf out = Eigen::MatrixXf::Zero(n, size());
+  Eigen::MatrixXf sum(n, 4);
+  for (const Segment& at : m_segments) {
+    sum.setZero();
+    for (int k = at.begin; k < std::min(at.end, count); ++k) {
+      for (int i = 0; i < 4; ++i) sum.col(i) += m_along[k].wx[i] * weighted_rows.col(k);
     }
+    for (int j = 0; j < 4; ++j) out.middleCols<4>(at.first + j * m_columns) += at.wy[j] * sum;
   }
   return out.transpose();
+}
+
+void SmoothField::take_off(Eigen::MatrixXf& rows, int count, const Eigen::MatrixXf& share) const {
+  const Eigen::MatrixXf across = share.transpose();
+  Eigen::MatrixXf sum(rows.rows(), 4);
+  for (const Segment& at : m_segments) {
+    if (at.begin >= count) continue;
+    sum.setZero();
+    for (int j = 0; j < 4; ++j) sum += at.wy[j] * across.middleCols<4>(at.first + j * m_columns);
+    for (int k = at.begin; k < std::min(at.end, count); ++k) {
+      for (int i = 0; i < 4; ++i) rows.col(k) -= m_along[k].wx[i] * sum.col(i);
+    }
+  }
 }
 
 }  // namespace zerodrift::vision

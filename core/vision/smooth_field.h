@@ -23,16 +23,25 @@ class SmoothField {
   Eigen::MatrixXf normal(const Eigen::VectorXf& weights, int count) const;
   /// Sum of basis * row for rows (columns of the matrix) that already carry their weight; size() x rows.rows().
   Eigen::MatrixXf cross(const Eigen::MatrixXf& weighted_rows, int count) const;
+  /// row -= share' * basis for each of the first `count` rows (columns of the matrix); share is size() x rows.rows().
+  void take_off(Eigen::MatrixXf& rows, int count, const Eigen::MatrixXf& share) const;
 
  private:
-  struct Place {
-    int first;  // index of the first of 4 x 4 coefficients
-    float wx[4];
+  // Pixels that follow each other in one row of the image and one interval of the grid: they share 4 x 4 coefficients
+  // and the weights along y, which makes every sum over them separable.
+  struct Segment {
+    int begin;
+    int end;
+    int first;  // index of the first of the 4 x 4 coefficients
     float wy[4];
+  };
+  struct Along {
+    float wx[4];
   };
   int m_columns;
   int m_rows;
-  std::vector<Place> m_places;
+  std::vector<Segment> m_segments;
+  std::vector<Along> m_along;  // one a pixel
 };
 
 }  // namespace zerodrift::vision

@@ -36,7 +36,8 @@ class SplineImage {
   int width() const { return m_coefficients.width; }
   int height() const { return m_coefficients.height; }
   /// Value at (column + fraction_x, row + fraction_y), fractions in [0, 1); columns and rows that the support of the
-  /// spline reaches must be inside: 2 <= column < width - 3, the same for rows.
+  /// spline reaches must be inside: 2 <= column <= width - reach_after, the same for rows.
+  static constexpr int reach_after = 6;  // eight columns are read at once
   float at(int column, float fraction_x, int row, float fraction_y) const;
   /// Derivative images at the pixels: order 0, 1, 2 along x and y.
   FloatImage derivative(int order_x, int order_y) const;

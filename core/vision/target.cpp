@@ -18,8 +18,9 @@ constexpr int template_margin_px = 12;
 constexpr int candidates_refined = 2;
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
 constexpr int candidates_glanced = 8;
-constexpr double rival_correlation = 0.3;  // a candidate further behind the best is not looked at
-constexpr double sure_correlation = 0.98;  // of the best candidate with its rivals far behind: they need no look
+constexpr double rival_correlation = 0.3;   // a candidate further behind the best is not looked at, and half of it
+constexpr double clear_correlation = 0.85;  // when the best is above this
+constexpr double sure_correlation = 0.98;   // of the best candidate with its rivals far behind: they need no look
 constexpr double sure_lead = 0.15;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
@@ -108,8 +109,9 @@ struct Target::Impl {
     const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
     if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
     std::vector<std::pair<double, Candidate>> rated;
+    const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
     for (const Candidate& one : candidates) {
-      if (one.correlation < candidates.front().correlation - rival_correlation) break;
+      if (one.correlation < candidates.front().correlation - behind) break;
       rated.emplace_back(merit(fine.glance(frame, one.dx_px, one.dy_px)), one);
     }
     std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });

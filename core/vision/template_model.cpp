@@ -46,6 +46,13 @@ std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<f
   return out;
 }
 
+// Share of independent noise's variance that the blur lets through.
+double power_of(const Eigen::Matrix2d& blur_px2) {
+  double power = 0.0;
+  for (const float value : blur_kernel(blur_px2).values) power += double{value} * value;
+  return power;
+}
+
 // Variance of a shift estimated from blurred noise over that from independent noise of equal power: by each of the two
 // blurs, weighted by the noise that it lets through.
 double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d, 2>& blurs_px2) {
@@ -54,8 +61,7 @@ double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d
   for (const Eigen::Matrix2d& blur_px2 : blurs_px2) {
     // A round blur of the same size is near enough and separable.
     const FloatImage twice = blurred(gradient, blur_px2.trace() * Eigen::Matrix2d::Identity());
-    double power = 0.0;
-    for (const float value : blur_kernel(blur_px2).values) power += double{value} * value;
+    const double power = power_of(blur_px2);
     for (std::size_t k = 0; k < gradient.values.size(); ++k) {
       with += double{gradient.values[k]} * twice.values[k];
       plain += double{gradient.values[k]} * gradient.values[k] * power;
@@ -106,6 +112,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     model.fyy.push_back(fyy.values[k]);
   }
   model.pixels = static_cast<int>(model.column.size());
+  model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));
   model.noise_growth_x = noise_growth(fx, {blur_px2, frame_blur_px2});
   model.noise_growth_y = noise_growth(fy, {blur_px2, frame_blur_px2});
   return model;

@@ -19,6 +19,7 @@ struct TemplateModel {
   Eigen::Matrix2d blur_px2;          // covariance of the blur in it
   double noise_growth_x = 1.0;       // by how much the blur's noise correlation raises the variance of x and y
   double noise_growth_y = 1.0;       // over the formula for independent noise
+  double noise_correlation = 1.0;    // pixels that carry the noise of one, after the blur
   double gradient_energy = 0.0;      // mean of fx^2 + fy^2 over the region
 };
 

@@ -1,0 +1,133 @@
+// What a finished registration says of itself: fit, uncertainty, residuals.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/vision/registration_solver.h"
+
+namespace zerodrift::vision {
+namespace {
+
+constexpr int tiles_a_side = 8;
+constexpr int tiles = tiles_a_side * tiles_a_side;
+constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
+
+}  // namespace
+
+struct RegistrationSolver::Scores {
+  Eigen::Matrix<double, column_count, Eigen::Dynamic> gradient =
+      Eigen::Matrix<double, column_count, Eigen::Dynamic>::Zero(column_count, tiles);
+  std::array<double, tiles> error{};
+  std::array<double, tiles> weight{};
+};
+
+std::vector<float> RegistrationSolver::residual_map(int width, int height) const {
+  std::vector<float> out(static_cast<std::size_t>(width) * height, std::nanf(""));
+  for (int k = 0; k < m_model.pixels; ++k) {
+    if (m_pixel_state[k] != FramePatch::seen) continue;
+    const auto scale = static_cast<float>(m_scale);
+    out[static_cast<std::size_t>(m_model.row[k]) * width + m_model.column[k]] = m_error(k) * m_noise_root(k) / scale;
+  }
+  return out;
+}
+
+void RegistrationSolver::tell_fit(int count, Registration& out) const {
+  double sum_w = 0.0, sum_m = 0.0, sum_g = 0.0, energy = 0.0, kept_energy = 0.0;
+  int inliers = 0, seen = 0, bright = 0;
+  // The smooth field is taken off the frame first: it is no part of the target.
+  const auto light_of_target = [&](int k) {
+    return static_cast<double>(m_rows.col(k).tail<light_count>().dot(m_light.cast<float>()));
+  };
+  std::vector<double> model(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const double w = m_robust(k);
+    model[k] = light_of_target(k);
+    sum_w += w;
+    sum_m += w * model[k];
+    sum_g += w * (model[k] + m_error(k));
+    const double e = double{m_model.fx[k]} * m_model.fx[k] + double{m_model.fy[k]} * m_model.fy[k];
+    energy += e;
+    if (w > 0.25) kept_energy += e;
+    inliers += w > 0.25;
+    seen += m_pixel_state[k] != FramePatch::outside;
+    bright += m_pixel_state[k] == FramePatch::too_bright;
+  }
+  double mm = 0.0, gg = 0.0, mg = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double w = m_robust(k);
+    const double m = model[k] - sum_m / sum_w;
+    const double g = model[k] + m_error(k) - sum_g / sum_w;
+    mm += w * m * m;
+    gg += w * g * g;
+    mg += w * m * g;
+  }
+  out.correlation = mg / std::sqrt(mm * gg + 1e-9);
+  out.inlier_share = static_cast<double>(inliers) / count;
+  out.informed_share = kept_energy / energy;
+  out.seen_share = static_cast<double>(seen) / count;
+  out.saturated_share = static_cast<double>(bright) / count;
+}
+
+// Sums over tiles of the region: of weight times error times row (with the field's share taken off), of weighted
+// standardized errors, and of weights.
+RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const {
+  Scores out;
+  Eigen::MatrixXf rows = m_rows.leftCols(count);
+  rows.topRows<motion_count>() *= static_cast<float>(m_prepared.gain);
+  if (m_field != nullptr) m_field->take_off(rows, count, m_prepared.field_share.cast<float>());
+  const int width = *std::max_element(m_model.column.begin(), m_model.column.end()) + 1;
+  const int height = *std::max_element(m_model.row.begin(), m_model.row.end()) + 1;
+  for (int k = 0; k < count; ++k) {
+    const float w = m_robust(k) * m_neighbours(k);
+    if (w <= 0.0f) continue;
+    const int tile = m_model.row[k] * tiles_a_side / height * tiles_a_side + m_model.column[k] * tiles_a_side / width;
+    out.error[tile] += w * m_error(k) * m_noise_root(k);
+    out.weight[tile] += w;
+    out.gradient.col(tile) += (m_weight(k) * m_error(k) * rows.col(k)).cast<double>();
+  }
+  return out;
+}
+
+// Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
+// in the residual: the scores summed over tiles instead of pixels (cluster-robust sandwich), which sees what the noise
+// formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
+void RegistrationSolver::tell_uncertainty(int count, Registration& out) const {
+  double psi2 = 0.0, slope = 0.0, sum_w = 0.0;
+  int used = 0;
+  for (int k = 0; k < count; ++k) {
+    const double w = m_robust(k) * m_neighbours(k);
+    if (w <= 0.0) continue;
+    const double z = m_error(k) * m_noise_root(k);
+    const double u2 = std::pow(z / (m_tukey * m_scale), 2);
+    ++used;
+    sum_w += w;
+    psi2 += w * z * w * z;
+    slope += m_neighbours(k) * (1.0 - u2) * (1.0 - 5.0 * u2);
+  }
+  const double variance = psi2 / std::max(used - static_cast<int>(column_count), 1);
+  const Scores scores = scores_of_tiles(count);
+  double structure = 0.0;
+  int tiles_used = 0;
+  for (int tile = 0; tile < tiles; ++tile) {
+    if (scores.weight[tile] < tile_weight) continue;
+    structure += scores.error[tile] * scores.error[tile] / (scores.weight[tile] * variance);
+    ++tiles_used;
+  }
+  out.structure = tiles_used > 4 ? std::sqrt(structure / tiles_used) : 0.0;
+  const double shrink = sum_w / std::max(slope, 0.1 * sum_w);
+  const Normal inverse = m_prepared.normal.inverse();
+  const double factor = variance * used / sum_w * shrink * shrink;
+  const Eigen::Vector2d growth(std::sqrt(m_model.noise_growth_x), std::sqrt(m_model.noise_growth_y));
+  const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;
+  const Normal sandwich = inverse * (scores.gradient * scores.gradient.transpose()) * inverse * (shrink * shrink);
+  // Each axis grows to what the tiles say; the correlation of the noise formula is kept.
+  const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, sandwich(0, 0) / noise(0, 0))),
+                              std::sqrt(std::max(1.0, sandwich(1, 1) / noise(1, 1))));
+  out.covariance_px2 = ratio.asDiagonal() * noise * ratio.asDiagonal();
+  out.lens.per_px2 = m_lens;
+  out.lens.sigma_per_px2 = std::sqrt(std::max(inverse(bend, bend) * factor, 0.0)) * registration_lens_unit;
+}
+
+}  // namespace zerodrift::vision
