@@ -73,6 +73,7 @@ struct Camera::Work {
   std::shared_ptr<const CameraFrame> frame;
   Steady::time_point started = Steady::now();
   Steady::time_point last_change;  // when the picture last differed from the one before
+  std::uint64_t last_changed = 0;  // and which frame that was
   std::deque<Steady::time_point> arrivals;
   std::uint64_t opened = 0;
   std::string detail = "not opened yet";
@@ -137,7 +138,10 @@ void Camera::Work::publish(GrayImage image) {
   next->arrived = Steady::now();
   const std::lock_guard lock(mutex);
   next->count = frame ? frame->count + 1 : 1;
-  if (!frame || frame->image.pixels != next->image.pixels) last_change = next->arrived;
+  if (!frame || frame->image.pixels != next->image.pixels) {
+    last_change = next->arrived;
+    last_changed = next->count;
+  }
   frame = std::move(next);
   arrivals.push_back(frame->arrived);
   if (arrivals.size() > 60) arrivals.pop_front();
@@ -190,8 +194,8 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
     const auto& frame = m_work->frame;
     if (frame && frame->arrived > after) {
       if (first_after == 0) first_after = frame->count;
-      // The first may have been exposed before; so may one that changed nothing (a frozen camera repeats itself).
-      if (frame->count > first_after && m_work->last_change > after) return frame;
+      // The first may have been exposed before; so may one that repeats it, as a camera does that froze just then.
+      if (m_work->last_changed > first_after) return frame;
       if (kind_of(m_work->source) == SourceKind::file && frame->count > first_after) return frame;
     }
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
@@ -203,7 +207,7 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
     const Time now = Steady::now();
     if (now < deadline) continue;
     if (const auto state = m_work->state(now); !state) return fail(state.error());
-    const bool frozen = m_work->frame && m_work->frame->arrived > after && m_work->last_change <= after;
+    const bool frozen = m_work->frame && m_work->frame->count > first_after && first_after > 0;
     return fail(frozen ? ErrorCode::camera_frozen : ErrorCode::camera_silent,
                 {{"url", m_work->source}, {"seconds", seconds_text(timeout)}});
   }

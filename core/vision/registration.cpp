@@ -21,25 +21,18 @@ constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr int largest_rounds = 5;
 
-// What was put into the images and the model so far.
-struct Setup {
-  Eigen::Matrix2d template_blur;
-  Eigen::Matrix2d frame_blur;
-  bool with_field = false;
-};
-
 bool needs_field(const Registration& r) {
   return r.structure > structure_limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
 }
 
 // Blurs the sharper of the two images until both are alike; false when they are alike enough already or never will be.
-bool match_blur(const Eigen::Matrix2d& extra_px2, Setup& setup) {
+bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solved(extra_px2);
   Eigen::Vector2d change = solved.eigenvalues();
   if (change.cwiseAbs().maxCoeff() < blur_limit_px2) return false;
   if (change(1) - change(0) < round_blur_px2) change.setConstant(change.mean());
   const Eigen::Matrix2d& axes = solved.eigenvectors();
-  Setup next = setup;
+  ImageSetup next = setup;
   next.template_blur += axes * change.cwiseMax(0.0).asDiagonal() * axes.transpose();
   next.frame_blur += axes * (-change).cwiseMax(0.0).asDiagonal() * axes.transpose();
   if (std::max(next.template_blur.trace(), next.frame_blur.trace()) > largest_blur_px2) return false;
@@ -68,17 +61,34 @@ Registration Registrar::glance(const GrayImage& frame, int dx_px, int dy_px) con
   return solver.glance() ? solver.result(m_model.pixels / 4) : Registration{};
 }
 
+// Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only
+// then can the rest be solved well, and a smooth field must not take for itself what a blur does.
+void Registrar::match_blur_at_a_glance(const GrayImage& frame, const Region& at, ImageSetup& setup,
+                                       std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
+  for (int round = 0; round < largest_rounds; ++round) {
+    const FramePatch patch(frame, at, setup.frame_blur, false);
+    RegistrationSolver solver(blurred_model ? *blurred_model : m_model, patch, nullptr, start);
+    if (!solver.glance()) return;
+    start.shift_px = solver.shift_px();
+    start.linear = solver.linear();
+    if (!match_blur(solver.extra_blur_px2(), setup)) return;
+    blurred_model = make_template_model(m_source, setup.template_blur, setup.frame_blur);
+  }
+}
+
 Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
                             bool with_residual_map) const {
+  const Region at = patch_at(dx_px, dy_px);
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
-  Setup setup{m_model.blur_px2, m_model.blur_px2, false};
+  ImageSetup setup{m_model.blur_px2, m_model.blur_px2, false};
   std::optional<TemplateModel> blurred_model;
+  match_blur_at_a_glance(frame, at, setup, blurred_model, start);
   Registration out;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = blurred_model ? *blurred_model : m_model;
-    const FramePatch patch(frame, patch_at(dx_px, dy_px), setup.frame_blur, setup.with_field);
+    const FramePatch patch(frame, at, setup.frame_blur, setup.with_field);
     std::optional<SmoothField> field;
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
     RegistrationSolver solver(model, patch, field ? &*field : nullptr, start);
@@ -94,12 +104,13 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
     if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
     start.shift_px = solver.shift_px();
     start.linear = solver.linear();
-    if (!setup.with_field && needs_field(out)) {
+    if (match_blur(solver.extra_blur_px2(), setup)) {
+      blurred_model = make_template_model(m_source, setup.template_blur, setup.frame_blur);
+    } else if (!setup.with_field && needs_field(out)) {
       setup.with_field = true;
-      continue;
+    } else {
+      break;
     }
-    if (!match_blur(solver.extra_blur_px2(), setup)) break;
-    blurred_model = make_template_model(m_source, setup.template_blur, setup.frame_blur);
   }
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;

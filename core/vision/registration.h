@@ -4,6 +4,7 @@
 // blur along any direction. Weights are 1 / noise variance times Tukey's biweight; saturated pixels are out.
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "core/vision/image.h"
 #include "core/vision/lens_term.h"
@@ -30,6 +31,15 @@ struct Registration {
   std::vector<float> residual_map;  // only if asked for: one a pixel of the region in units of the scale, NaN if unused
 };
 
+struct RegistrationStart;
+
+/// What was put into the images and the model to make them alike.
+struct ImageSetup {
+  Eigen::Matrix2d template_blur;
+  Eigen::Matrix2d frame_blur;
+  bool with_field = false;
+};
+
 class Registrar {
  public:
   explicit Registrar(TemplateSource source);
@@ -45,6 +55,8 @@ class Registrar {
 
  private:
   Region patch_at(int dx_px, int dy_px) const;
+  void match_blur_at_a_glance(const GrayImage& frame, const Region& at, ImageSetup& setup,
+                              std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const;
 
   TemplateSource m_source;
   TemplateModel m_model;  // with the smallest blur

@@ -27,7 +27,10 @@ constexpr double weight_change = 0.03;  // of the weights' sum: beyond it the no
 constexpr double least_weight = 0.4;    // of the pixels' own weight must be left by their neighbours
 constexpr int light_rounds = 4;
 constexpr int settle_iterations = 5;
-constexpr int largest_iterations = 24;
+constexpr int sampling_rounds = 7;
+constexpr int reweightings = 5;
+constexpr double negligible_sigmas = 0.03;
+constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was sampled needs no new sample
 constexpr std::size_t least_pixels = 100;
 constexpr int scale_samples = 4000;  // of the errors are enough for their median
 
@@ -61,7 +64,6 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
   for (Eigen::VectorXf* one : {&m_frame, &m_error, &m_weight, &m_robust}) one->setZero(n);
   m_neighbours.setOnes(n);
   m_pixel_state.assign(static_cast<std::size_t>(n), FramePatch::seen);
-  for (int k = 0; k < n; ++k) fill_row(k);
   const Eigen::Map<const Eigen::VectorXf> value(model.value.data(), n);
   m_noise_weight = noise_weights(value, usual_read_variance);
   m_noise_root = m_noise_weight.cwiseSqrt();
@@ -197,18 +199,48 @@ bool RegistrationSolver::start_light(int count) {
   return true;
 }
 
+// A Gauss-Newton step on the frame sampled where the motion now is.
 bool RegistrationSolver::step(int count) {
   sample(count);
   predict(count);
+  return reweighted_step(count, false);
+}
+
+// Weights from the present errors, a solve with them, and the errors after it to first order.
+bool RegistrationSolver::reweighted_step(int count, bool ask_neighbours) {
   m_scale = scale_of_errors(count);
   if (m_scale == 0.0) return false;
-  weigh(count);
+  weigh(count, ask_neighbours);
   ++m_iterations;
   return solve(count, false);
 }
 
+// Reweights until the errors and the weights agree, to a small part of the uncertainty; then samples anew, until that
+// moves nothing any more.
+bool RegistrationSolver::settle(int count) {
+  bool settled = false;
+  for (int round = 0; round < sampling_rounds; ++round) {
+    const Eigen::Vector2d before = m_shift;
+    sample(count);
+    predict(count);
+    for (int k = 0; k < reweightings; ++k) {
+      if (!reweighted_step(count, settled && k == 0)) return false;
+      const double least_sigma_px = m_scale / (m_prepared.gain * std::sqrt(m_prepared.normal(tx, tx)));
+      if (m_last_step_px < std::max(settled_px, negligible_sigmas * least_sigma_px)) break;
+    }
+    const double moved = (m_shift - before).norm();
+    if (moved > reach_px) return false;
+    if (settled && moved < resampled_px) return true;
+    if (!settled && moved < nearly_settled_px) {
+      choose_tukey();
+      settled = true;
+    }
+  }
+  return m_last_step_px < 1e-2;
+}
+
 // The pixels' weights from the present errors.
-void RegistrationSolver::weigh(int count) {
+void RegistrationSolver::weigh(int count, bool ask_neighbours) {
   const double tukey = m_iterations > settle_iterations ? m_tukey : tukey_wide;
   const auto inverse = static_cast<float>(1.0 / (tukey * m_scale));
   for (int k = 0; k < count; ++k) {
@@ -216,7 +248,7 @@ void RegistrationSolver::weigh(int count) {
     const float left = std::max(0.0f, 1.0f - u * u);
     m_robust(k) = m_pixel_state[k] == FramePatch::seen ? left * left : 0.0f;
   }
-  if (m_settled) {
+  if (ask_neighbours) {
     const Eigen::VectorXf standard = m_error.cwiseProduct(m_noise_root) / static_cast<float>(m_scale);
     m_judge.judge(standard, m_robust, m_neighbours);
     // A model that fits nowhere has suspicious patches everywhere: then they say nothing.
@@ -286,9 +318,16 @@ bool RegistrationSolver::solve(int count, bool light_only) {
   Vector p = ready.solved.solve(right);
   if (!p.allFinite()) return false;
   if (light_only) p.head<motion_count>().setZero();
-  if (m_field != nullptr) m_field_levels += (field_step - ready.field_share * p).cast<float>();
+  if (m_field != nullptr) {
+    const Eigen::VectorXf levels = (field_step - ready.field_share * p).cast<float>();
+    m_field_levels += levels;
+    m_field->subtract_from(m_error, count, levels);
+  }
   m_light += p.tail<light_count>();
   if (!light_only) apply(p);
+  Vector change = p;
+  change.head<motion_count>() *= ready.gain;
+  m_error.head(count).noalias() -= m_rows.leftCols(count).transpose() * change.cast<float>();
   return m_linear.allFinite() && (m_linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() < 0.5;
 }
 
@@ -305,6 +344,7 @@ void RegistrationSolver::apply(const Vector& p) {
 bool RegistrationSolver::glance() {
   const Eigen::Vector2d start = m_shift;
   const int few = m_model.pixels / 4;
+  for (int k = 0; k < few; ++k) fill_row(k);
   if (!start_light(few)) return false;
   for (int k = 0; k < settle_iterations; ++k) {
     if (!step(few) || (m_shift - start).norm() > reach_px) return false;
@@ -317,18 +357,9 @@ bool RegistrationSolver::run() {
   const Eigen::Vector2d start = m_shift;
   if (!glance()) return false;
   find_noise_model(m_model.pixels / 4);
+  for (int k = m_model.pixels / 4; k < m_model.pixels; ++k) fill_row(k);
   m_iterations = settle_iterations + 1;
-  bool with_neighbours = false;
-  while (m_iterations < largest_iterations) {
-    if (!step(m_model.pixels) || (m_shift - start).norm() > reach_px) return false;
-    if (m_last_step_px < settled_px && with_neighbours) break;
-    with_neighbours = m_settled;
-    if (!m_settled && m_last_step_px < nearly_settled_px) {
-      choose_tukey();
-      m_settled = true;
-    }
-  }
-  return m_last_step_px < 1e-2;
+  return settle(m_model.pixels) && (m_shift - start).norm() < reach_px;
 }
 
 // Without outliers nothing need be paid for robustness.

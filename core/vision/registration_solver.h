@@ -61,7 +61,9 @@ class RegistrationSolver {
   double scale_of_errors(int count);
   bool start_light(int count);
   bool step(int count);
-  void weigh(int count);
+  bool reweighted_step(int count, bool ask_neighbours);
+  bool settle(int count);
+  void weigh(int count, bool ask_neighbours);
   void choose_tukey();
   bool outdated(int count, bool light_only) const;
   bool prepare_normal(int count, bool light_only);
@@ -93,7 +95,6 @@ class RegistrationSolver {
   double m_scale = 1.0;
   double m_last_step_px = 1.0;
   int m_iterations = 0;
-  bool m_settled = false;  // near enough to the end for the neighbours to be asked
 
   // The normal equations. Their matrix changes with the weights alone, so it is made anew only when those have changed;
   // where the steps end does not depend on it.

@@ -28,6 +28,11 @@ constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 /
 // Limits of an accepted registration.
 constexpr double least_inliers = 0.55;
 constexpr double least_informed = 0.50;
+// Under a glaring spot less of the target need be left, when what is left fits almost perfectly and nearly all that is
+// missing is known to be the spot.
+constexpr double least_informed_in_glare = 0.30;
+constexpr double glare_correlation = 0.995;
+constexpr double glare_explained = 0.9;
 constexpr double least_fine_correlation = 0.90;
 constexpr double least_contrast = 0.2;
 constexpr double largest_contrast = 3.0;
@@ -49,7 +54,9 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   if (!fits) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::wrong_target;
   if (linear_change(r) > largest_linear) return Refusal::wrong_target;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
-  if (r.inlier_share < least_inliers || r.informed_share < least_informed) {
+  const bool only_glare = r.correlation > glare_correlation && r.informed_share > least_informed_in_glare &&
+                          r.inlier_share + r.saturated_share > glare_explained;
+  if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {
     if (r.saturated_share > 0.10) return Refusal::glare;
     return coarse_correlation < 0.5 ? Refusal::missing : Refusal::occluded;
   }

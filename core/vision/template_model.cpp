@@ -21,17 +21,20 @@ std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<f
         usable.push_back(y * source.region.width + x);
     }
   }
-  std::vector<int> order = usable;
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return energy[a] > energy[b]; });
+  // The energy above which pixels hold the wanted share, from a histogram: sorting them would take longer.
+  constexpr int bins = 4096;
+  float highest = 1e-6f;
+  for (const int at : usable) highest = std::max(highest, energy[at]);
+  std::vector<double> sums(bins, 0.0);
+  const float to_bin = static_cast<float>(bins) / (highest * 1.0001f);
   double total = 0.0;
-  for (const int at : order) total += energy[at];
-  double sum = 0.0;
-  float limit = 0.0f;
-  for (const int at : order) {
-    sum += energy[at];
-    limit = energy[at];
-    if (sum > energy_share * total) break;
+  for (const int at : usable) {
+    sums[static_cast<std::size_t>(energy[at] * to_bin)] += energy[at];
+    total += energy[at];
   }
+  int bin = bins - 1;
+  for (double sum = sums[bins - 1]; bin > 0 && sum <= energy_share * total; sum += sums[bin]) --bin;
+  const float limit = static_cast<float>(bin) / to_bin;
   std::vector<int> kept;
   for (std::size_t k = 0; k < usable.size(); ++k) {
     if (energy[usable[k]] >= limit || k % sparse_step == 0) kept.push_back(usable[k]);

@@ -1,6 +1,7 @@
 #include "core/flow/steps/calibrate_step.h"
 
 #include <cmath>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "core/compensation/interlock.h"
@@ -45,12 +46,29 @@ struct CameraCalibration {
   std::vector<commissioning::Blob> blobs;
 };
 
-Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice& device,
+/// The templates of all cameras, at one moment and before anything else moves: they are the zero of the errors, and the
+/// machine drifts while a camera is calibrated.
+Result<std::vector<vision::GrayImage>> take_templates(Devices& devices, const TaskContext& context) {
+  ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
+  const auto now = std::chrono::steady_clock::now();
+  std::vector<std::future<Result<vision::GrayImage>>> pending;
+  for (const auto& device : devices.cameras) {
+    pending.push_back(std::async(std::launch::async, [&device, &context, now] {
+      return vision::mean_of_fresh_frames(*device.camera, now, template_frames, frame_timeout, context.stop);
+    }));
+  }
+  std::vector<Result<vision::GrayImage>> taken;  // all of them, so that no thread is left behind
+  for (auto& one : pending) taken.push_back(one.get());
+  std::vector<vision::GrayImage> out;
+  for (auto& one : taken) {
+    ZD_TRY(out.emplace_back(), std::move(one));
+  }
+  return out;
+}
+
+Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice& device, const vision::GrayImage& image,
                                            const CalibrateOptions& options, const TaskContext& context) {
   const auto& profile = device.profile;
-  ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
-  ZD_TRY(const vision::GrayImage image, vision::mean_of_fresh_frames(*device.camera, std::chrono::steady_clock::now(),
-                                                                     template_frames, frame_timeout, context.stop));
   ZD_TRY(const auto target, vision::Target::create(image, region_of(profile.target_roi_px), std::nullopt, profile.url));
   if (profile.reference_roi_px) {  // refuse now what could not be measured later
     ZD_TRY([[maybe_unused]] const auto reference,
@@ -129,8 +147,10 @@ Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devi
     return commissioning::NewArtefact::of("calibration", body, {machine->id});
   }
   ZD_CHECK(devices.machine->command(0.0, false, false));
-  for (const auto& device : devices.cameras) {
-    ZD_TRY(auto made, calibrate_camera(devices, device, options, context));
+  ZD_TRY(const std::vector<vision::GrayImage> templates, take_templates(devices, context));
+  for (std::size_t i = 0; i < devices.cameras.size(); ++i) {
+    const auto& device = devices.cameras[i];
+    ZD_TRY(auto made, calibrate_camera(devices, device, templates[i], options, context));
     if (!device.profile.reference_roi_px) body["reference_target"] = false;
     body["cameras"].push_back(std::move(made.body));
     for (auto& blob : made.blobs) blobs.push_back(std::move(blob));
