@@ -1,6 +1,10 @@
 #include "core/vision/image_quality.h"
 
 #include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/vision/opencv_image.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -12,6 +16,28 @@ int quantile(const std::array<int, 256>& histogram, double share, double count) 
     if (sum >= share * count) return level;
   }
   return 255;
+}
+
+// The squared gradient of an edge that is blurred by sigma falls as 1 / sigma. Two further blurs of known size tell by
+// their ratio what was there before: (sigma^2 + s1^2) / (sigma^2 + s2^2) = (E2 / E1)^2. The first keeps noise out.
+double blur_of(const GrayImage& image, const Region& at) {
+  constexpr double first_px = 1.0;
+  constexpr double second_px = 2.0;
+  constexpr double least_energy = 0.5;  // grey levels^2 / px^2: below it is no texture
+  const cv::Mat part = mat_view(image)(cv::Rect(at.x, at.y, at.width, at.height));
+  const auto energy = [&part](double sigma_px) {
+    cv::Mat smooth, gx, gy;
+    part.convertTo(smooth, CV_32F);
+    cv::GaussianBlur(smooth, smooth, {0, 0}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
+    cv::Sobel(smooth, gx, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+    cv::Sobel(smooth, gy, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+    return (cv::norm(gx, cv::NORM_L2SQR) + cv::norm(gy, cv::NORM_L2SQR)) / static_cast<double>(part.total());
+  };
+  const double fine = energy(first_px);
+  if (fine < least_energy) return std::nan("");
+  const double ratio = std::pow(energy(second_px) / fine, 2);
+  const double variance = (ratio * second_px * second_px - first_px * first_px) / std::max(1.0 - ratio, 1e-3);
+  return std::sqrt(std::max(variance, 0.0));
 }
 
 }  // namespace
@@ -38,6 +64,8 @@ ImageQuality quality_of(const GrayImage& image, const Region& region) {
   out.mean_level = sum / count;
   const double variance = square / count - out.mean_level * out.mean_level;
   out.sharpness = variance > 1.0 ? gradient / count / variance : 0.0;
+  out.bright_level = quantile(out.histogram, 0.95, count);
+  out.blur_px = blur_of(image, at);
   out.contrast_level = quantile(out.histogram, 0.95, count) - quantile(out.histogram, 0.05, count);
   for (int level = 0; level < 256; ++level) {
     if (level >= 252) out.saturated_share += out.histogram[level] / count;

@@ -10,7 +10,9 @@ namespace zerodrift::vision {
 
 struct ImageQuality {
   double sharpness = 0.0;        // mean squared gradient over variance: rises to focus, does not change with the light
+  double blur_px = 0.0;          // sigma of the blur as edges show it, whatever the pattern; NaN without texture
   double mean_level = 0.0;       // grey levels
+  double bright_level = 0.0;     // 95 % quantile
   double contrast_level = 0.0;   // 95 % quantile less 5 % quantile
   double saturated_share = 0.0;  // of pixels at the white end
   double dark_share = 0.0;       // of pixels at the black end

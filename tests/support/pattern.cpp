@@ -12,6 +12,7 @@ namespace {
 
 constexpr double paper = 0.86;
 constexpr double ink = 0.08;
+constexpr int code_cells = 9;
 constexpr double widest_blur_px = 4.0;  // for which the speckle's neighbourhood is complete
 
 double either(double a, double b) {
@@ -36,6 +37,8 @@ std::string name_of(PatternKind kind) {
       return "speckle";
     case PatternKind::ball:
       return "ball";
+    case PatternKind::code:
+      return "code";
     case PatternKind::mark:
       break;
   }
@@ -48,6 +51,10 @@ Pattern::Pattern(PatternKind kind, double half_um, std::uint64_t seed) : m_kind(
   m_count =
       kind == PatternKind::siemens_star ? 14 + static_cast<int>(noise.index(8)) : 7 + static_cast<int>(noise.index(2));
   if (kind == PatternKind::speckle) scatter_bumps(seed);
+  if (kind == PatternKind::code) {
+    m_black.resize(static_cast<std::size_t>(code_cells) * code_cells);
+    for (std::uint8_t& cell : m_black) cell = noise.uniform() < 0.5;
+  }
 }
 
 Paint Pattern::at(double x, double y, double sigma, const LampDirection& lamp) const {
@@ -72,6 +79,9 @@ Paint Pattern::at(double x, double y, double sigma, const LampDirection& lamp) c
       break;
     case PatternKind::siemens_star:
       dark = siemens_star(x, y, sigma);
+      break;
+    case PatternKind::code:
+      dark = code(x, y, sigma);
       break;
     case PatternKind::speckle:
       return {coverage, speckle(x, y, sigma)};
@@ -143,6 +153,23 @@ double Pattern::mark(double x, double y, double sigma) const {
   const double right = edge(x, sigma);
   const double up = edge(y, sigma);
   return (1.0 - edge(r - 0.6, blur)) * (right * up + (1.0 - right) * (1.0 - up)) + band(r, 0.74, 0.88, blur);
+}
+
+double Pattern::code(double x, double y, double sigma) const {
+  const double cell = 2.0 * 0.84 * m_half_um * std::min(m_proportion, 1.05) / code_cells;
+  const double edge_um = 0.5 * code_cells * cell;
+  const int reach = static_cast<int>(std::ceil(6.0 * sigma / cell));
+  const int column = static_cast<int>(std::floor((x + edge_um) / cell));
+  const int row = static_cast<int>(std::floor((y + edge_um) / cell));
+  double dark = 0.0;
+  for (int j = std::max(0, row - reach); j <= std::min(code_cells - 1, row + reach); ++j) {
+    const double high = band(y, j * cell - edge_um, (j + 1) * cell - edge_um, sigma);
+    for (int i = std::max(0, column - reach); i <= std::min(code_cells - 1, column + reach); ++i) {
+      if (m_black[static_cast<std::size_t>(j) * code_cells + i] == 0) continue;
+      dark += high * band(x, i * cell - edge_um, (i + 1) * cell - edge_um, sigma);
+    }
+  }
+  return dark;
 }
 
 void Pattern::scatter_bumps(std::uint64_t seed) {

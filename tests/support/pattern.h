@@ -20,10 +20,11 @@ enum class PatternKind {
   speckle,
   ball,  // a polished sphere: no print, only its limb, its shading and the lamp's highlight
   mark,  // small square plate with ring and quadrants, for the fixed reference
+  code,  // square cells, black or white at random, like a data matrix
 };
-inline constexpr std::array<PatternKind, 7> target_kinds = {
+inline constexpr std::array<PatternKind, 8> target_kinds = {
     PatternKind::rings,        PatternKind::circle_grid, PatternKind::cross_hair, PatternKind::checkerboard,
-    PatternKind::siemens_star, PatternKind::speckle,     PatternKind::ball};
+    PatternKind::siemens_star, PatternKind::speckle,     PatternKind::ball,       PatternKind::code};
 std::string name_of(PatternKind kind);
 
 /// Where the lamp stands, as the part of the sphere's normal that mirrors it into the camera (-1 .. 1 each).
@@ -62,6 +63,7 @@ class Pattern {
   double siemens_star(double x, double y, double sigma) const;
   double speckle(double x, double y, double sigma) const;
   double mark(double x, double y, double sigma) const;
+  double code(double x, double y, double sigma) const;
   double ball(double x, double y, const LampDirection& lamp) const;
   void scatter_bumps(std::uint64_t seed);
 
@@ -71,6 +73,7 @@ class Pattern {
   int m_count;                             // spokes or squares
   std::vector<std::vector<Bump>> m_cells;  // speckle, by place
   int m_cells_a_side = 0;
+  std::vector<std::uint8_t> m_black;  // cells of the code, row by row
 };
 
 }  // namespace zerodrift::test_support

@@ -13,6 +13,9 @@
 namespace zerodrift::ui {
 namespace {
 
+constexpr double darkest_exposure = 0.35;  // of white: below it the noise grows
+constexpr double brightest_exposure = 0.97;
+
 PartStyle pointStyle(const QString& tag, const QColor& color, bool hollow, double size) {
   PartStyle style;
   style.tag = tag;
@@ -107,45 +110,10 @@ Card* CalibratePage::makePlanCard() {
 
 QWidget* CalibratePage::makeMoves() {
   m_moveCard = new Card(this);
-  m_mode = new ToggleSegment(m_moveCard);
-  m_moveCard->tools()->addWidget(m_mode);
   m_clear = new QCheckBox(m_moveCard);
   m_clear->setObjectName("areaClear");
-  m_hand = new QWidget(m_moveCard);
-  auto* row = new QHBoxLayout(m_hand);
-  row->setContentsMargins(0, 0, 0, 0);
-  const auto box = [this, row](QLabel** name) {
-    *name = new QLabel(m_hand);
-    auto* made = new QDoubleSpinBox(m_hand);
-    made->setRange(-5000.0, 5000.0);
-    made->setDecimals(4);
-    made->setSuffix(" mm");
-    row->addWidget(*name);
-    row->addWidget(made, 1);
-    return made;
-  };
-  m_right = box(&m_rightName);
-  m_up = box(&m_upName);
-  m_read = new QPushButton(m_hand);
-  m_read->setObjectName("readPosition");
-  m_take = new QPushButton(m_hand);
-  m_take->setObjectName("takePosition");
-  row->addWidget(m_read);
-  row->addWidget(m_take);
   m_moveCard->body()->addWidget(m_clear);
-  m_moveCard->body()->addWidget(m_hand);
-  connect(m_mode, &ToggleSegment::currentChanged, this, [this](int index) {
-    m_state.byHand = index == 1;
-    refresh();
-    Q_EMIT modeChosen(m_state.byHand);
-  });
   connect(m_clear, &QCheckBox::toggled, this, [this] { refresh(); });
-  connect(m_read, &QPushButton::clicked, this, [this] {
-    if (std::isnan(m_state.reportedRight_mm)) return;
-    m_right->setValue(m_state.reportedRight_mm);
-    m_up->setValue(m_state.reportedUp_mm);
-  });
-  connect(m_take, &QPushButton::clicked, this, [this] { Q_EMIT positionTaken(m_right->value(), m_up->value()); });
   return m_moveCard;
 }
 
@@ -183,8 +151,7 @@ QString CalibratePage::sentence() const {
   if (m_state.running) return tr("The axes go from position to position. Keep hands and doors away.");
   if (m_state.accepted) return tr("This camera is calibrated. Measure again when it was touched.");
   if (m_state.solved) return tr("Judge the residuals: they must be small and without pattern. Then accept.");
-  return m_state.byHand ? tr("Move the axes by hand to each position, read it, and take the picture.")
-                        : tr("Confirm that the axes may move, then measure the positions.");
+  return tr("Confirm that the axes may move, then measure the positions.");
 }
 
 PageAction CalibratePage::primary() const {
@@ -198,9 +165,6 @@ PageAction CalibratePage::primary() const {
             tr("The residual is above the limit. Measure again, slower or with better light.")};
   }
   if (m_state.accepted) return {"primary", tr("Go on"), true, {}};
-  if (m_state.byHand) {
-    return {"primary", tr("Solve"), measured() >= 3, tr("Take at least three positions that do not lie on one line.")};
-  }
   return {"primary", tr("Measure positions"), m_clear->isChecked() && !m_state.running,
           m_state.running ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")};
 }
@@ -209,8 +173,7 @@ QVector<PageAction> CalibratePage::secondary() const {
   if (!m_state.blocked.isEmpty() || !m_state.templateTaken) return {};
   const bool free = !m_state.running;
   const QString wait = tr("The positions are being measured.");
-  QVector<PageAction> actions = {{"template", tr("New template"), free, wait},
-                                 {"plan", tr("Propose positions"), free, wait}};
+  QVector<PageAction> actions = {{"template", tr("New template"), free, wait}};
   if (m_state.solved) actions.append({"repeat", tr("Measure again"), free, wait});
   return actions;
 }
@@ -331,33 +294,19 @@ void CalibratePage::renderQuality() {
   m_focus->setLevel(tr("Focus"), m_quality.focus, 0.6, 1.0, word(m_quality.focus, 0.6, 1.0, tr("blurred"), {}),
                     judge(m_quality.focus, 0.6, 1.0));
   const bool glare = m_quality.saturated_percent > 1.0;
-  m_exposure->setLevel(tr("Exposure"), m_quality.exposure, 0.35, 0.8,
-                       glare ? tr("%1 % too bright").arg(m_quality.saturated_percent, 0, 'f', 0)
-                             : word(m_quality.exposure, 0.35, 0.8, tr("too dark"), tr("too bright")),
-                       glare ? Judgement::warn : judge(m_quality.exposure, 0.35, 0.8));
+  m_exposure->setLevel(
+      tr("Exposure"), m_quality.exposure, darkest_exposure, brightest_exposure,
+      glare ? tr("%1 % too bright").arg(m_quality.saturated_percent, 0, 'f', 0)
+            : word(m_quality.exposure, darkest_exposure, brightest_exposure, tr("too dark"), tr("too bright")),
+      glare ? Judgement::warn : judge(m_quality.exposure, darkest_exposure, brightest_exposure));
 }
 
 void CalibratePage::renderMoves() {
   m_moveCard->setTitle(tr("Moves"));
-  {
-    const QSignalBlocker quiet(m_mode);
-    m_mode->setItems({tr("By the controller"), tr("By hand")});
-    m_mode->setCurrentIndex(m_state.byHand ? 1 : 0);
-    m_mode->setEnabled(!m_state.running);
-  }
   m_clear->setText(tr("%1 and %2 may move by ±%3 mm; the area is clear.")
                        .arg(m_state.axisRight, m_state.axisUp)
                        .arg(m_state.span_mm / 2.0, 0, 'f', 1));
-  m_clear->setVisible(!m_state.byHand);
   m_clear->setEnabled(!m_state.running);
-  m_hand->setVisible(m_state.byHand);
-  m_rightName->setText(m_state.axisRight);
-  m_upName->setText(m_state.axisUp);
-  m_read->setText(tr("Read"));
-  m_read->setToolTip(tr("Take over the position that the controller reports"));
-  m_read->setEnabled(!std::isnan(m_state.reportedRight_mm));
-  m_take->setText(tr("Take"));
-  m_take->setToolTip(tr("Take the picture at this position"));
 }
 
 }  // namespace zerodrift::ui

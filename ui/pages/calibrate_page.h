@@ -8,7 +8,6 @@
 #include "ui/widgets/camera_view.h"
 
 class QCheckBox;
-class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
 class QStackedWidget;
@@ -48,15 +47,12 @@ struct CalibrateState {
   bool running = false;
   bool solved = false;
   bool accepted = false;
-  bool byHand = false;
   QVector<CalibrationPoint> points{};
   double fieldRight_mm = 0.0;  // size of the field of view
   double fieldUp_mm = 0.0;
   double driftRight_mm = 0.0;  // expected drift, half widths: the positions must enclose it
   double driftUp_mm = 0.0;
-  double span_mm = 1.6;                                                // how far the axes move altogether
-  double reportedRight_mm = std::numeric_limits<double>::quiet_NaN();  // the controller's position, for taking by hand
-  double reportedUp_mm = std::numeric_limits<double>::quiet_NaN();
+  double span_mm = 1.6;  // how far the axes move altogether
 
   double umPerPx = std::numeric_limits<double>::quiet_NaN();
   double umPerPxSigma = std::numeric_limits<double>::quiet_NaN();
@@ -68,7 +64,8 @@ struct CalibrateState {
   double timeLeft_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Help to set the lens and the lamp; levels 0..1, NaN: unknown.
+/// Help to set the lens and the lamp; NaN: unknown. Focus 0..1, 1 is as sharp as pixels allow; exposure: how bright the
+/// bright parts of the target are, 1 is white.
 struct ImageQuality {
   double focus = std::numeric_limits<double>::quiet_NaN();
   double exposure = std::numeric_limits<double>::quiet_NaN();
@@ -89,14 +86,12 @@ class CalibratePage : public Page {
   QString sentence() const override;
   /// Take the template, Measure positions, Accept.
   PageAction primary() const override;
-  /// "template", "plan", "repeat".
+  /// "template", "repeat".
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
   void cameraChosen(int index);
   void regionDrawn(const QRectF& region_px);
-  void modeChosen(bool byHand);
-  void positionTaken(double right_mm, double up_mm);  // by hand
 
  protected:
   void render() override;
@@ -127,15 +122,7 @@ class CalibratePage : public Page {
   XyPlot* m_plan;
   XyPlot* m_residuals;
   QLabel* m_planNote;
-  ToggleSegment* m_mode;
   QCheckBox* m_clear;
-  QWidget* m_hand;
-  QDoubleSpinBox* m_right;
-  QDoubleSpinBox* m_up;
-  QLabel* m_rightName;
-  QLabel* m_upName;
-  QPushButton* m_read;
-  QPushButton* m_take;
 };
 
 }  // namespace zerodrift::ui

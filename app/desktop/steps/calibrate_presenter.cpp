@@ -1,5 +1,7 @@
 #include "app/desktop/steps/calibrate_presenter.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "app/text/error_text.h"
@@ -15,6 +17,10 @@ namespace {
 
 constexpr int pictures_per_s = 12;
 constexpr double expected_drift_mm = 0.1;  // until a run has shown the real one
+constexpr double drift_margin = 1.25;      // of the calibrated area over what has been seen
+constexpr double sharp_px = 1.0;           // sigma of the blur that pixels of a well set lens show
+constexpr double trail_enlargement = 1.0;
+constexpr int smallest_region_px = 24;
 
 QRectF rect_of(const std::array<int, 4>& box) {
   return QRectF(box[0], box[1], box[2], box[3]);
@@ -46,7 +52,47 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
     // Every measurement begins with a new template at rest.
     if (action == QStringLiteral("repeat") || action == QStringLiteral("template")) start({});
   });
-  page->allow(QStringLiteral("plan"), false, tr("The positions shown are the proposed ones."));
+  connect(page, &ui::CalibratePage::regionDrawn, this, &CalibratePresenter::useRegion);
+}
+
+QRectF CalibratePresenter::regionOf(const std::string& camera) {
+  if (const auto drawn = m_regions.find(camera); drawn != m_regions.end()) return rect_of(drawn->second);
+  const json body = bench().body("calibration");
+  if (body.is_object() && body.contains("cameras")) {
+    for (const auto& one : body["cameras"]) {
+      if (one.at("id") == camera) return rect_of(one.at("roi").get<std::array<int, 4>>());
+    }
+  }
+  for (const auto& one : bench().profile()->cameras) {
+    if (one.id == camera) return rect_of(one.target_roi_px);
+  }
+  return {};
+}
+
+/// The next measurement looks for the target there; what was measured with another region no longer stands.
+void CalibratePresenter::useRegion(const QRectF& region_px) {
+  const auto& profile = bench().profile();
+  if (!profile || m_camera >= static_cast<int>(profile->cameras.size())) return;
+  const QRect box = region_px.toRect();
+  if (std::min(box.width(), box.height()) < smallest_region_px) {
+    show({ErrorCode::bad_argument,
+          {{"what", tr("the region").toStdString()},
+           {"found", fmt::format("{}x{}", box.width(), box.height())},
+           {"expected", fmt::format("at least {0}x{0} pixels", smallest_region_px)}}});
+    return;
+  }
+  m_regions[profile->cameras[static_cast<std::size_t>(m_camera)].id] = {box.x(), box.y(), box.width(), box.height()};
+  refresh();
+}
+
+void CalibratePresenter::showQuality(const vision::GrayImage& image, const QRectF& region) {
+  const QRect box = region.toRect();
+  const auto found = vision::quality_of(image, {box.x(), box.y(), box.width(), box.height()});
+  ui::ImageQuality quality;
+  if (std::isfinite(found.blur_px)) quality.focus = std::min(1.0, sharp_px / std::max(found.blur_px, 1e-3));
+  quality.exposure = found.bright_level / 255.0;
+  quality.saturated_percent = 100.0 * found.saturated_share;
+  m_page->setQuality(quality);
 }
 
 void CalibratePresenter::enter() {
@@ -72,9 +118,12 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
   refresh();
   runStep(
       tr("Calibrating"),
-      [profile = *profile, job, live = m_live](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+      [profile = *profile, job, live = m_live, regions = m_regions,
+       span_mm = m_page->state().span_mm](const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile));
         flow::CalibrateOptions options;
+        options.regions = regions;
+        options.span_mm = span_mm;
         options.watcher = [&](const flow::CalibrationProgress& now) {
           const std::scoped_lock lock(live->mutex);
           if (live->camera != now.camera) live->seen.clear();
@@ -87,6 +136,7 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
       },
       [this, done = std::move(done)](bool good) {
         m_running = false;
+        if (good) m_regions.clear();  // they are in the calibration now
         refresh();
         if (done) done(good);
       });
@@ -125,15 +175,35 @@ void CalibratePresenter::fillResult(ui::CalibrateState& state, const json& camer
   // What the calibration adds to an error of 100 um.
   state.uncertainty_um = 100.0 / calibration->scale_um_per_px * state.umPerPxSigma;
   state.points.clear();
+  double middle_x = 0.0, middle_y = 0.0;
+  for (const auto& view : calibration->views) {
+    middle_x += view.x_mm / static_cast<double>(calibration->views.size());
+    middle_y += view.y_mm / static_cast<double>(calibration->views.size());
+  }
   for (const auto& view : calibration->views) {
     ui::CalibrationPoint point;
-    point.right_mm = view.x_mm;
-    point.up_mm = view.y_mm;
+    point.right_mm = view.x_mm - middle_x;
+    point.up_mm = view.y_mm - middle_y;
     point.state = ui::PointState::measured;
     point.residualRight_um = view.residual_x_um;
     point.residualUp_um = view.residual_y_um;
     state.points.append(point);
   }
+}
+
+/// The positions must enclose the drift that is expected: what the last warm-up has shown, with a margin.
+void CalibratePresenter::fillPlan(ui::CalibrateState& state) {
+  const auto drift_mm = [this](const QString& axis) {
+    const json body = bench().body("warmup");
+    const std::string direction = axis.toStdString();
+    if (!body.is_object() || !body.contains("peak_um") || !body["peak_um"].contains(direction)) {
+      return expected_drift_mm;
+    }
+    return std::abs(body["peak_um"][direction].get<double>()) * drift_margin / 1000.0;
+  };
+  state.driftRight_mm = drift_mm(state.axisRight);
+  state.driftUp_mm = drift_mm(state.axisUp);
+  state.span_mm = std::max(state.span_mm, 2.0 * drift_margin * std::max(state.driftRight_mm, state.driftUp_mm));
 }
 
 void CalibratePresenter::refresh() {
@@ -160,11 +230,12 @@ void CalibratePresenter::refresh() {
     state.referenceFound = camera.reference_roi_px.has_value();
     state.templateTaken = true;
   }
-  state.driftRight_mm = expected_drift_mm;
-  state.driftUp_mm = expected_drift_mm;
+  fillPlan(state);
   fillPoints(state);
   const json body = bench().body("calibration");
-  if (!m_running && body.is_object() && body.value("source", "") == "camera") {
+  const bool drawn = m_camera < static_cast<int>(profile->cameras.size()) &&
+                     m_regions.contains(profile->cameras[static_cast<std::size_t>(m_camera)].id);
+  if (!m_running && !drawn && body.is_object() && body.value("source", "") == "camera") {
     const auto& cameras = body.at("cameras");
     if (m_camera < static_cast<int>(cameras.size())) fillResult(state, cameras.at(static_cast<std::size_t>(m_camera)));
   }
@@ -178,7 +249,7 @@ void CalibratePresenter::showPicture() {
   if (!profile || m_camera >= static_cast<int>(cameras.size())) return;
   ui::CameraMarks marks;
   const auto& camera = profile->cameras[static_cast<std::size_t>(m_camera)];
-  marks.targetRegion = rect_of(camera.target_roi_px);
+  marks.targetRegion = regionOf(camera.id);
   if (camera.reference_roi_px) marks.referenceRegion = rect_of(*camera.reference_roi_px);
   const auto frame = cameras[static_cast<std::size_t>(m_camera)]->newest();
   if (!frame) {
@@ -197,7 +268,14 @@ void CalibratePresenter::showPicture() {
       marks.enlargement = 5000.0;
       marks.judgement = ui::Judgement::ok;
     }
+    if (m_live->camera == camera.id) {
+      for (const auto& location : m_live->seen) {
+        if (location.ok) marks.trail.append(QPointF(location.point.x_px, location.point.y_px));
+      }
+      marks.trailEnlargement = trail_enlargement;
+    }
   }
+  showQuality((*frame)->image, marks.targetRegion);
   m_page->setFrame(image_of((*frame)->image), marks);
 }
 

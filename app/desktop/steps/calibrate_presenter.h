@@ -3,6 +3,8 @@
 
 #include <QImage>
 #include <QTimer>
+#include <array>
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -38,11 +40,17 @@ class CalibratePresenter : public Presenter {
 
   void start(std::function<void(bool good)> done);
   void showPicture();
+  void fillPlan(ui::CalibrateState& state);
   void fillPoints(ui::CalibrateState& state) const;
   void fillResult(ui::CalibrateState& state, const nlohmann::json& camera) const;
 
   ui::CalibratePage* m_page;
   QTimer m_pictures;
+  void useRegion(const QRectF& region_px);
+  void showQuality(const vision::GrayImage& image, const QRectF& region);
+  QRectF regionOf(const std::string& camera);
+
+  std::map<std::string, std::array<int, 4>> m_regions;  // drawn since the last calibration, by camera
   int m_camera = 0;
   bool m_running = false;
   std::shared_ptr<Live> m_live = std::make_shared<Live>();

@@ -69,7 +69,9 @@ Result<std::vector<vision::GrayImage>> take_templates(Devices& devices, const Ta
 Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice& device, const vision::GrayImage& image,
                                            const CalibrateOptions& options, const TaskContext& context) {
   const auto& profile = device.profile;
-  ZD_TRY(const auto target, vision::Target::create(image, region_of(profile.target_roi_px), std::nullopt, profile.url));
+  const auto drawn = options.regions.find(profile.id);
+  const std::array<int, 4> roi = drawn != options.regions.end() ? drawn->second : profile.target_roi_px;
+  ZD_TRY(const auto target, vision::Target::create(image, region_of(roi), std::nullopt, profile.url));
   if (profile.reference_roi_px) {  // refuse now what could not be measured later
     ZD_TRY([[maybe_unused]] const auto reference,
            vision::Target::create(image, region_of(*profile.reference_roi_px), std::nullopt, profile.url));
@@ -77,7 +79,7 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   vision::CalibrationPlan plan;
   plan.axes = profile.axes;
   plan.centre_mm = devices.profile.measure_position_mm;
-  plan.span_mm = devices.profile.calibration_span_mm;
+  plan.span_mm = options.span_mm > 0.0 ? options.span_mm : devices.profile.calibration_span_mm;
   plan.per_side = options.per_side;
   if (devices.profile.time_factor > 10.0) plan.frames = 2;
   ZD_TRY(auto outcome, vision::run_calibration(
@@ -91,7 +93,7 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   CameraCalibration made;
   made.body = {{"id", profile.id},
                {"axes", profile.axes},
-               {"roi", profile.target_roi_px},
+               {"roi", roi},
                {"um_per_px", outcome.calibration.scale_um_per_px},
                {"rotation_deg", outcome.calibration.rotation_deg},
                {"rms_um", outcome.calibration.rms_um},

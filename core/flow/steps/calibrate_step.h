@@ -6,7 +6,9 @@
 //                 "calibration": {...contract...}}]}
 // with the blobs "<camera>-template.png" and "<camera>-view-<n>.png" (the views teach the target's mask).
 
+#include <array>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ struct CalibrationProgress {
 
 struct CalibrateOptions {
   int per_side = 3;
+  std::map<std::string, std::array<int, 4>> regions;  // of the target, by camera; absent: the profile's
+  double span_mm = 0.0;                               // of the positions; 0: the profile's
   std::function<void(const CalibrationProgress&)> watcher;
 };
 
