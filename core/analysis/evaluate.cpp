@@ -152,6 +152,28 @@ Status leave_out(const TrainingSet& set, const Recipe& recipe, const Eigen::Matr
 
 }  // namespace
 
+namespace {
+
+/// Error to expect of each left-out stretch alone: rms over its samples with the noise of readings, mean over errors.
+std::vector<double> expected_by_fold(const TrainingSet& set, const Evaluation& e) {
+  std::vector<double> out;
+  for (int fold = 0; fold < set.folds.count; ++fold) {
+    double sum = 0.0;
+    for (Eigen::Index c = 0; c < set.error_um.cols(); ++c) {
+      Eigen::VectorXd truth = set.error_um.col(c);
+      for (Eigen::Index i = 0; i < truth.size(); ++i) {
+        if (set.folds.fold_of[static_cast<std::size_t>(i)] != fold) truth(i) = missing_sample;
+      }
+      const double rms_um = residual_figures(truth, e.predicted_um.col(c)).rms_um;
+      sum += std::hypot(rms_um, e.noise_um[static_cast<std::size_t>(c)]);
+    }
+    out.push_back(sum / static_cast<double>(set.error_um.cols()));
+  }
+  return out;
+}
+
+}  // namespace
+
 Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double coverage, const TaskContext& context) {
   ZD_TRY(const Eigen::MatrixXd x, design(set, recipe.features));
   Evaluation out;
@@ -177,6 +199,7 @@ Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double
     out.rms_um += out.held_out.back().rms_um / static_cast<double>(set.errors.size());
     out.peak_um += out.held_out.back().peak_um / static_cast<double>(set.errors.size());
   }
+  out.fold_um = expected_by_fold(set, out);
   return out;
 }
 

@@ -25,6 +25,7 @@ struct Evaluation {
   std::vector<double> noise_um;  // of each error: what the noise of single readings adds when the model runs
   double mean_noise_um = 0.0;    // mean over the errors
   double expected_um = 0.0;      // rms of left-out errors and that noise together, mean over the errors
+  std::vector<double> fold_um;   // the same of each left-out stretch alone
   double rms_um = 0.0;           // mean over the errors
   double peak_um = 0.0;          // mean over the errors
 };

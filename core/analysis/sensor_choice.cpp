@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -37,12 +38,16 @@ std::vector<SensorSet> sets_to_try(const TrainingSet& set, const ChoiceOptions& 
   std::set<std::set<std::string>> seen;
   const auto add = [&](SetKind kind, Names names) {
     if (names.empty() || (options.most > 0 && names.size() > options.most)) return;
-    if (seen.insert({names.begin(), names.end()}).second) sets.push_back({kind, std::move(names)});
+    if (seen.insert({names.begin(), names.end()}).second) {
+      SensorSet& added = sets.emplace_back();
+      added.kind = kind;
+      added.sensors = std::move(names);
+    }
   };
   Names points = options.sensitive_points;
   std::erase_if(points, [&](const auto& p) { return std::find(spread.begin(), spread.end(), p) == spread.end(); });
   add(SetKind::sensitive_points, points);
-  for (const std::size_t count : {few, few + more_sensors}) {
+  for (const std::size_t count : {few, few + more_sensors, few + 2 * more_sensors}) {
     const std::size_t allowed = options.most > 0 ? std::min(count, options.most) : count;
     add(SetKind::spread, first_of(spread, allowed));
     add(SetKind::nearest, first_of(nearest, allowed));
@@ -54,10 +59,32 @@ std::vector<SensorSet> sets_to_try(const TrainingSet& set, const ChoiceOptions& 
   return sets;
 }
 
+/// Whether the left-out stretches tell `set` to be worse than `best`: mean difference against its standard error.
+bool told_worse(const SensorSet& set, const SensorSet& best) {
+  const auto n = static_cast<double>(best.fold_um.size());
+  double mean = 0.0;
+  for (std::size_t f = 0; f < best.fold_um.size(); ++f) mean += (set.fold_um[f] - best.fold_um[f]) / n;
+  double square = 0.0;
+  for (std::size_t f = 0; f < best.fold_um.size(); ++f) {
+    square += std::pow(set.fold_um[f] - best.fold_um[f] - mean, 2);
+  }
+  // One stretch has no standard error: then a quarter of the error itself.
+  const double standard_error = n >= 2.0 ? std::sqrt(square / (n - 1.0) / n) : 0.25 * best.fold_um.front();
+  return mean > standard_error;
+}
+
+/// `sets` from few sensors to many.
 std::size_t best_of(const std::vector<SensorSet>& sets) {
-  const auto best = std::min_element(sets.begin(), sets.end(),
-                                     [](const auto& a, const auto& b) { return a.expected_um < b.expected_um; });
-  return static_cast<std::size_t>(best - sets.begin());
+  const auto least = std::min_element(sets.begin(), sets.end(),
+                                      [](const auto& a, const auto& b) { return a.expected_um < b.expected_um; });
+  auto best = static_cast<std::size_t>(least - sets.begin());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const bool larger = sets[i].sensors.size() > sets[best].sensors.size();
+    const bool as_large_and_better =
+        sets[i].sensors.size() == sets[best].sensors.size() && sets[i].expected_um < sets[best].expected_um;
+    if ((larger || as_large_and_better) && !told_worse(sets[i], *least)) best = i;
+  }
+  return best;
 }
 
 std::string comparison(const std::vector<SensorSet>& sets, std::size_t chosen, const std::string& left_out) {
@@ -68,6 +95,11 @@ std::string comparison(const std::vector<SensorSet>& sets, std::size_t chosen, c
                   best.held_out_rms_um, left_out, best.expected_um);
   for (const auto& s : sets) {
     if (&s != &best) text += fmt::format("; {} {}: {:.2f} um", s.sensors.size(), in_words(s.kind), s.expected_um);
+  }
+  const auto least = std::min_element(sets.begin(), sets.end(),
+                                      [](const auto& a, const auto& b) { return a.expected_um < b.expected_um; });
+  if (least->expected_um < best.expected_um) {
+    text += "; what was left out does not tell them apart, and the mean of more sensors is quieter";
   }
   return text;
 }
@@ -116,6 +148,7 @@ Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptio
     candidate.held_out_rms_um = judged->rms_um;
     candidate.held_out_peak_um = judged->peak_um;
     candidate.expected_um = judged->expected_um;
+    candidate.fold_um = judged->fold_um;
     candidate.noise_um = judged->mean_noise_um;
     out.sets.push_back(std::move(candidate));
   }

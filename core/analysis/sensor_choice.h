@@ -33,6 +33,7 @@ struct SensorSet {
   double held_out_peak_um = 0.0;  // mean over the errors
   double noise_um = 0.0;          // rms that single readings add, mean over the errors
   double expected_um = 0.0;       // both together
+  std::vector<double> fold_um;    // the same of each left-out stretch
 };
 
 struct SensorChoice {
@@ -47,7 +48,8 @@ struct ChoiceOptions {
   std::size_t most = 0;                       // 0: no limit; else no set is larger
 };
 
-/// The set with the least error to expect; of equal ones the smallest.
+/// The largest set whose error is not told apart from the least one: a few left-out stretches do not rank sets of
+/// sensors, and the mean of many sensors is quieter and stays right when a slow body goes where it was never seen.
 Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptions& options,
                                        const TaskContext& context = {});
 
