@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/recording/csv.h"
 
@@ -217,10 +218,26 @@ std::string most_telling(const json& effect) {
 
 }  // namespace
 
+QString sentence_of(const json& stored, const std::string& english) {
+  const std::string text = diagnosis::said(diagnosis::sentence_from_json(stored),
+                                           [](const std::string& words) { return say(words.c_str()).toStdString(); });
+  return QString::fromStdString(text.empty() ? english : text);
+}
+
+QString sentences_of(const json& body) {
+  const json english = body.value("sentences", json::array());
+  const json stored = body.value("said", json::array());
+  QStringList sentences;
+  for (std::size_t i = 0; i < english.size(); ++i) {
+    sentences << sentence_of(i < stored.size() ? stored[i] : json(), english[i].get<std::string>());
+  }
+  return sentences.join(QLatin1Char(' '));
+}
+
 QString effect_name(const std::string& id) {
-  if (id == "none") return say("nothing hidden");
-  if (id == "unexplained") return say("unexplained");
-  QString name = QString::fromStdString(id).replace(QLatin1Char('_'), QLatin1Char(' '));
+  if (id == "none") return say("Nothing hidden");
+  if (id == "unexplained") return say("Unexplained");
+  QString name = say(diagnosis::plain_name(id).c_str());
   if (!name.isEmpty()) name[0] = name[0].toUpper();
   return name;
 }
@@ -324,7 +341,7 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     const std::string id = effect.value("id", "");
     card.id = QString::fromStdString(id);
     card.name = effect_name(id);
-    card.sentence = QString::fromStdString(effect.value("explanation", ""));
+    card.sentence = sentence_of(effect.value("said", json()), effect.value("explanation", ""));
     card.magnitude = magnitude_of(effect);
     if (effect["component"].is_string()) {
       card.place = QString::fromStdString(effect["component"].get<std::string>());

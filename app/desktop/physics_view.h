@@ -28,6 +28,10 @@ QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller
 ui::HeatMapData heat_of(const nlohmann::json& body, const physics::Machine& machine, const std::string& component,
                         const Compared& runs);
 void fill_explanations(const nlohmann::json& body, const Compared& runs, ui::PhysicsState& state);
+/// A stored sentence {"id", "facts"} in the language of the window; `english` where nothing but the text was stored.
+QString sentence_of(const nlohmann::json& stored, const std::string& english);
+/// The sentences of an object that keeps them as "said" and in English as "sentences".
+QString sentences_of(const nlohmann::json& body);
 /// "extra_heat_source" as words.
 QString effect_name(const std::string& id);
 

@@ -173,12 +173,13 @@ ConcealedCase draw_case(std::uint64_t seed, int index, const std::string& kind, 
   Noise noise(seed * 998244353ULL + static_cast<std::uint64_t>(index) * 104729ULL + 71);
   ConcealedCase one;
   one.name = fmt::format("case-{:03}", index + 1);
-  one.run.one_speed = one_speed;
-  while (true) {
+  // One speed without coolant cannot show every effect: then another is drawn, at last with a richer run.
+  constexpr int draws = 20;
+  for (int draw = 0;; ++draw) {
     one.machine_seed = 1 + noise.index(1ULL << 20U);
+    one.run.one_speed = one_speed && draw < draws;
     const auto ids = ids_of(kind, noise);
-    if (!hide_effects(one, ids, noise) && !ids.empty()) continue;
-    break;
+    if (ids.empty() || hide_effects(one, ids, noise)) break;
   }
   for (const HiddenEffect& effect : one.hidden.list()) {
     TrueEffect known{effect.id, std::nullopt, "", effect.law};

@@ -205,7 +205,7 @@ Section cases_section(const Score& score) {
 
 }  // namespace
 
-report::Report report_of(const Trial& trial) {
+report::Report report_of(const Trial& trial, const std::optional<ExperimentTrial>& experiments) {
   report::Report report;
   report.title = "Blind trial: what did the simulation leave out?";
   report.header = {{"Cases", std::to_string(trial.score.judgements().size())},
@@ -215,6 +215,7 @@ report::Report report_of(const Trial& trial) {
   report.sections = {figures_section(trial),           method_section(trial),
                      confusion_section(trial.score),   improvement_section(trial.score),
                      calibration_section(trial.score), cases_section(trial.score)};
+  if (experiments) report.sections.insert(report.sections.end() - 1, experiments_section(*experiments));
   report.provenance = fmt::format("Zerodrift {}, commitments {}", ZERODRIFT_VERSION, trial.digest.substr(0, 16));
   return report;
 }

@@ -5,11 +5,10 @@
 #include <chrono>
 
 #include "app/proof/concealed_case.h"
+#include "app/proof/diagnose_files.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/json.h"
-#include "core/diagnosis/diagnosis.h"
-#include "core/recording/csv.h"
 
 namespace zerodrift::proof {
 namespace {
@@ -53,7 +52,8 @@ Result<std::vector<Sealed>> conceal(const TrialOptions& options, const TaskConte
   const Phase phase(context, "drawing cases", 0.0, drawing_share, options.cases);
   for (int i = 0; i < options.cases; ++i) {
     if (context.cancelled()) return fail(ErrorCode::cancelled, {});
-    ConcealedCase one = draw_case(options.seed, i);
+    ConcealedCase one =
+        options.kind.empty() ? draw_case(options.seed, i) : draw_case(options.seed, i, options.kind, false);
     ZD_CHECK(write_case_files(one, options.folder / "cases" / one.name));
     sealed.push_back({one.name, std::move(one.seal)});
     phase.done(i + 1);
@@ -78,22 +78,6 @@ Result<std::string> promise(const TrialOptions& options, const std::vector<Seale
   ZD_CHECK(write_json_file(path, promises));
   ZD_TRY(const std::string bytes, read_file(path));
   return sha256_hex(bytes);
-}
-
-/// From files only, as `zerodrift-cli diagnose` does.
-Result<json> diagnose_folder(const fs::path& folder, const TaskContext& context) {
-  ZD_TRY(const physics::Machine machine, physics::read_machine(folder / "machine.json"));
-  std::vector<recording::Recording> recordings;
-  for (const char* file : {"recording.csv", "second.csv"}) {
-    ZD_TRY(auto recording, recording::read_recording(folder / file));
-    recordings.push_back(std::move(recording));
-  }
-  TaskContext silent;
-  silent.stop = context.stop;
-  ZD_TRY(const diagnosis::Diagnosis result, diagnosis::diagnose(machine, recordings, {}, silent));
-  json answer = diagnosis::to_json(result);
-  ZD_CHECK(write_json_file(folder / "diagnosis.json", answer));
-  return answer;
 }
 
 /// Opens one seal against the promise on disk.
@@ -132,7 +116,8 @@ Result<Trial> run_trial(const TrialOptions& options, const TaskContext& context)
   const Phase phase(context, "diagnosing", drawing_share, 0.98, options.cases);
   for (const auto& one : sealed) {
     if (context.cancelled()) break;
-    answers.push_back(diagnose_folder(options.folder / "cases" / one.name, context));
+    answers.push_back(diagnose_files(options.folder / "cases" / one.name, {"recording.csv", "second.csv"},
+                                     "diagnosis.json", context));
     phase.done(static_cast<int>(answers.size()));
   }
   // The seals are opened even when the trial was broken off: nothing stays hidden.

@@ -19,6 +19,7 @@ struct TrialOptions {
   int cases = 300;
   std::uint64_t seed = 1;
   std::filesystem::path folder;
+  std::string kind = {};  // "" the mixture, or what every case hides: an effect's id, "none", "pair", "unlisted"
 };
 
 struct Trial {

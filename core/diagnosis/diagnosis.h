@@ -2,7 +2,8 @@
 // What did the simulation leave out? From a machine description and a recording: where and when they differ (mismatch),
 // which effect explains it (effects, rivals, confidence), the description with it (refined), and how much better it
 // fits, on data used for the fit and on recordings that were not. "Nothing is missing" and "unexplained" are answers
-// too. Everything the Physics page draws is here as data; sentences are made from `Sentence` in app/text.
+// too. Everything the Physics page draws is here as data; sentences are made from `Sentence`
+// (core/diagnosis/sentences.h) where they are read.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>

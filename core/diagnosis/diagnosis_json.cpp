@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/sentences.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -21,6 +22,7 @@ json json_of(const FoundEffect& effect) {
               {"sigma", effect.sigma},
               {"confidence", effect.confidence},
               {"explanation", effect.explanation.english},
+              {"said", to_json(effect.explanation)},
               {"log_evidence_gain", effect.log_evidence_gain},
               {"contribution", effect.contribution}};
   for (const auto& [key, value] : effect.words) {
@@ -58,6 +60,7 @@ json to_json(const Diagnosis& diagnosis) {
   for (const auto& rival : diagnosis.ambiguous_with) {
     out["ambiguous_with"].push_back({{"id", rival.id},
                                      {"why", rival.why.english},
+                                     {"said", to_json(rival.why)},
                                      {"component", text_or_null(rival.component)},
                                      {"channel", text_or_null(rival.channel)},
                                      {"position_mm", rival.position_mm ? json(*rival.position_mm) : json()},
@@ -65,6 +68,7 @@ json to_json(const Diagnosis& diagnosis) {
   }
   if (diagnosis.suggested && !diagnosis.suggested->plan_json.empty()) {
     out["suggested_experiment"] = {{"text", diagnosis.suggested->text.english},
+                                   {"said", to_json(diagnosis.suggested->text)},
                                    {"plan", json::parse(diagnosis.suggested->plan_json)}};
   }
   json rmse = {{"before", json::object()},          {"refitted", json::object()},
@@ -102,7 +106,11 @@ json to_json(const Diagnosis& diagnosis) {
   }
   for (const auto& one : diagnosis.detectable)
     out["could_have_detected"][one.id] = {{"key", one.key}, {"value", one.value}};
-  for (const auto& sentence : diagnosis.sentences) out["sentences"].push_back(sentence.english);
+  out["said"] = json::array();
+  for (const auto& sentence : diagnosis.sentences) {
+    out["sentences"].push_back(sentence.english);
+    out["said"].push_back(to_json(sentence));
+  }
   return out;
 }
 

@@ -85,6 +85,7 @@ nlohmann::json plan_of(const Run& run, double full_rpm) {
                              {"spindle_rpm", std::round(step.speed_share * full_rpm)},
                              {"coolant_on", step.coolant},
                              {"path", "still"}});
+    if (step.load_W > 0.0) plan["steps"].back()["spindle_load_W"] = step.load_W;
   }
   return plan;
 }
@@ -118,10 +119,7 @@ SuggestedExperiment suggest_experiment(const Model& best, const Model& rival) {
     suggestion.distance = distance;
     suggestion.id = run.id;
     suggestion.plan_json = plan_of(run, best.network().full_speed_rpm).dump();
-    suggestion.text.id = std::string("experiment_") + run.id;
-    suggestion.text.facts = {{"best", best.machine().effects.back().id}, {"rival", rival.machine().effects.back().id}};
-    suggestion.text.english = fmt::format("To tell {} from {}: {}.", plain_name(best.machine().effects.back().id),
-                                          plain_name(rival.machine().effects.back().id), run.text);
+    suggestion.text = explain_experiment(best.machine().effects.back().id, rival.machine().effects.back().id, run.text);
   }
   return suggestion;
 }

@@ -2,97 +2,158 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
+#include "core/diagnosis/sentences.h"
 #include "core/physics/effects/effect.h"
 
 namespace zerodrift::diagnosis {
 namespace {
 
 std::string unit_of(const std::string& channel) {
-  return channel.size() > 3 && channel.compare(channel.size() - 3, 3, "_um") == 0 ? "um" : "K";
+  return channel.size() > 3 && channel.compare(channel.size() - 3, 3, "_um") == 0 ? "µm" : "K";
 }
 
-/// "power 36.1 +- 2.0 W"
+/// How a parameter is shown: a sign that is the same in every language, its unit, and the factor to that unit.
+struct Shown {
+  std::string_view key;
+  std::string_view sign;
+  std::string_view unit;
+  double factor = 1.0;
+};
+
+constexpr std::array shown_parameters{Shown{"h_W_m2K", "h", "W/m²K"},
+                                      Shown{"a_W_m2K", "a", "W/m²K"},
+                                      Shown{"exponent", "m", ""},
+                                      Shown{"emissivity", "ε", ""},
+                                      Shown{"temperature_C", "T", "°C"},
+                                      Shown{"beta_1_K", "β", "%/K", 100.0},
+                                      Shown{"growth_1_K", "κ", "%/K", 100.0},
+                                      Shown{"speed_share", "κn", "%", 100.0},
+                                      Shown{"constant_share", "κ0", "%", 100.0},
+                                      Shown{"power_W", "P", "W"},
+                                      Shown{"resistance_m2K_W", "R", "mm²K/W", 1e6},
+                                      Shown{"um_per_K", "g", "µm/K"},
+                                      Shown{"room_um_per_K", "g(room)", "µm/K"},
+                                      Shown{"um_per_unit", "g", "µm/K"},
+                                      Shown{"lag_s", "τ", "s"},
+                                      Shown{"second_lag_s", "τ2", "s"},
+                                      Shown{"offset_K", "ΔT", "K"},
+                                      Shown{"drift_K_per_h", "drift", "K/h"},
+                                      Shown{"gain_error", "gain", "%", 100.0},
+                                      Shown{"share", "η", "%", 100.0},
+                                      Shown{"excess_share", "excess", "%", 100.0},
+                                      Shown{"step_um", "step", "µm"},
+                                      Shown{"time_s", "t", "min", 1.0 / 60.0},
+                                      Shown{"from_s", "from", "min", 1.0 / 60.0},
+                                      Shown{"to_s", "to", "min", 1.0 / 60.0},
+                                      Shown{"colder_K", "ΔT", "K"},
+                                      Shown{"conductance_W_K", "G", "W/K"},
+                                      Shown{"contact_W_K", "G", "W/K"},
+                                      Shown{"heat_capacity_J_K", "C", "J/K"},
+                                      Shown{"period_s", "period", "s"},
+                                      Shown{"mean_W", "P", "W"},
+                                      Shown{"slope_1_K", "slope", "%/K", 100.0}};
+
+/// "12.7" with as many digits as the uncertainty deserves.
+std::string number_of(double value, double sigma) {
+  const double size = sigma > 0.0 ? sigma : std::abs(value) * 0.05;
+  const int digits = size > 0.0 ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(size)))) : 0;
+  return fmt::format("{:.{}f}", value, std::min(digits, 6));
+}
+
+/// "h = 12.7 ± 0.7 W/m²K, ..."; what has no sign in the table (cosines, logarithms) is left to the JSON.
 std::string parameters_in_words(const FoundEffect& effect) {
   std::string text;
-  for (const auto& parameter : physics::find_effect(effect.id)->parameters) {
-    const auto at = effect.parameters.find(std::string(parameter.key));
-    if (at == effect.parameters.end() || at->first == "position_mm") continue;
-    const auto sigma = effect.sigma.find(at->first);
-    text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", at->first, at->second);
-    if (sigma != effect.sigma.end()) text += fmt::format(" +- {:.2g}", sigma->second);
+  for (const Shown& shown : shown_parameters) {
+    const auto at = effect.parameters.find(std::string(shown.key));
+    if (at == effect.parameters.end()) continue;
+    const auto found = effect.sigma.find(at->first);
+    const double sigma = found == effect.sigma.end() ? 0.0 : found->second * shown.factor;
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", shown.sign, number_of(at->second * shown.factor, sigma));
+    if (sigma > 0.0) text += " ± " + number_of(sigma, sigma);
+    if (!shown.unit.empty()) text += fmt::format(" {}", shown.unit);
   }
   return text;
 }
 
-}  // namespace
-
-std::string plain_name(const std::string& effect_id) {
-  std::string name = effect_id;
-  for (char& c : name) {
-    if (c == '_') c = ' ';
+void put_place(Sentence& s, const std::string& channel, const std::optional<double>& position_mm,
+               const std::string& component) {
+  s.facts["where"] = "where_nowhere";
+  if (!channel.empty()) {
+    s.facts["where"] = "where_channel";
+    s.facts["place_channel"] = channel;
+  } else if (position_mm) {
+    s.facts["where"] = "where_position";
+    s.facts["position"] = fmt::format("{:.0f}", *position_mm);
+    s.facts["component"] = component;
+  } else if (!component.empty()) {
+    s.facts["where"] = "where_component";
+    s.facts["component"] = component;
   }
-  return name;
 }
+
+std::string regime_or_always(const std::string& regime) {
+  return regime.empty() ? "all the time" : regime;
+}
+
+Sentence finished(Sentence s) {
+  s.english = said(s);
+  return s;
+}
+
+}  // namespace
 
 Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, double share_removed, double before,
                         const std::string& worst_channel) {
   Sentence s;
-  s.id = "effect_" + effect.id;
-  std::string where;
-  if (!effect.channel.empty()) {
-    where = " on " + effect.channel;
-  } else if (effect.position_mm) {
-    where = fmt::format(" at {:.0f} mm of {}", *effect.position_mm, effect.component);
-  } else if (effect.words.count("region") != 0) {
-    where = fmt::format(" ({})", effect.words.at("region"));
-  } else if (!effect.component.empty()) {
-    where = " of " + effect.component;
-  }
-  const std::string numbers = parameters_in_words(effect);
-  s.facts = {{"where", where},
-             {"parameters", numbers},
+  s.id = "effect_found";
+  s.facts = {{"name", effect.id},
+             {"parameters", parameters_in_words(effect)},
              {"channel", worst_channel},
              {"before", fmt::format("{:.2g}", before)},
              {"unit", unit_of(worst_channel)},
              {"removed_percent", fmt::format("{:.0f}", 100.0 * share_removed)},
-             {"regime", mismatch.regime}};
-  s.english = fmt::format(
-      "{}: {} differs by {:.2g} {} (rms) from the re-fitted simulation, {}. Adding {}{} ({}) removes {:.0f} % of it.",
-      std::string(physics::find_effect(effect.id)->fingerprint), worst_channel, before, unit_of(worst_channel),
-      mismatch.regime.empty() ? "all the time" : mismatch.regime, plain_name(effect.id), where, numbers,
-      100.0 * share_removed);
-  return s;
+             {"fingerprint", std::string(physics::find_effect(effect.id)->fingerprint)},
+             {"regime", regime_or_always(mismatch.regime)}};
+  put_place(s, effect.channel, effect.position_mm, effect.component);
+  const auto from = effect.parameters.find("from_mm");
+  const auto to = effect.parameters.find("to_mm");
+  if (from != effect.parameters.end() && to != effect.parameters.end()) {
+    s.facts["where"] = "where_between";
+    s.facts["from"] = fmt::format("{:.0f}", from->second);
+    s.facts["to"] = fmt::format("{:.0f}", to->second);
+  }
+  return finished(std::move(s));
 }
 
 Sentence explain_rival(const Rival& rival) {
   Sentence s;
-  s.id = "rival_" + rival.id;
-  s.facts = {{"behind", fmt::format("{:.1f}", rival.behind)}};
-  s.english =
-      fmt::format("{} explains this recording almost as well (log evidence {:.1f} behind); it cannot be excluded.",
-                  plain_name(rival.id), rival.behind);
-  return s;
+  s.id = "rival_left";
+  s.facts = {{"name", rival.id}, {"behind", fmt::format("{:.1f}", rival.behind)}};
+  put_place(s, rival.channel, rival.position_mm, rival.component);
+  return finished(std::move(s));
 }
 
 Sentence explain_verdict(const Diagnosis& diagnosis) {
   Sentence s;
   s.id = "verdict_" + std::string(name_of(diagnosis.verdict));
-  if (diagnosis.verdict == Verdict::consistent) {
-    s.english =
-        "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise.";
-  } else if (diagnosis.verdict == Verdict::unexplained) {
-    const std::string worst = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
-    s.facts = {{"channel", worst}, {"watts", fmt::format("{:.0f}", diagnosis.mismatch.missing_heat_W)}};
-    s.english = fmt::format("Something is missing that the library does not explain: worst at {}, {}, about {:.0f} W.",
-                            worst, diagnosis.mismatch.regime.empty() ? "all the time" : diagnosis.mismatch.regime,
-                            diagnosis.mismatch.missing_heat_W);
-  } else {
-    std::string list;
-    for (const auto& effect : diagnosis.effects) list += (list.empty() ? "" : " and ") + plain_name(effect.id);
-    s.facts = {{"effects", list}};
-    s.english = "The simulation left out " + list + ".";
+  if (diagnosis.verdict == Verdict::unexplained) {
+    s.facts = {{"channel", diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front()},
+               {"watts", fmt::format("{:.0f}", diagnosis.mismatch.missing_heat_W)},
+               {"regime", regime_or_always(diagnosis.mismatch.regime)}};
   }
-  return s;
+  if (diagnosis.verdict == Verdict::missing_effect) {
+    std::string list;
+    for (const auto& effect : diagnosis.effects) list += (list.empty() ? "" : ",") + effect.id;
+    s.facts = {{"effects", list}};
+  }
+  return finished(std::move(s));
+}
+
+Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run) {
+  return finished({"experiment_run", {{"best", best_effect}, {"rival", rival_effect}, {"run", run}}, ""});
 }
 
 }  // namespace zerodrift::diagnosis

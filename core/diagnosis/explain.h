@@ -1,6 +1,5 @@
 #pragma once
-// Sentences a technician understands, from the numbers. Each is an id with its facts, so that every language can say
-// it; the English text is made here for JSON and logs.
+// Sentences a technician understands, from the numbers: ids with their facts (core/diagnosis/sentences.h).
 
 #include "core/diagnosis/diagnosis.h"
 
@@ -10,7 +9,7 @@ Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, dou
                         const std::string& worst_channel);
 Sentence explain_rival(const Rival& rival);
 Sentence explain_verdict(const Diagnosis& diagnosis);
-/// "convection to the room", "an extra heat source" ...
-std::string plain_name(const std::string& effect_id);
+/// `run` in English words: "half speed for 3 h without coolant".
+Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run);
 
 }  // namespace zerodrift::diagnosis

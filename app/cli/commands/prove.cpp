@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/cli/command.h"
+#include "app/machine/hidden_effect.h"
 #include "app/proof/proof_report.h"
 #include "app/proof/trial.h"
 #include "app/reporting/writers.h"
@@ -17,7 +18,16 @@ struct ProveArguments {
   int cases = 300;
   std::optional<std::uint64_t> seed;
   std::string out;
+  std::string kind;
+  int experiments = 0;
 };
+
+std::vector<std::string> hideable() {
+  std::vector<std::string> names = {"none", "single", "pair", "unlisted"};
+  for (const auto& effect : machine::concealable_effects()) names.emplace_back(effect.id);
+  for (const auto& effect : machine::unlisted_effects()) names.emplace_back(effect.id);
+  return names;
+}
 
 Result<CommandOutput> run_prove(const ProveArguments& arguments, const TaskContext& context) {
   proof::TrialOptions options;
@@ -25,19 +35,26 @@ Result<CommandOutput> run_prove(const ProveArguments& arguments, const TaskConte
   // Without a seed nobody, not even who tunes the diagnosis, has seen these cases before.
   options.seed = arguments.seed ? *arguments.seed : std::random_device{}();
   options.folder = arguments.out;
+  options.kind = arguments.kind;
   ZD_TRY(const proof::Trial trial, proof::run_trial(options, context));
   context.progress(0.99, "report");
+  std::optional<proof::ExperimentTrial> experiments;
+  if (arguments.experiments > 0) {
+    ZD_TRY(experiments, proof::run_experiments({arguments.experiments, options.seed, options.folder}, context));
+  }
   CommandOutput output;
   if (qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr) {
-    const report::Report report = proof::report_of(trial);
+    const report::Report report = proof::report_of(trial, experiments);
     ZD_CHECK(reporting::write_report(report, options.folder / "report.html"));
     ZD_CHECK(reporting::write_report(report, options.folder / "report.pdf"));
   } else {
     output.warnings.emplace_back("this program was started without fonts: the report is result.json alone");
   }
   output.json = trial.to_json();
-  output.text = trial.score.text() + fmt::format("seed {}, promises kept {} of {}, in {}", options.seed,
-                                                 trial.seals_kept, options.cases, options.folder.string());
+  if (experiments) output.json["experiments"] = experiments->to_json();
+  output.text = trial.score.text() + (experiments ? experiments->text() : "") +
+                fmt::format("seed {}, promises kept {} of {}, in {}", options.seed, trial.seals_kept, options.cases,
+                            options.folder.string());
   return output;
 }
 
@@ -49,6 +66,14 @@ void add_prove(Cli& cli) {
                               [arguments](const TaskContext& context) { return run_prove(*arguments, context); });
   command->add_option("--cases", arguments->cases, "How many cases")->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->seed, "Seed of the cases; without it nobody knows them");
+  command
+      ->add_option("--hide", arguments->kind,
+                   "What every case hides: an effect's id, none, pair or unlisted; without it a mixture")
+      ->check(CLI::IsMember(hideable()));
+  command
+      ->add_option("--experiments", arguments->experiments,
+                   "Ambiguous cases on which the proposed run is tried against a random one")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--out", arguments->out, "Folder for cases, seals, answers and report")->required();
 }
 

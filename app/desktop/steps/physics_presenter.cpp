@@ -33,24 +33,13 @@ double over_temperatures(const json& by_channel) {
   return count > 0 ? std::sqrt(sum / count) : std::nan("");
 }
 
-QString sentences_of(const json& body) {
-  QStringList sentences;
-  for (const auto& sentence : body.value("sentences", json::array())) {
-    sentences << QString::fromStdString(sentence.get<std::string>());
-  }
-  return sentences.join(QLatin1Char(' '));
-}
-
 void fill_search(const json& body, ui::PhysicsState& state) {
   const json diagnosis = body.at("diagnosis");
   state.verdict = verdict_of(diagnosis.value("verdict", ""));
-  QStringList words;
-  for (const auto& sentence : diagnosis.value("sentences", json::array())) {
-    words << QString::fromStdString(sentence.get<std::string>());
-  }
-  state.verdictSentence = words.join(QLatin1Char(' '));
+  state.verdictSentence = sentences_of(diagnosis);
   const json experiment = diagnosis.value("suggested_experiment", json());
-  if (experiment.is_object()) state.nextExperiment = QString::fromStdString(experiment.value("text", ""));
+  if (experiment.is_object())
+    state.nextExperiment = sentence_of(experiment.value("said", json()), experiment.value("text", ""));
   const json rmse = diagnosis.value("rmse", json::object());
   state.noise_K = over_temperatures(rmse.value("noise", json::object()));
   const bool adopted = !body.value("adopted", json::array()).empty();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/physics/placement.h"
 #include "core/physics/simulate.h"
@@ -43,12 +44,28 @@ json placement_json(const physics::Placement& placement) {
           {"along", along}};
 }
 
-std::string sentence_of(const physics::ChannelDifference& worst) {
-  return fmt::format(
-      "The simulation differs most from the recording at {}: {:.2f} {} rms, {:.2f} {} at the most after "
-      "{:.0f} min.",
-      worst.channel, worst.rms, worst.temperature ? "K" : "um", worst.largest, worst.temperature ? "K" : "um",
-      worst.largest_at_s / 60.0);
+diagnosis::Sentence sentence_of(const physics::ChannelDifference& worst) {
+  return {"simulation_differs",
+          {{"channel", worst.channel},
+           {"rms", fmt::format("{:.2f}", worst.rms)},
+           {"largest", fmt::format("{:.2f}", worst.largest)},
+           {"unit", worst.temperature ? "K" : "µm"},
+           {"minutes", fmt::format("{:.0f}", worst.largest_at_s / 60.0)}},
+          ""};
+}
+
+diagnosis::Sentence sentence_of(const physics::Placement& placement) {
+  return {"sensor_region",
+          {{"component", placement.component},
+           {"from", fmt::format("{:.1f}", placement.from_mm)},
+           {"to", fmt::format("{:.1f}", placement.to_mm)}},
+          ""};
+}
+
+/// Keeps the sentence as id and facts, and its English text for readers of the file.
+void add_sentence(json& body, const diagnosis::Sentence& sentence) {
+  body["said"].push_back(diagnosis::to_json(sentence));
+  body["sentences"].push_back(diagnosis::said(sentence));
 }
 
 }  // namespace
@@ -63,9 +80,10 @@ Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job
                {"curves", json::array()},
                {"placement", nullptr},
                {"notes", json::array()},
-               {"sentences", json::array()}};
+               {"sentences", json::array()},
+               {"said", json::array()}};
   if (profile.machine == nullptr) {
-    body["sentences"].push_back("The profile holds no machine description, so there is nothing to simulate.");
+    add_sentence(body, {"nothing_to_simulate", {}, ""});
     return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id});
   }
   ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
@@ -78,14 +96,11 @@ Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job
     body["curves"].push_back(curve_of(simulation.prediction, difference.channel, difference.temperature));
     if (difference.temperature && (worst == nullptr || difference.rms > worst->rms)) worst = &difference;
   }
-  if (worst != nullptr) body["sentences"].push_back(sentence_of(*worst));
+  if (worst != nullptr) add_sentence(body, sentence_of(*worst));
   for (const auto& note : simulation.notes) body["notes"].push_back(note);
   if (const auto placement = physics::place_sensor(machine, run, {}, context)) {
     body["placement"] = placement_json(*placement);
-    body["sentences"].push_back(fmt::format(
-        "The temperature of {} between {:.1f} and {:.1f} mm from its fixed end follows the elongation best: a sensor "
-        "belongs there.",
-        placement->component, placement->from_mm, placement->to_mm));
+    add_sentence(body, sentence_of(*placement));
   }
   return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id},
                                         {{"prediction.csv", recording::to_csv(simulation.prediction)}});

@@ -3,7 +3,7 @@
 // recommends a sensor region. Makes the artefact "physics":
 //   {"rmse": {"before": {...}}, "largest": {...}, "curves": [{channel, unit, time_h, values}], "placement": {...} |
 //   null,
-//    "notes": [...], "sentences": [...]}
+//    "notes": [...], "sentences": [...] in English, "said": [{id, facts}] the same for every language}
 // with the blob "prediction.csv".
 
 #include "core/base/task_context.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/diagnosis/sentences.h"
 #include "core/report/build.h"
 
 namespace zerodrift::report {
@@ -30,14 +31,31 @@ Table rmse_table(const Source& source, const nlohmann::json& body) {
   return table;
 }
 
+/// A stored sentence in the reader's language; `english` for jobs that keep nothing but the text.
+std::string in_words(const nlohmann::json& stored, const std::string& english, const Source& source) {
+  const std::string text = diagnosis::said(diagnosis::sentence_from_json(stored),
+                                           [&](const std::string& words) { return source.say(words.c_str()); });
+  return text.empty() ? english : text;
+}
+
+/// The sentences of an object that keeps them as "said" and in English as "sentences".
+void add_sentences(const nlohmann::json& body, const Source& source, bool warning, Section& section) {
+  const auto english = body.value("sentences", nlohmann::json::array());
+  const auto stored = body.value("said", nlohmann::json::array());
+  for (std::size_t i = 0; i < english.size(); ++i) {
+    const auto one = i < stored.size() ? stored[i] : nlohmann::json();
+    section.blocks.emplace_back(Text{in_words(one, english[i].get<std::string>(), source), warning});
+  }
+}
+
 /// What was left out, what cannot be excluded and which run would decide.
 void add_answer(const nlohmann::json& diagnosis, const Source& source, Section& section) {
-  const bool unexplained = text_of(diagnosis, "verdict") == "unexplained";
-  for (const auto& sentence : diagnosis.value("sentences", nlohmann::json::array())) {
-    section.blocks.emplace_back(Text{sentence.get<std::string>(), unexplained});
-  }
+  add_sentences(diagnosis, source, text_of(diagnosis, "verdict") == "unexplained", section);
+  const auto said = [&](const nlohmann::json& one, const char* key) {
+    return in_words(one.value("said", nlohmann::json()), text_of(one, key), source);
+  };
   for (const auto& effect : diagnosis.value("effects", nlohmann::json::array())) {
-    std::string text = text_of(effect, "explanation");
+    std::string text = said(effect, "explanation");
     const double confidence = number_of(effect, "confidence");
     if (std::isfinite(confidence)) {
       text += " " + source.say("Confidence:") + " " + shown(100.0 * confidence, 0) + " %.";
@@ -45,10 +63,10 @@ void add_answer(const nlohmann::json& diagnosis, const Source& source, Section& 
     section.blocks.emplace_back(Text{text, false});
   }
   for (const auto& rival : diagnosis.value("ambiguous_with", nlohmann::json::array())) {
-    section.blocks.emplace_back(Text{text_of(rival, "why"), false});
+    section.blocks.emplace_back(Text{said(rival, "why"), false});
   }
   const auto experiment = diagnosis.value("suggested_experiment", nlohmann::json());
-  if (experiment.is_object()) section.blocks.emplace_back(Text{text_of(experiment, "text"), false});
+  if (experiment.is_object()) section.blocks.emplace_back(Text{said(experiment, "text"), false});
 }
 
 Curve curve_of(const nlohmann::json& one, const char* key, const std::string& name) {
@@ -85,9 +103,7 @@ std::optional<Section> physics_section(const Source& source) {
   Section section{"physics", source.say("Physics: simulation against recording"), {}};
   const auto& body = physics->body;
   if (body.contains("diagnosis")) add_answer(body.at("diagnosis"), source, section);
-  for (const auto& sentence : body.value("sentences", nlohmann::json::array())) {
-    section.blocks.emplace_back(Text{sentence.get<std::string>(), false});
-  }
+  add_sentences(body, source, false, section);
   section.blocks.emplace_back(rmse_table(source, body));
   const auto* run = source.run_of("warmup");
   const auto curves = body.value("curves", nlohmann::json::array());

@@ -1,0 +1,169 @@
+#include "core/diagnosis/sentences.h"
+
+#include <array>
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+namespace zerodrift::diagnosis {
+namespace {
+
+struct Entry {
+  std::string_view id;
+  std::string_view english;
+};
+
+constexpr std::array catalogue{
+    Entry{"verdict_consistent",
+          "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise."},
+    Entry{"verdict_unexplained",
+          "Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W."},
+    Entry{"verdict_missing_effect", "The simulation left out {+effects}."},
+    Entry{"effect_found",
+          "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
+          "({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}."},
+    Entry{"rival_left",
+          "{@name}{@where} explains this recording almost as well (log evidence {behind} behind); it cannot be "
+          "excluded."},
+    Entry{"experiment_run", "To tell {@best} from {@rival}: {@run}."},
+    Entry{"nothing_to_simulate", "The profile holds no machine description, so there is nothing to simulate."},
+    Entry{"simulation_differs",
+          "The simulation differs most from the recording at {channel}: {rms} {unit} rms, {largest} {unit} at the most "
+          "after {minutes} min."},
+    Entry{"sensor_region",
+          "The temperature of {component} between {from} and {to} mm from its fixed end follows the elongation best: a "
+          "sensor belongs there."},
+    Entry{"where_nowhere", ""},
+    Entry{"where_channel", " on {place_channel}"},
+    Entry{"where_position", " at {position} mm of {component}"},
+    Entry{"where_between", " between {from} and {to} mm"},
+    Entry{"where_component", " of {component}"},
+    Entry{"and", " and "},
+    Entry{"convection", "convection to the room"},
+    Entry{"speed_convection", "convection that grows with speed"},
+    Entry{"radiation", "radiation to the room"},
+    Entry{"coolant", "cooling by the coolant"},
+    Entry{"bearing_viscosity", "bearing oil that thins as it warms"},
+    Entry{"bearing_preload", "bearing preload that grows with the heat"},
+    Entry{"extra_heat_source", "an extra heat source"},
+    Entry{"contact_resistance", "a joint that conducts badly"},
+    Entry{"structure_ambient", "the structure following the room"},
+    Entry{"structure_bending", "bending of the structure"},
+    Entry{"sensor_lag", "a sensor that answers late"},
+    Entry{"sensor_offset", "a sensor that reads wrong by a constant"},
+    Entry{"sensor_gain", "a sensor that reads its rise wrong"},
+    Entry{"cutting_heat", "heat of cutting at the nose"},
+    Entry{"draught", "a draught or an open door"},
+    Entry{"chiller_cycle", "a chiller that switches on its own"},
+    Entry{"bearing_run_in", "bearings that run in"},
+    Entry{"conductivity_temperature", "conductivity that changes with temperature"},
+    Entry{"room_sensor_fault", "a wrong room sensor"},
+    Entry{"bracket_slip", "a bracket that slipped"},
+    Entry{"neighbour_heat", "heat from a neighbouring part"},
+    Entry{"heater_body", "the heater's own body"},
+    Entry{"casting_core", "a slow core behind the surface"},
+    Entry{"standing_heat", "a heat that is there at rest as well"},
+    Entry{"speed_heat_curve", "heat as a curve over speed"},
+    Entry{"structure_driver", "a displacement that follows another part"},
+    Entry{"structure_lag", "a structure that follows late"},
+};
+
+std::string_view english_of(std::string_view id) {
+  for (const Entry& entry : catalogue) {
+    if (entry.id == id) return entry.english;
+  }
+  return {};
+}
+
+bool is_listed(std::string_view id) {
+  for (const Entry& entry : catalogue) {
+    if (entry.id == id) return true;
+  }
+  return false;
+}
+
+class Speaker {
+ public:
+  Speaker(const Sentence& sentence, const Translate& translate) : m_facts(sentence.facts), m_translate(translate) {}
+
+  /// An entry of the catalogue, else a text in English.
+  std::string say(const std::string& id) const {
+    const std::string english = is_listed(id) ? std::string(english_of(id)) : id;
+    if (english.empty()) return {};
+    return filled(m_translate ? m_translate(english) : english);
+  }
+
+ private:
+  std::string filled(const std::string& text) const {
+    std::string out;
+    std::size_t at = 0;
+    while (at < text.size()) {
+      const std::size_t open = text.find('{', at);
+      const std::size_t close = open == std::string::npos ? open : text.find('}', open);
+      if (close == std::string::npos) break;
+      out += text.substr(at, open - at) + fact(text.substr(open + 1, close - open - 1));
+      at = close + 1;
+    }
+    return out + text.substr(at);
+  }
+
+  std::string fact(const std::string& name) const {
+    const bool entry = name.front() == '@';
+    const bool list = name.front() == '+';
+    const auto found = m_facts.find(entry || list ? name.substr(1) : name);
+    if (found == m_facts.end()) return {};
+    if (entry) return say(found->second);
+    if (!list) return found->second;
+    std::string joined;
+    std::size_t from = 0;
+    while (from < found->second.size()) {
+      const std::size_t comma = std::min(found->second.find(',', from), found->second.size());
+      joined += (joined.empty() ? "" : say("and")) + say(found->second.substr(from, comma - from));
+      from = comma + 1;
+    }
+    return joined;
+  }
+
+  const std::map<std::string, std::string>& m_facts;
+  const Translate& m_translate;
+};
+
+}  // namespace
+
+std::string said(const Sentence& sentence, const Translate& translate) {
+  if (!is_listed(sentence.id)) return {};
+  std::string text = Speaker(sentence, translate).say(sentence.id);
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+std::string plain_name(const std::string& effect_id) {
+  if (is_listed(effect_id)) return std::string(english_of(effect_id));
+  std::string name = effect_id;
+  for (char& c : name) {
+    if (c == '_') c = ' ';
+  }
+  return name;
+}
+
+std::vector<std::string> sentence_texts() {
+  std::vector<std::string> texts;
+  for (const Entry& entry : catalogue) {
+    if (!entry.english.empty()) texts.emplace_back(entry.english);
+  }
+  return texts;
+}
+
+nlohmann::json to_json(const Sentence& sentence) {
+  return {{"id", sentence.id}, {"facts", sentence.facts}};
+}
+
+Sentence sentence_from_json(const nlohmann::json& document) {
+  Sentence sentence;
+  if (!document.is_object()) return sentence;
+  sentence.id = document.value("id", "");
+  sentence.facts = document.value("facts", std::map<std::string, std::string>{});
+  sentence.english = said(sentence);
+  return sentence;
+}
+
+}  // namespace zerodrift::diagnosis

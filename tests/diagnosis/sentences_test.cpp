@@ -1,0 +1,52 @@
+#include "core/diagnosis/sentences.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/diagnosis/explain.h"
+#include "core/physics/effects/effect.h"
+
+namespace zerodrift::diagnosis {
+
+TEST(Sentences, AreMadeFromIdsAndFactsInAnyLanguage) {
+  const Sentence sentence{"verdict_missing_effect", {{"effects", "coolant,sensor_lag"}}, ""};
+  EXPECT_EQ(said(sentence), "The simulation left out cooling by the coolant and a sensor that answers late.");
+  const Translate dutch = [](const std::string& text) -> std::string {
+    if (text == "The simulation left out {+effects}.") return "Vergeten: {+effects}.";
+    if (text == " and ") return " en ";
+    return text == "cooling by the coolant" ? "koeling" : "een trage sensor";
+  };
+  EXPECT_EQ(said(sentence, dutch), "Vergeten: koeling en een trage sensor.");
+  EXPECT_EQ(said(sentence_from_json(to_json(sentence)), dutch), "Vergeten: koeling en een trage sensor.");
+  EXPECT_EQ(said({"no_such_sentence", {}, ""}), "");
+}
+
+TEST(Sentences, EveryEffectOfTheLibraryHasAName) {
+  for (const auto* effect : physics::all_effects()) {
+    const std::string id(effect->id);
+    std::string blanks = id;
+    std::replace(blanks.begin(), blanks.end(), '_', ' ');
+    if (id == "convection") continue;
+    EXPECT_NE(plain_name(id), blanks) << id;
+  }
+}
+
+TEST(Sentences, AnEffectIsToldWithUnitsAndUncertainty) {
+  FoundEffect effect;
+  effect.id = "coolant";
+  effect.parameters = {{"h_W_m2K", 78.62}, {"temperature_C", 20.36}, {"from_mm", 296.0}, {"to_mm", 379.0}};
+  effect.sigma = {{"h_W_m2K", 4.1}, {"temperature_C", 0.22}};
+  Mismatch mismatch;
+  mismatch.regime = "while the coolant runs";
+  const Sentence s = explain_effect(effect, mismatch, 0.96, 3.1, "T1_C");
+  EXPECT_EQ(s.english.find("While the coolant runs, T1_C is 3.1 K (rms) off the best simulation without it. Adding "
+                           "cooling by the coolant between 296 and 379 mm (h = 78.6 ± 4.1 W/m²K, T = 20.36 ± 0.22 °C) "
+                           "removes 96 % of that."),
+            0u)
+      << s.english;
+  EXPECT_EQ(s.english.find('{'), std::string::npos);
+}
+
+}  // namespace zerodrift::diagnosis
