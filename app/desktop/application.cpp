@@ -273,7 +273,7 @@ void Application::updateLamps() {
 }
 
 void Application::undo() {
-  if (auto* now = presenter(m_open)) QMetaObject::invokeMethod(now, "undo");
+  if (auto* now = presenter(m_open)) now->undo();
 }
 
 void Application::dropped(const QStringList& paths) {

@@ -1,13 +1,14 @@
 #include "app/desktop/physics_search.h"
 
 #include <QProcess>
-#include <QTemporaryDir>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.h"
 #include "core/base/json.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/physics/simulate.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::desktop {
@@ -45,20 +46,23 @@ Status write_trial_case(const QString& program, const QString& folder, int seed,
   return fail(ErrorCode::file_unreadable, {{"file", program.toStdString()}, {"detail", words.trimmed().toStdString()}});
 }
 
+std::filesystem::path file_in(const TrialCase& trial, const char* name) {
+  return trial.folder->filePath(QString::fromLatin1(name)).toStdString();
+}
+
 }  // namespace
 
-Result<NewArtefact> judged(const commissioning::Job& job, const std::string& effect, bool adopted, bool rejected) {
+Judgements judgements_of(const json& body) {
+  if (!body.is_object()) return {};
+  return {body.value("adopted", std::vector<std::string>{}), body.value("rejected", std::vector<std::string>{})};
+}
+
+Result<NewArtefact> judged(const commissioning::Job& job, const Judgements& judgements) {
   ZD_TRY(const auto artefact, job.latest("physics"));
   if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "physics"}, {"needs", "physics"}});
   ZD_TRY(json body, artefact->document());
-  const auto put = [&](const char* list, bool inside) {
-    auto ids = body.value(list, std::vector<std::string>{});
-    std::erase(ids, effect);
-    if (inside) ids.push_back(effect);
-    body[list] = ids;
-  };
-  put("adopted", adopted);
-  put("rejected", rejected);
+  body["adopted"] = judgements.adopted;
+  body["rejected"] = judgements.rejected;
   NewArtefact made;
   made.kind = artefact->kind;
   made.body = body.dump();
@@ -70,34 +74,53 @@ Result<NewArtefact> judged(const commissioning::Job& job, const std::string& eff
   return made;
 }
 
-Result<Trial> blind_trial(const QString& program, int seed, const TaskContext& context) {
-  const QTemporaryDir folder;
-  ZD_CHECK(write_trial_case(program, folder.path(), seed, context));
-  const auto file = [&](const char* name) { return folder.filePath(QString::fromLatin1(name)).toStdString(); };
-  ZD_TRY(const auto machine, physics::read_machine(file("machine.json")));
-  std::vector<recording::Recording> runs(2);
-  ZD_TRY(runs[0], recording::read_recording(file("run.csv")));
-  ZD_TRY(runs[1], recording::read_recording(file("second.csv")));
+Result<TrialCase> make_trial(const QString& program, int seed, const TaskContext& context) {
+  TrialCase trial;
+  trial.folder = std::make_shared<QTemporaryDir>();
+  ZD_CHECK(write_trial_case(program, trial.folder->path(), seed, context));
+  ZD_TRY(const json commitment, read_json_file(file_in(trial, "commitment.json")));
+  trial.seal = commitment.value("sha256", "");
+  ZD_TRY(const auto machine, physics::read_machine(file_in(trial, "machine.json")));
+  ZD_TRY(trial.recorded, recording::read_recording(file_in(trial, "run.csv")));
+  ZD_TRY(auto simulation, physics::simulate(machine, trial.recorded, context));
+  trial.simulated = std::move(simulation.prediction);
+  return trial;
+}
+
+Result<TrialAnswer> answer_trial(const TrialCase& trial, const TaskContext& context) {
+  ZD_TRY(const auto machine, physics::read_machine(file_in(trial, "machine.json")));
+  std::vector<recording::Recording> runs = {trial.recorded};
+  ZD_TRY(runs.emplace_back(), recording::read_recording(file_in(trial, "second.csv")));
   diagnosis::DiagnoseOptions options;
   options.details = false;
   ZD_TRY(const Diagnosis found, diagnosis::diagnose(machine, runs, options, context));
-  Trial trial;
-  trial.answer = !found.effects.empty()                            ? found.effects.front().id
-                 : found.verdict == diagnosis::Verdict::consistent ? "none"
-                                                                   : "unexplained";
+  TrialAnswer answer;
+  if (found.verdict == diagnosis::Verdict::missing_effect) {
+    for (const auto& effect : found.effects) answer.effects += (answer.effects.empty() ? "" : "+") + effect.id;
+    if (!found.effects.empty()) answer.confidence = found.effects.front().confidence;
+  } else {
+    answer.effects = found.verdict == diagnosis::Verdict::consistent ? "none" : "unexplained";
+  }
   if (!found.held_out.empty()) {
     const double before = pooled(found.held_out.front().nominal);
-    if (before > 0) trial.improvement_percent = 100.0 * (1.0 - pooled(found.held_out.front().explained) / before);
+    if (before > 0) answer.improvement_percent = 100.0 * (1.0 - pooled(found.held_out.front().explained) / before);
   }
-  // Only now, with the answer given, the seal is opened.
-  ZD_TRY(const json answer, read_json_file(file("answer.json")));
-  ZD_TRY(const json commitment, read_json_file(file("commitment.json")));
-  const std::string promised = commitment.value("sha256", "");
-  trial.sealed = promised == sha256_hex(answer.value("salt", "") + answer.value("committed_text", ""));
-  const json hidden = answer.value("answer", json::object());
-  trial.hidden = hidden.value("id", "");
-  if (trial.hidden.empty()) trial.hidden = "none";
-  return trial;
+  answer.refined.time_s = found.time_s;
+  for (const auto& channel : found.channels) answer.refined.ensure(channel.channel).values = channel.explained;
+  return answer;
+}
+
+Result<OpenedSeal> open_trial(const TrialCase& trial) {
+  ZD_TRY(const json answer, read_json_file(file_in(trial, "answer.json")));
+  OpenedSeal opened;
+  opened.kept = trial.seal == sha256_hex(answer.value("salt", "") + answer.value("committed_text", ""));
+  opened.hidden = answer.value("answer", json::object()).value("id", "none");
+  return opened;
+}
+
+bool same_effect(const std::string& hidden, const std::string& answer) {
+  const std::string first = answer.substr(0, answer.find('+'));
+  return first == hidden || (hidden == "standing_heat" && first == "extra_heat_source");
 }
 
 }  // namespace zerodrift::desktop

@@ -242,6 +242,23 @@ QString effect_name(const std::string& id) {
   return name;
 }
 
+QString effects_in_words(const std::string& ids) {
+  QStringList names;
+  for (const QString& id : QString::fromStdString(ids).split(QLatin1Char('+'))) names << effect_name(id.toStdString());
+  return names.join(QStringLiteral(", "));
+}
+
+QVector<ui::TrialCurve> trial_curves(const Recording& recorded, const Recording& simulated, const Recording& refined) {
+  QVector<ui::TrialCurve> curves;
+  for (const auto& channel : recorded.channels) {
+    if (channel.kind() != recording::ChannelKind::temperature || simulated.find(channel.name) == nullptr) continue;
+    curves.append({short_tag(channel.name), QVector<double>(recorded.time_s.begin(), recorded.time_s.end()),
+                   values_of(recorded, channel.name), values_of(simulated, channel.name),
+                   values_of(refined, channel.name)});
+  }
+  return curves;
+}
+
 Compared compared_of(const commissioning::Job& job) {
   Compared runs;
   const auto warmup = flow::need(job, "physics", "warmup");

@@ -34,5 +34,10 @@ QString sentence_of(const nlohmann::json& stored, const std::string& english);
 QString sentences_of(const nlohmann::json& body);
 /// "extra_heat_source" as words.
 QString effect_name(const std::string& id);
+/// "coolant+sensor_lag" as words.
+QString effects_in_words(const std::string& ids);
+/// The temperatures of a blind trial's run; `refined` may be empty.
+QVector<ui::TrialCurve> trial_curves(const recording::Recording& recorded, const recording::Recording& simulated,
+                                     const recording::Recording& refined);
 
 }  // namespace zerodrift::desktop

@@ -83,8 +83,18 @@ QWidget* PhysicsPage::makeTrial() {
   auto* trialLayout = new QVBoxLayout(trial);
   m_trialWords = new WrapLabel(trial);
   m_trials = new DataTable(trial);
+  m_trialPlot = new LivePlot(trial);
+  m_trialLegend = new LegendRow(trial);
+  trialLayout->setSpacing(6);
   trialLayout->addWidget(m_trialWords);
-  trialLayout->addWidget(m_trials, 1);
+  constexpr int steps = 4;
+  for (int i = 0; i < steps; ++i) {
+    m_trialSteps.append(new WrapLabel(trial));
+    trialLayout->addWidget(m_trialSteps.last());
+  }
+  trialLayout->addWidget(m_trialLegend);
+  trialLayout->addWidget(m_trialPlot, 3);
+  trialLayout->addWidget(m_trials, 2);
   return trial;
 }
 
@@ -159,7 +169,11 @@ PageAction PhysicsPage::primary() const {
 
 QVector<PageAction> PhysicsPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
-  QVector<PageAction> actions = {{"trial", tr("Blind trial")}, {"region", tr("Find sensor region")}};
+  const bool toOpen = m_state.trial.stage == TrialStage::answered;
+  const bool running = m_state.trial.stage == TrialStage::sealed || m_state.trial.stage == TrialStage::searching;
+  QVector<PageAction> actions = {{"trial", toOpen ? tr("Open the seal") : tr("Blind trial"), !running,
+                                  running ? tr("A blind trial is running.") : QString()},
+                                 {"region", tr("Find sensor region")}};
   if (m_state.verdict != PhysicsVerdict::none) actions.append({"find", tr("Search again")});
   return actions;
 }
@@ -314,11 +328,12 @@ void PhysicsPage::renderExplanations() {
 void PhysicsPage::renderTrials() {
   const auto right =
       std::count_if(m_state.trials.begin(), m_state.trials.end(), [](const TrialScore& t) { return t.right; });
-  m_trialWords->setText(
-      m_state.trials.isEmpty()
-          ? tr("One effect is hidden in a made recording and its name sealed. The search must name it. "
-               "Start with Blind trial above.")
-          : tr("%1 of %2 hidden effects named correctly.").arg(right).arg(m_state.trials.size()));
+  m_trialWords->setText(m_state.trials.isEmpty()
+                            ? tr("The virtual machine hides one effect and seals its name. Watch the run, see what the "
+                                 "search answers, then "
+                                 "open the seal. Start with Blind trial above.")
+                            : tr("%1 of %2 hidden effects named correctly.").arg(right).arg(m_state.trials.size()));
+  m_trials->setVisible(!m_state.trials.isEmpty());
   m_trials->setColumns({{tr("Hidden"), 0, false, {}},
                         {tr("Answer"), 0, false, {}},
                         {tr("Result"), 110, false, {}},
@@ -333,6 +348,71 @@ void PhysicsPage::renderTrials() {
                  DataCell{QString::number(trial.improvement_percent, 'f', 0) + " %"}});
   }
   m_trials->setRows(rows);
+  renderTrial();
+}
+
+void PhysicsPage::renderTrial() {
+  const BlindTrial& trial = m_state.trial;
+  const bool begun = trial.stage != TrialStage::none;
+  const bool answered = trial.stage == TrialStage::answered || trial.stage == TrialStage::opened;
+  const bool opened = trial.stage == TrialStage::opened;
+  const QString pending = tr("to come");
+  const QStringList words = {tr("1. Sealed: %1").arg(trial.seal),
+                             tr("2. Run watched: %1 %").arg(100.0 * trial.shown, 0, 'f', 0),
+                             tr("3. Answer: %1")
+                                 .arg(answered                               ? trial.answer
+                                      : trial.stage == TrialStage::searching ? tr("searching")
+                                                                             : pending),
+                             opened ? tr("4. Seal opened: %1 was hidden. The answer is %2; %3.")
+                                          .arg(trial.hidden, trial.right ? tr("right") : tr("wrong"),
+                                               trial.kept ? tr("the promise was kept") : tr("the promise was broken"))
+                                    : tr("4. Seal: %1").arg(answered ? tr("press Open the seal") : pending)};
+  for (int i = 0; i < m_trialSteps.size(); ++i) {
+    QLabel* step = m_trialSteps[i];
+    step->setVisible(begun);
+    step->setText(words[i]);
+    const bool last = i == m_trialSteps.size() - 1;
+    step->setProperty("role", last && opened       ? (trial.right && trial.kept ? "ok" : "bad")
+                              : i == 2 && answered ? "strong"
+                                                   : "muted");
+    step->style()->unpolish(step);
+    step->style()->polish(step);
+  }
+  m_trialPlot->setVisible(begun);
+  m_trialLegend->setVisible(begun);
+  if (begun) renderTrialCurves();
+}
+
+void PhysicsPage::renderTrialCurves() {
+  const Colors& c = colors();
+  const bool refined = m_state.trial.stage == TrialStage::answered || m_state.trial.stage == TrialStage::opened;
+  QVector<Curve> curves;
+  const auto add = [&](const QString& id, const QString& tag, const QColor& color, bool dashed) {
+    Curve curve;
+    curve.id = id;
+    curve.tag = tag;
+    curve.unit = QStringLiteral("°C");
+    curve.color = color;
+    curve.dashed = dashed;
+    curves.append(curve);
+  };
+  for (const TrialCurve& one : m_state.trial.curves) {
+    add(one.tag + "/r", one.tag, c.text, false);
+    add(one.tag + "/s", tr("%1 simulated").arg(one.tag), c.bad, true);
+    if (refined) add(one.tag + "/a", tr("%1 with the answer").arg(one.tag), c.ok, false);
+  }
+  m_trialPlot->setCurves(curves);
+  for (const TrialCurve& one : m_state.trial.curves) {
+    const auto count =
+        static_cast<qsizetype>(std::lround(m_state.trial.shown * static_cast<double>(one.time_s.size())));
+    const QVector<double> time_s = one.time_s.first(count);
+    m_trialPlot->setData(one.tag + "/r", time_s, one.recorded.first(std::min(count, one.recorded.size())));
+    m_trialPlot->setData(one.tag + "/s", time_s, one.simulated.first(std::min(count, one.simulated.size())));
+    if (refined) m_trialPlot->setData(one.tag + "/a", time_s, one.refined.first(std::min(count, one.refined.size())));
+  }
+  QVector<LegendItem> legend = {{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}};
+  if (refined) legend.append({tr("with the answer"), c.ok});
+  m_trialLegend->setItems(legend);
 }
 
 }  // namespace zerodrift::ui

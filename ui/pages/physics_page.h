@@ -58,6 +58,34 @@ struct Explanation {
   QString couldDetect{};  // "would have shown down to 8 W"
 };
 
+/// A channel of the run that is watched in a blind trial.
+struct TrialCurve {
+  QString tag{};
+  QVector<double> time_s{};
+  QVector<double> recorded{};
+  QVector<double> simulated{};
+  QVector<double> refined{};  // with the answer
+};
+
+enum class TrialStage {
+  none,
+  sealed,  // an effect is hidden, its name promised; the run is watched
+  searching,
+  answered,
+  opened,
+};
+
+struct BlindTrial {
+  TrialStage stage = TrialStage::none;
+  QString seal{};  // SHA-256
+  QVector<TrialCurve> curves{};
+  double shown = 1.0;  // share of the run that has been watched
+  QString answer{};
+  QString hidden{};
+  bool right = false;
+  bool kept = true;  // the opened answer fits the promise
+};
+
 struct TrialScore {
   QString effect{};  // concealed
   QString answer{};
@@ -83,6 +111,7 @@ struct PhysicsState {
   QVector<Explanation> explanations{};
   QString nextExperiment{};  // one sentence; empty: none needed
   QVector<TrialScore> trials{};
+  BlindTrial trial{};
   double rmse_K = std::numeric_limits<double>::quiet_NaN();
   double noise_K = std::numeric_limits<double>::quiet_NaN();
   double missing_W = std::numeric_limits<double>::quiet_NaN();
@@ -103,7 +132,7 @@ class PhysicsPage : public Page {
   QString sentence() const override;
   /// Find what is missing; afterwards Go on.
   PageAction primary() const override;
-  /// "find" again, "region", "trial".
+  /// "find" again, "region", "trial" (starts one, or opens the seal of the one that was answered).
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
@@ -126,6 +155,8 @@ class PhysicsPage : public Page {
   void renderChannel();
   void renderExplanations();
   void renderTrials();
+  void renderTrial();
+  void renderTrialCurves();
   QVector<Figure> figures() const;
 
   PhysicsState m_state;
@@ -142,6 +173,9 @@ class PhysicsPage : public Page {
   ChannelTable* m_channelTable;
   DataTable* m_trials;
   QLabel* m_trialWords;
+  LivePlot* m_trialPlot;
+  LegendRow* m_trialLegend;
+  QVector<QLabel*> m_trialSteps;
   QLabel* m_verdict;
   QScrollArea* m_scroll;
   QVBoxLayout* m_explanationLayout;

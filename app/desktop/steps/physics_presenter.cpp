@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QDir>
+#include <QRandomGenerator>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +15,9 @@ namespace zerodrift::desktop {
 using nlohmann::json;
 
 namespace {
+
+constexpr int watch_ms = 5000;  // a run of hours is watched in so long
+constexpr int watch_tick_ms = 100;
 
 ui::PhysicsVerdict verdict_of(const std::string& name) {
   if (name == "consistent") return ui::PhysicsVerdict::consistent;
@@ -53,6 +57,8 @@ void fill_search(const json& body, ui::PhysicsState& state) {
 }  // namespace
 
 PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Presenter(bench, page), m_page(page) {
+  m_watching.setInterval(watch_tick_ms);
+  connect(&m_watching, &QTimer::timeout, this, &PhysicsPresenter::watchTrial);
   connect(page, &ui::PhysicsPage::componentChosen, this, [this](int index) {
     m_component = index;
     refresh();
@@ -82,34 +88,109 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
 void PhysicsPresenter::find(std::function<void(bool good)> done) {
   const auto* job = bench().job();
   if (job == nullptr) return;
+  m_undo.clear();  // judgements of explanations that are made anew
   runStep(
       tr("Looking for what the simulation lacks"),
       [job](const TaskContext& context) { return flow::find_missing(*job, context); }, std::move(done));
 }
 
 void PhysicsPresenter::judge(const QString& effect, bool adopt, bool reject) {
+  const Judgements before = judgements_of(bench().body("physics"));
+  Judgements after = before;
+  const std::string id = effect.toStdString();
+  const auto put = [&id](std::vector<std::string>& ids, bool inside) {
+    std::erase(ids, id);
+    if (inside) ids.push_back(id);
+  };
+  put(after.adopted, adopt);
+  put(after.rejected, reject);
+  m_undo.push_back(before);
+  keepJudgements(after);
+}
+
+void PhysicsPresenter::keepJudgements(const Judgements& judgements) {
   if (bench().job() == nullptr) return;
-  const auto made = judged(*bench().job(), effect.toStdString(), adopt, reject);
+  const auto made = judged(*bench().job(), judgements);
   const Status kept = made ? bench().keep(*made) : Status(fail(made.error()));
   if (!kept) show(kept.error());
 }
 
+void PhysicsPresenter::undo() {
+  if (m_undo.empty()) return;
+  const Judgements before = m_undo.back();
+  m_undo.pop_back();
+  keepJudgements(before);
+}
+
 void PhysicsPresenter::tryBlind() {
   m_page->showView(2);
+  if (m_shownTrial.stage == ui::TrialStage::answered) {
+    openTrial();
+    return;
+  }
   const QString program = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
-  const int seed = m_nextTrial++;
-  runTask<Trial>(
-      tr("Blind trial %1").arg(seed),
-      [program, seed](const TaskContext& context) { return blind_trial(program, seed, context); },
-      [this](Result<Trial> trial) {
-        if (trial) {
-          m_trials.push_back(*trial);
-          bench().log(LogKind::note, tr("Blind trial: hidden %1, answered %2, seal %3")
-                                         .arg(effect_name(trial->hidden), effect_name(trial->answer),
-                                              trial->sealed ? tr("whole") : tr("broken")));
+  const int seed = QRandomGenerator::global()->bounded(1, 1 << 20);  // nobody knows what will be hidden
+  runTask<TrialCase>(
+      tr("Blind trial"), [program, seed](const TaskContext& context) { return make_trial(program, seed, context); },
+      [this](Result<TrialCase> made) {
+        if (!made) return;
+        m_trial = std::move(*made);
+        m_shownTrial = {};
+        m_shownTrial.stage = ui::TrialStage::sealed;
+        m_shownTrial.seal = QString::fromStdString(m_trial.seal);
+        m_shownTrial.curves = trial_curves(m_trial.recorded, m_trial.simulated, {});
+        m_shownTrial.shown = 0.0;
+        bench().log(LogKind::note, tr("Blind trial: sealed %1").arg(m_shownTrial.seal));
+        m_watching.start();
+        refresh();
+      });
+}
+
+void PhysicsPresenter::watchTrial() {
+  m_shownTrial.shown = std::min(1.0, m_shownTrial.shown + static_cast<double>(watch_tick_ms) / watch_ms);
+  if (m_shownTrial.shown >= 1.0) {
+    m_watching.stop();
+    whenIdle([this] { searchTrial(); });
+  }
+  refresh();
+}
+
+void PhysicsPresenter::searchTrial() {
+  m_shownTrial.stage = ui::TrialStage::searching;
+  refresh();
+  runTask<TrialAnswer>(
+      tr("Searching what is hidden"),
+      [trial = m_trial](const TaskContext& context) { return answer_trial(trial, context); },
+      [this](Result<TrialAnswer> answer) {
+        m_shownTrial.stage = answer ? ui::TrialStage::answered : ui::TrialStage::none;
+        if (answer) {
+          m_trialAnswer = std::move(*answer);
+          m_shownTrial.answer = effects_in_words(m_trialAnswer.effects);
+          if (m_trialAnswer.confidence > 0) {
+            m_shownTrial.answer += tr(", %1 %").arg(100.0 * m_trialAnswer.confidence, 0, 'f', 0);
+          }
+          m_shownTrial.curves = trial_curves(m_trial.recorded, m_trial.simulated, m_trialAnswer.refined);
         }
         refresh();
       });
+}
+
+void PhysicsPresenter::openTrial() {
+  const auto opened = open_trial(m_trial);
+  if (!opened) {
+    show(opened.error());
+    return;
+  }
+  m_shownTrial.stage = ui::TrialStage::opened;
+  m_shownTrial.hidden = effect_name(opened->hidden);
+  m_shownTrial.right = same_effect(opened->hidden, m_trialAnswer.effects);
+  m_shownTrial.kept = opened->kept;
+  m_trials.append({m_shownTrial.hidden, effects_in_words(m_trialAnswer.effects), m_shownTrial.right,
+                   m_trialAnswer.improvement_percent});
+  bench().log(LogKind::note,
+              tr("Blind trial: hidden %1, answered %2, seal %3")
+                  .arg(m_shownTrial.hidden, m_trials.last().answer, opened->kept ? tr("whole") : tr("broken")));
+  refresh();
 }
 
 void PhysicsPresenter::proposePlan() {
@@ -163,10 +244,8 @@ void PhysicsPresenter::refresh() {
       fill_explanations(body, runs, state);
     }
   }
-  for (const auto& trial : m_trials) {
-    state.trials.append({effect_name(trial.hidden), effect_name(trial.answer), trial.hidden == trial.answer,
-                         trial.improvement_percent});
-  }
+  state.trials = m_trials;
+  state.trial = m_shownTrial;
   m_page->setState(state);
 }
 

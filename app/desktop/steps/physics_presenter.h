@@ -1,14 +1,12 @@
 #pragma once
 // The physics page: simulation over recording, where heat is missing, what explains it, blind trials.
 
+#include <QTimer>
+
 #include "app/desktop/physics_search.h"
 #include "app/desktop/presenter.h"
 #include "core/acquisition/plan.h"
-
-namespace zerodrift::ui {
-class PhysicsPage;
-struct PhysicsState;
-}  // namespace zerodrift::ui
+#include "ui/pages/physics_page.h"
 
 namespace zerodrift::desktop {
 
@@ -19,6 +17,7 @@ class PhysicsPresenter : public Presenter {
   PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page);
   void refresh() override;
   void tour(std::function<void(bool good)> done) override;
+  void undo() override;
 
  Q_SIGNALS:
   /// The run that would decide between rivals, for the plan editor.
@@ -27,13 +26,22 @@ class PhysicsPresenter : public Presenter {
  private:
   void find(std::function<void(bool good)> done);
   void judge(const QString& effect, bool adopt, bool reject);
+  void keepJudgements(const Judgements& judgements);
   void tryBlind();
+  void watchTrial();
+  void searchTrial();
+  void openTrial();
   void proposePlan();
 
   ui::PhysicsPage* m_page;
   int m_component = 0;
-  int m_nextTrial = 1;
-  std::vector<Trial> m_trials;
+  std::vector<Judgements> m_undo;
+  // The blind trial on the screen, and those that were opened.
+  QTimer m_watching;
+  TrialCase m_trial;
+  TrialAnswer m_trialAnswer;
+  ui::BlindTrial m_shownTrial;
+  QVector<ui::TrialScore> m_trials;
 };
 
 }  // namespace zerodrift::desktop

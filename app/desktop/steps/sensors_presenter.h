@@ -18,7 +18,7 @@ class SensorsPresenter : public Presenter {
   void refresh() override;
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
-  void undo();
+  void undo() override;
 
  private:
   void run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done);

@@ -21,7 +21,7 @@ class WarmupPresenter : public Presenter {
   WarmupPresenter(Workbench& bench, ui::WarmupPage* page);
   void refresh() override;
   void tour(std::function<void(bool good)> done) override;
-  void undo();
+  void undo() override;
   void setPlan(const acquisition::Plan& plan);
   /// A further run, planned elsewhere.
   void propose(const acquisition::Plan& plan);
