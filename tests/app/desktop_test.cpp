@@ -7,6 +7,8 @@
 #include <QTest>
 
 #include "app/desktop/application.h"
+#include "app/desktop/physics_search.h"
+#include "app/desktop/physics_view.h"
 #include "ui/widgets/empty_state.h"
 
 using zerodrift::desktop::Application;
@@ -54,6 +56,28 @@ class DesktopTest : public QObject {
       application.openPage(presenter->id());
       QVERIFY2(presenter->page()->problem().sentence.isEmpty(), qPrintable(presenter->id()));
     }
+  }
+
+  /// The name stays under its seal until the answer is given; then the promise can be checked.
+  void blindTrial() {
+    using namespace zerodrift::desktop;
+    const QString program = QStringLiteral(ZERODRIFT_BIN_DIR) + QStringLiteral("/zerodrift-machine");
+    const auto trial = make_trial(program, 5, {});
+    QVERIFY(trial.has_value());
+    QCOMPARE(trial->seal.size(), std::size_t{64});
+    QCOMPARE(trial->simulated.rows(), trial->recorded.rows());
+    QVERIFY(!trial_curves(trial->recorded, trial->simulated, {}).isEmpty());
+    const auto answer = answer_trial(*trial, {});
+    QVERIFY(answer.has_value());
+    QVERIFY(!answer->effects.empty());
+    const auto opened = open_trial(*trial);
+    QVERIFY(opened.has_value());
+    QVERIFY(opened->kept);
+    QVERIFY(!opened->hidden.empty());
+    TrialCase forged = *trial;
+    forged.seal[0] = forged.seal[0] == '0' ? '1' : '0';
+    QVERIFY(!open_trial(forged)->kept);
+    QVERIFY(!make_trial(QStringLiteral("/no/such/program"), 5, {}).has_value());
   }
 
   void damagedJob_data() {

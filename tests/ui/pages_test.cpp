@@ -40,6 +40,7 @@ class PagesTest : public QObject {
   void uploadIsLockedByAWrongSign();
   void verifyProposesTheCorrection();
   void physicsAdoptsAndRejects();
+  void blindTrialIsOpenedLast();
   void axisRefusesATableThatTurnsBack();
   void everyPageSurvivesNewLanguageAndNothing();
 };
@@ -202,6 +203,23 @@ void PagesTest::verifyProposesTheCorrection() {
   QSignalSpy threshold(&page, &VerifyPage::thresholdChanged);
   page.findChild<QDoubleSpinBox*>("threshold")->setValue(4.5);
   QCOMPARE(threshold.count(), 1);
+}
+
+void PagesTest::blindTrialIsOpenedLast() {
+  PhysicsPage page;
+  samples::fillPhysics(&page, "trial");
+  PhysicsState state = page.state();
+  const auto trialAction = [&] { return page.secondary().first(); };
+  state.trial.stage = TrialStage::sealed;
+  page.setState(state);
+  QVERIFY(!trialAction().enabled);
+  state.trial.stage = TrialStage::answered;
+  page.setState(state);
+  QVERIFY(trialAction().enabled);
+  QCOMPARE(trialAction().text, QStringLiteral("Open the seal"));
+  state.trial.stage = TrialStage::opened;
+  page.setState(state);
+  QCOMPARE(trialAction().text, QStringLiteral("Blind trial"));
 }
 
 void PagesTest::physicsAdoptsAndRejects() {
