@@ -56,8 +56,7 @@ Result<std::vector<std::string>> nearest_order(const TrainingSet& set) {
   Eigen::MatrixXd full(x.cols(), set.error_um.cols());  // um/K of every sensor, one column an error
   for (const auto& group : error_groups(set)) {
     const Rows rows = rows_of(set, x, group.samples, group.errors.front());
-    ZD_TRY(const std::vector<RidgeFit> fits,
-           fit_rows(rows, errors_at(set, group, group.samples), Method::ridge, set.duration_s(), noise_C));
+    ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(rows, errors_at(set, group, group.samples), all, set));
     for (std::size_t g = 0; g < fits.size(); ++g) full.col(group.errors[g]) = fits[g].raw_coefficients();
   }
   const Eigen::MatrixXd covariance = moment * full;  // of every sensor with the full model's predictions

@@ -6,33 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/analysis/budget.h"
 #include "core/analysis/cleaning.h"
+#include "core/analysis/regressions.h"
 
 namespace zerodrift::analysis {
 namespace {
-
-/// Textbook multiple linear regression in the clothes of the other methods.
-RidgeFit multiple_linear(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
-  RidgeFit fit;
-  const auto n = static_cast<double>(y.size());
-  fit.mean = x.colwise().mean().transpose();
-  Eigen::MatrixXd z = x.rowwise() - fit.mean.transpose();
-  fit.scale = (z.colwise().squaredNorm().transpose() / n).cwiseSqrt();
-  for (double& s : fit.scale) {
-    if (!(s > 1e-9)) s = 1e9;
-  }
-  z = z * fit.scale.cwiseInverse().asDiagonal();
-  fit.intercept = y.mean();
-  const LeastSquares solution = least_squares(z, Eigen::VectorXd(y.array() - fit.intercept));
-  fit.beta = solution.coefficient;
-  const double residual = (y.array() - fit.intercept - (z * fit.beta).array()).matrix().squaredNorm();
-  fit.sigma_um = std::sqrt(residual / std::max(n - static_cast<double>(z.cols()) - 1.0, 1.0));
-  const ThinSvd svd = thin_svd(z);
-  const Eigen::ArrayXd s = svd.s.array();
-  const Eigen::ArrayXd inverse = (s > 1e-8 * s(0)).select(s.square().inverse(), 0.0);
-  fit.covariance = svd.v * inverse.matrix().asDiagonal() * svd.v.transpose();
-  return fit;
-}
 
 /// What a fold's predictions add to the figures of one error.
 struct FoldResult {
@@ -56,7 +35,9 @@ Band band_of(const std::vector<FoldResult>& folds, const std::vector<double>& de
   // Never narrower than the model's own claim; the worst cycle speaks for the next one.
   constexpr double own_claim = 1.645;
   Band band;
-  band.stated_coverage = coverage;
+  // One cycle leaves nothing out that is like another speed: the band is then the scatter about this run, and no more
+  // is claimed for it.
+  band.stated_coverage = cycles >= 2 ? coverage : 0.0;
   band.guaranteed_coverage = cycles >= 2 ? static_cast<double>(cycles) / (cycles + 1.0) : 0.0;
   band.factor = own_claim;
   for (const auto& fold : folds) band.factor = std::max(band.factor, upper_quantile(fold.studentised, coverage));
@@ -67,11 +48,35 @@ Band band_of(const std::vector<FoldResult>& folds, const std::vector<double>& de
   return band;
 }
 
+/// The room's channel: the ambient one, else the sensor that the inputs explain least.
+std::string room_of(const TrainingSet& set, const std::vector<std::string>& allowed) {
+  for (const auto& name : allowed) {
+    if (recording::kind_of(name) == recording::ChannelKind::ambient) return name;
+  }
+  for (const auto& name : spread_order(set, Method::dynamic)) {
+    if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) return name;
+  }
+  return allowed.front();
+}
+
 }  // namespace
 
 Recipe make_recipe(Method method, const std::vector<std::string>& sensors, const TrainingSet& set) {
   Recipe recipe{method, sensors, {}};
-  recipe.features = method == Method::dynamic ? dynamic_features(sensors, set.runs.front()) : static_features(sensors);
+  switch (method) {
+    case Method::dynamic:
+      recipe.features = dynamic_features(sensors, set.runs.front());
+      break;
+    case Method::arx:
+      recipe.features = arx_features(sensors, set.runs.front());
+      break;
+    case Method::greybox:
+      recipe.sensors = {room_of(set, sensors)};
+      recipe.features = greybox_features(recipe.sensors.front(), set.runs.front());
+      break;
+    default:
+      recipe.features = static_features(sensors);
+  }
   return recipe;
 }
 
@@ -85,23 +90,35 @@ Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const
   return out;
 }
 
-Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, Method method,
-                                       double duration_s, const Eigen::VectorXd& noise_C) {
+Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, const Recipe& recipe,
+                                       const TrainingSet& set) {
+  const Method method = recipe.method;
   const Eigen::Index needed = method == Method::mlr ? rows.x.cols() + 2 : 6;
   if (rows.size() < needed) {
     return fail(ErrorCode::not_enough_data, {{"what", "the regression"},
                                              {"found", fmt::format("{} measurements", rows.size())},
                                              {"needed", fmt::format("at least {}", needed)}});
   }
-  std::vector<RidgeFit> fits;
-  if (method != Method::mlr) {
-    fits = fit_ridge(rows, errors_um, default_choice(duration_s));
-    if (method == Method::ridge) {
-      for (auto& fit : fits) fit = for_noisy_readings(fit, rows.x, noise_C);
-    }
-    return fits;
+  if (method == Method::arx || method == Method::greybox) {
+    return fit_poles(rows, errors_um, pole_groups(recipe.features, method == Method::greybox), set.duration_s());
   }
-  for (Eigen::Index e = 0; e < errors_um.cols(); ++e) fits.push_back(multiple_linear(rows.x, errors_um.col(e)));
+  std::vector<RidgeFit> fits;
+  if (method == Method::ridge || method == Method::dynamic) {
+    fits = fit_ridge(rows, errors_um, default_choice(set.duration_s()));
+  } else {
+    Rows one = rows;
+    for (Eigen::Index e = 0; e < errors_um.cols(); ++e) {
+      one.y = errors_um.col(e);
+      fits.push_back(method == Method::mlr     ? fit_multiple(one.x, one.y)
+                     : method == Method::pcr   ? fit_components(one.x, one.y)
+                     : method == Method::lasso ? fit_lasso(one.x, one.y)
+                                               : fit_robust(one));
+    }
+  }
+  if (is_static(method) && method != Method::mlr) {  // the textbook's stays as it is in the textbook
+    const Eigen::VectorXd noise_C = set.feature_noise_C(recipe.features);
+    for (auto& fit : fits) fit = for_noisy_readings(fit, rows.x, noise_C);
+  }
   return fits;
 }
 
@@ -126,15 +143,14 @@ Status leave_out(const TrainingSet& set, const Recipe& recipe, const Eigen::Matr
   if (left_out.empty()) return {};
   Rows train = rows_of(set, x, in, group.errors.front());
   Rows test = rows_of(set, x, left_out, group.errors.front());
-  ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(train, errors_at(set, group, in), recipe.method, set.duration_s(),
-                                                    set.feature_noise_C(recipe.features)));
+  ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(train, errors_at(set, group, in), recipe, set));
   const Eigen::VectorXd noise_C = set.feature_noise_C(recipe.features);
   for (std::size_t g = 0; g < group.errors.size(); ++g) {
     const Eigen::Index e = group.errors[g];
     train = rows_of(set, x, in, e);
     test = rows_of(set, x, left_out, e);
     const Eigen::VectorXd predicted =
-        recipe.method == Method::dynamic ? predict_left_out(fits[g], train, test) : fits[g].predict(test.x);
+        is_static(recipe.method) ? fits[g].predict(test.x) : predict_left_out(fits[g], train, test);
     const Eigen::VectorXd deviation = fits[g].deviation(test.x);
     BandData& band = bands[static_cast<std::size_t>(e)];
     // Every fold speaks for as many samples as it has.

@@ -12,7 +12,7 @@
 namespace zerodrift::analysis {
 
 struct Recipe {
-  Method method = Method::ridge;  // mlr, ridge or dynamic
+  Method method = Method::ridge;
   std::vector<std::string> sensors;
   std::vector<FeatureSpec> features;
 };
@@ -30,10 +30,10 @@ struct Evaluation {
   double peak_um = 0.0;          // mean over the errors
 };
 
-/// Every error of a group (one column each) with the given method. Too few rows for it is not_enough_data. `noise_C` of
-/// each feature: a ridge on temperatures alone is made for a controller, which multiplies single readings.
-Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, Method method,
-                                       double duration_s, const Eigen::VectorXd& noise_C);
+/// Every error of a group (one column each) as the recipe says. Too few rows for it is not_enough_data. Static models
+/// but the textbook's are made for a controller, which multiplies single noisy readings.
+Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, const Recipe& recipe,
+                                       const TrainingSet& set);
 /// The errors of a group at some of its samples, one column each.
 Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const std::vector<int>& samples);
 

@@ -65,6 +65,65 @@ std::vector<FeatureSpec> dynamic_features(const std::vector<std::string>& sensor
   return specs;
 }
 
+namespace {
+
+/// Every input that moves through each time constant; speeds with their square.
+std::vector<FeatureSpec> filtered_inputs(const Prepared& data, const std::vector<double>& hours) {
+  std::vector<FeatureSpec> specs;
+  for (std::size_t c = 0; c < data.inputs.size(); ++c) {
+    const auto kind = recording::kind_of(data.inputs[c]);
+    const bool speed = kind == recording::ChannelKind::speed;
+    if (!speed && kind != recording::ChannelKind::coolant && kind != recording::ChannelKind::feed) continue;
+    const auto column = data.input.col(static_cast<Eigen::Index>(c));
+    const double largest = column.cwiseAbs().maxCoeff();
+    if (column.maxCoeff() - column.minCoeff() <= 1e-9 * std::max(largest, 1.0)) continue;
+    for (const double h : hours) {
+      for (int power = 1; power <= (speed ? 2 : 1); ++power) {
+        specs.push_back({data.inputs[c], h * hour_s, power, speed ? 1000.0 : largest, false});
+      }
+    }
+  }
+  return specs;
+}
+
+}  // namespace
+
+std::vector<FeatureSpec> arx_features(const std::vector<std::string>& sensors, const Prepared& data) {
+  const std::vector<double> hours{0.1, 0.25, 0.6, 1.5, 4.0};
+  std::vector<FeatureSpec> specs = filtered_inputs(data, hours);
+  for (const auto& sensor : sensors) {
+    for (const double h : hours) specs.push_back({sensor, h * hour_s, 1, 1.0, true});
+  }
+  return specs;
+}
+
+std::vector<FeatureSpec> greybox_features(const std::string& room, const Prepared& data) {
+  const std::vector<double> hours{0.05, 0.15, 0.4, 1.0, 2.5, 6.0};
+  std::vector<FeatureSpec> specs = filtered_inputs(data, hours);
+  for (const double h : hours) specs.push_back({room, h * hour_s, 1, 1.0, true});
+  return specs;
+}
+
+std::vector<std::vector<int>> pole_groups(const std::vector<FeatureSpec>& specs, bool pairs) {
+  std::vector<double> poles_s;
+  for (const auto& spec : specs) {
+    if (std::find(poles_s.begin(), poles_s.end(), spec.time_constant_s) == poles_s.end()) {
+      poles_s.push_back(spec.time_constant_s);
+    }
+  }
+  std::vector<std::vector<int>> groups;
+  for (std::size_t a = 0; a < poles_s.size(); ++a) {
+    for (std::size_t b = pairs ? a + 1 : a; b < (pairs ? poles_s.size() : a + 1); ++b) {
+      auto& group = groups.emplace_back();
+      for (std::size_t f = 0; f < specs.size(); ++f) {
+        const double tau_s = specs[f].time_constant_s;
+        if (tau_s == poles_s[a] || tau_s == poles_s[b]) group.push_back(static_cast<int>(f));
+      }
+    }
+  }
+  return groups;
+}
+
 Result<Eigen::MatrixXd> features(const Prepared& data, const std::vector<FeatureSpec>& specs,
                                  const std::vector<double>& reference_C, const FilterState* from, FilterState* end) {
   Eigen::MatrixXd out(data.rows(), static_cast<Eigen::Index>(specs.size()));

@@ -26,6 +26,13 @@ std::vector<FeatureSpec> static_features(const std::vector<std::string>& sensors
 /// Filter banks: speed n and n^2 (0.05 to 6 h), other inputs that move (0.15 to 6 h), temperatures (0 to 5 h).
 std::vector<FeatureSpec> dynamic_features(const std::vector<std::string>& sensors, const Prepared& data);
 
+/// For a first-order ARX model: every moving input and every temperature through each of a list of poles (0.1 to 4 h).
+std::vector<FeatureSpec> arx_features(const std::vector<std::string>& sensors, const Prepared& data);
+/// For the grey box: moving inputs (speed n and n^2) and the room through each of a list of time constants.
+std::vector<FeatureSpec> greybox_features(const std::string& room, const Prepared& data);
+/// Columns of the features that share one time constant, or two of them when `pairs`: the structures to choose from.
+std::vector<std::vector<int>> pole_groups(const std::vector<FeatureSpec>& specs, bool pairs);
+
 /// Where the filters and inputs stood at the end of a recording, to go on from there.
 struct FilterState {
   double time_s = 0.0;

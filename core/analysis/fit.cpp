@@ -45,7 +45,7 @@ Result<Plan> plan_for(const FitOptions& options, const std::vector<recording::Re
                       const TrainingSet& set, const TaskContext& context) {
   const bool any = options.method == Method::automatic;
   // One cycle cannot tell the answer to speed from the answer to time.
-  const bool dynamic = options.method == Method::dynamic || (any && set.folds.cycles >= 2);
+  const bool dynamic = any ? set.folds.cycles >= 2 : !is_static(options.method);
   Plan plan;
   std::vector<std::string> few = set.sensors;
   std::vector<std::string> many = set.sensors;
@@ -55,7 +55,7 @@ Result<Plan> plan_for(const FitOptions& options, const std::vector<recording::Re
       const auto most = std::min(static_cast<std::size_t>(options.max_sensors), order.size());
       many.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
     }
-    if (options.method != Method::dynamic) {
+    if (any || is_static(options.method)) {
       ChoiceOptions choice;
       choice.most = static_cast<std::size_t>(options.max_sensors);
       choice.sensitive_points = sensitive_points(recordings, set);
@@ -64,11 +64,17 @@ Result<Plan> plan_for(const FitOptions& options, const std::vector<recording::Re
     }
   }
   // Ridge first: on the controller it is as simple as the plain regression, and never worse for correlated sensors.
-  if (any || options.method == Method::ridge) plan.recipes.push_back(make_recipe(Method::ridge, few, set));
-  if (any || options.method == Method::mlr) plan.recipes.push_back(make_recipe(Method::mlr, few, set));
+  // The other ways of shrinking answer the same question and are there to be asked for: with a few cycles the best of
+  // many candidates is the luckiest (winner's curse).
+  if (any) {
+    plan.recipes.push_back(make_recipe(Method::ridge, few, set));
+    plan.recipes.push_back(make_recipe(Method::mlr, few, set));
+  } else if (is_static(options.method)) {
+    plan.recipes.push_back(make_recipe(options.method, few, set));
+  }
   if (dynamic) {
     if (!any) plan.recipes.push_back(make_recipe(Method::ridge, many, set));  // for the table
-    plan.recipes.push_back(make_recipe(Method::dynamic, many, set));
+    plan.recipes.push_back(make_recipe(any ? Method::dynamic : options.method, many, set));
   }
   return plan;
 }
@@ -81,11 +87,11 @@ Result<Trial> try_out(const TrainingSet& set, const Recipe& recipe, double cover
   c.method = recipe.method;
   c.sensors = recipe.sensors;
   c.label = fmt::format("{} on {} sensors{}", name_of(recipe.method), recipe.sensors.size(),
-                        recipe.method == Method::dynamic ? " and the inputs" : "");
+                        is_static(recipe.method) ? "" : " and the inputs");
   c.held_out_rms_um = trial.evaluation.rms_um;
   c.held_out_peak_um = trial.evaluation.peak_um;
   c.noise_um = trial.evaluation.mean_noise_um;
-  c.runs_on_controller = recipe.method != Method::dynamic;
+  c.runs_on_controller = is_static(recipe.method);
   return trial;
 }
 
@@ -134,13 +140,12 @@ Result<Fitted> fit_all(const TrainingSet& set, const Recipe& recipe) {
   const int last_run = static_cast<int>(set.runs.size()) - 1;
   for (const auto& group : error_groups(set)) {
     Rows rows = rows_of(set, x, group.samples, group.errors.front());
-    ZD_TRY(std::vector<RidgeFit> fits, fit_rows(rows, errors_at(set, group, group.samples), recipe.method,
-                                                set.duration_s(), set.feature_noise_C(recipe.features)));
+    ZD_TRY(std::vector<RidgeFit> fits, fit_rows(rows, errors_at(set, group, group.samples), recipe, set));
     for (std::size_t g = 0; g < fits.size(); ++g) {
       const auto e = static_cast<std::size_t>(group.errors[g]);
       rows.y = rows_of(set, x, group.samples, group.errors[g]).y;
       out.fit[e] = residual_figures(rows.y, fits[g].predict(rows.x));
-      if (recipe.method == Method::dynamic) {
+      if (!is_static(recipe.method)) {
         out.remembered_um[e] = remembered_um(fits[g], rows, set.runs.back().time_s.back(), last_run);
       }
       out.regressions[e] = std::move(fits[g]);
@@ -304,7 +309,7 @@ Result<Model> assemble(const TrainingSet& set, const FitOptions& options, const 
   for (const auto& sensor : model.sensors) {
     model.end_C.push_back(set.smoothed_C.back()(set.smoothed_C.back().rows() - 1, set.runs.back().sensor(sensor)));
   }
-  model.domain = domain_of(set, model.sensors, model.method == Method::dynamic);
+  model.domain = domain_of(set, model.sensors, !model.is_static());
   model.quality = quality_of(set, model.sensors, model.domain);
   add_findings(model, set);
   return model;
@@ -332,9 +337,12 @@ void add_sets(const SensorChoice& choice, Model& model) {
 Result<Model> fit(const std::vector<recording::Recording>& recordings, const FitOptions& options,
                   const TaskContext& context) {
   if (options.method == Method::physics) {
-    return fail(ErrorCode::bad_argument, {{"what", "the method"},
-                                          {"found", "physics (needs a diagnosed machine description)"},
-                                          {"expected", "auto, mlr, ridge or dynamic"}});
+    return fail(ErrorCode::bad_argument,
+                {{"what", "the method"},
+                 {"found", "physics without a machine description"},
+                 {"expected",
+                  "one: diagnose --machine M.json --recording R.csv --refined M2.json refines the "
+                  "simulation, simulate --machine M2.json --inputs R.csv predicts with it"}});
   }
   PrepareOptions prepare_options;
   prepare_options.sensors = options.sensors;

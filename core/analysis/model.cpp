@@ -10,8 +10,18 @@ std::string_view name_of(Method method) {
       return "mlr";
     case Method::ridge:
       return "ridge";
+    case Method::pcr:
+      return "pcr";
+    case Method::lasso:
+      return "lasso";
+    case Method::robust:
+      return "robust";
     case Method::dynamic:
       return "dynamic";
+    case Method::arx:
+      return "arx";
+    case Method::greybox:
+      return "greybox";
     case Method::physics:
       return "physics";
   }
@@ -19,11 +29,27 @@ std::string_view name_of(Method method) {
 }
 
 Result<Method> method_from(const std::string& name) {
-  for (const Method m : {Method::automatic, Method::mlr, Method::ridge, Method::dynamic, Method::physics}) {
+  for (const Method m : {Method::automatic, Method::mlr, Method::ridge, Method::pcr, Method::lasso, Method::robust,
+                         Method::dynamic, Method::arx, Method::greybox, Method::physics}) {
     if (name == name_of(m)) return m;
   }
   return fail(ErrorCode::bad_argument,
-              {{"what", "the method"}, {"found", name}, {"expected", "auto, mlr, ridge, dynamic or physics"}});
+              {{"what", "the method"},
+               {"found", name},
+               {"expected", "auto, mlr, ridge, pcr, lasso, robust, dynamic, arx, greybox or physics"}});
+}
+
+bool is_static(Method method) {
+  switch (method) {
+    case Method::mlr:
+    case Method::ridge:
+    case Method::pcr:
+    case Method::lasso:
+    case Method::robust:
+      return true;
+    default:
+      return false;
+  }
 }
 
 Eigen::VectorXd Model::half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x) const {

@@ -24,9 +24,16 @@ enum class Method {
   automatic,
   mlr,
   ridge,
-  dynamic,
+  pcr,      // principal components
+  lasso,    // few sensors by their penalty
+  robust,   // ridge that wild measurements do not pull
+  dynamic,  // ridge on banks of low-passes of temperatures and inputs
+  arx,      // first-order autoregressive with inputs, its pole always stable, fitted by what it simulates
+  greybox,  // state space of two time constants: powers of the speed, other inputs and the room
   physics,
 };
+/// offset + sum um_per_K (T - reference): what a controller runs itself.
+bool is_static(Method method);
 std::string_view name_of(Method method);
 Result<Method> method_from(const std::string& name);
 
@@ -47,7 +54,7 @@ struct TableTerms {
 
 /// Half-width of the band: factor * deviation of the prediction, at least half_width_um.
 struct Band {
-  double stated_coverage = 0.9;      // share of unseen errors meant to lie inside
+  double stated_coverage = 0.9;      // share of unseen errors meant to lie inside; 0: none can be stated (one cycle)
   double guaranteed_coverage = 0.0;  // n / (n + 1) with n independent cycles (split conformal); 0 when nothing is
   double factor = 0.0;
   double half_width_um = 0.0;    // typical, on the data left out
@@ -115,7 +122,7 @@ struct Model {
   RunQuality quality;
   std::vector<Finding> findings;
 
-  bool is_static() const { return method == Method::mlr || method == Method::ridge; }
+  bool is_static() const { return analysis::is_static(method); }
   /// Half-width of the band at each row of features: noise, uncertain coefficients, reading noise of the sensors.
   Eigen::VectorXd half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x) const;
   const ErrorModel* find(std::string_view error) const;

@@ -240,7 +240,8 @@ void quality_from(JsonObject& o, RunQuality& q) {
 Model model_from(JsonObject& o) {
   Model model;
   o.word("format", {format_name});
-  if (auto m = method_from(o.word("method", {"mlr", "ridge", "dynamic"}))) model.method = *m;
+  if (auto m = method_from(o.word("method", {"mlr", "ridge", "pcr", "lasso", "robust", "dynamic", "arx", "greybox"})))
+    model.method = *m;
   if (auto m = method_from(o.text_or("asked", "auto"))) model.asked = *m;
   model.reason = o.text_or("reason", "");
   model.held_out = o.text_or("held_out", "");

@@ -25,8 +25,7 @@ double largest_um_per_K(const TrainingSet& set, const std::vector<std::string>& 
   double largest = 0.0;
   for (const auto& group : error_groups(set)) {
     const Rows rows = rows_of(set, x, group.samples, group.errors.front());
-    const auto fits = *fit_rows(rows, errors_at(set, group, group.samples), Method::ridge, set.duration_s(),
-                                set.feature_noise_C(recipe.features));
+    const auto fits = *fit_rows(rows, errors_at(set, group, group.samples), recipe, set);
     for (const auto& f : fits) largest = std::max(largest, f.raw_coefficients().norm());
   }
   return largest;

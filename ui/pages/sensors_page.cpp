@@ -304,7 +304,8 @@ void SensorsPage::renderTable() {
        {tr("Sum"), 50, true, tr("Largest in its cluster: thermally sensitive point")},
        {tr("Lag"), 64, true, tr("The error follows this sensor after so many minutes")},
        {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
-       {tr("Price"), 74, true, tr("Error on unseen lost when this sensor is dropped, or won when it is added")}});
+       {tr("Price"), 74, true,
+        tr("Change of the error on unseen stretches when this sensor is dropped, or added; minus is better")}});
   QVector<QVector<DataCell>> rows;
   for (const SensorRow& s : m_state.sensors) {
     DataCell name;
@@ -319,8 +320,9 @@ void SensorsPage::renderTable() {
     DataCell price;
     price.text = QStringLiteral("–");
     if (!std::isnan(s.price_um)) {
-      price.text = QStringLiteral("%1%2 µm").arg(s.kept ? "+" : "−").arg(std::abs(s.price_um), 0, 'f', 2);
-      price.tip = s.kept ? tr("So much worse without it") : tr("So much better with it");
+      price.text = QStringLiteral("%1%2 µm").arg(s.price_um < 0.0 ? "−" : "+").arg(std::abs(s.price_um), 0, 'f', 2);
+      price.tip = s.kept ? tr("Change of the error when it is dropped; minus: better without it")
+                         : tr("Change of the error when it is added; minus: better with it");
     }
     DataCell vif = numberCell(s.vif, 1);
     if (s.vif >= 100.0) vif.text = QStringLiteral("> 99");

@@ -29,8 +29,9 @@ struct SensorRow {
   double sum = 0.0;               // as published, with sign, or of absolute values
   double lag_s = std::numeric_limits<double>::quiet_NaN();
   double vif = std::numeric_limits<double>::quiet_NaN();
-  double price_um = std::numeric_limits<double>::quiet_NaN();  // rms lost when dropped, or won when added
-  double pc1 = 0.0;                                            // place in the plane of the first two components
+  // change of the error on unseen stretches when this sensor, kept, is dropped or, left, is added
+  double price_um = std::numeric_limits<double>::quiet_NaN();
+  double pc1 = 0.0;  // place in the plane of the first two components
   double pc2 = 0.0;
   QString note{};  // "dead", "copy of T3"
 };

@@ -44,7 +44,9 @@ std::string text_of(const analysis::Model& model) {
   text += band.guaranteed_coverage > 0.0
               ? fmt::format("Band: stated {:.0f} %, guaranteed {:.0f} % (worst of {} cycles).",
                             100.0 * band.stated_coverage, 100.0 * band.guaranteed_coverage, model.quality.cycles)
-              : fmt::format("Band: stated {:.0f} %; one cycle guarantees nothing.", 100.0 * band.stated_coverage);
+              : std::string(
+                    "Band: no coverage is stated. One cycle says nothing about other speeds; the band is the scatter "
+                    "about this run. A second stretch at another speed would make it a statement.");
   return text;
 }
 
@@ -84,8 +86,8 @@ void add_fit(Cli& cli) {
   app.add_option("--sensors", options->sensors, "Channels to use, for example T1_C,T5_C, or auto")
       ->capture_default_str();
   app.add_option("--errors", options->errors, "Errors to fit, for example dX_um,dZ_um (default: all)");
-  app.add_option("--method", options->method, "auto, mlr, ridge, dynamic or physics")
-      ->check(CLI::IsMember({"auto", "mlr", "ridge", "dynamic", "physics"}))
+  app.add_option("--method", options->method, "auto, mlr, ridge, pcr, lasso, robust, dynamic, arx, greybox or physics")
+      ->check(CLI::IsMember({"auto", "mlr", "ridge", "pcr", "lasso", "robust", "dynamic", "arx", "greybox", "physics"}))
       ->capture_default_str();
   app.add_option("--max-sensors", options->max_sensors, "With --sensors auto: use at most so many (0: no limit)")
       ->check(CLI::Range(0, 1000))

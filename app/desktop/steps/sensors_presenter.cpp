@@ -102,6 +102,8 @@ void SensorsPresenter::run(int clusters, const std::vector<std::string>& chosen,
 void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   const auto chosen = body.value("chosen", std::vector<std::string>{});
   const json labels = body.value("table", json::array());
+  const json price = body.value("price", json::object());
+  const json changes = price.value("change_um", json::object());
   for (const auto& sensor : body.value("sensors", json::array())) {
     ui::SensorRow row;
     const std::string channel = sensor.value("sensor", "");
@@ -119,6 +121,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     const json lags = sensor.value("lag_s", json::object());
     row.lag_s = number(lags, "dZ_um");
     row.vif = number(sensor, "vif");
+    row.price_um = number(changes, channel.c_str());
     const json pc = sensor.value("pc", json::array());
     if (pc.size() >= 2 && pc[0].is_number() && pc[1].is_number()) {
       row.pc1 = pc[0].get<double>();
@@ -137,7 +140,14 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     state.explained2_percent = 100.0 * explained[1].get<double>();
   }
   const json condition = body.value("condition_number", json::object());
-  state.condition = number(condition, "sensitive");
+  state.condition = number(condition, "chosen");
+  state.error_um = number(price, "held_out_rms_um");
+  const double all_um = number(price, "all_rms_um");
+  if (all_um > 0.0) state.lost_percent = 100.0 * (state.error_um / all_um - 1.0);
+  for (const auto& point : body.value("budget", json::array())) {
+    state.budgetCount.append(number(point, "sensors"));
+    state.budgetError_um.append(number(point, "held_out_rms_um"));
+  }
 }
 
 void SensorsPresenter::fillSeries(ui::SensorsState& state) const {
@@ -161,15 +171,6 @@ void SensorsPresenter::refresh() {
   } else if (const json body = bench().body("sensors"); body.is_object()) {
     fill(state, body);
     fillSeries(state);
-    const json model = bench().body("model");
-    double worst = std::nan("");
-    if (model.is_object()) {
-      for (const auto& figure : model.value("figures", json::array())) {
-        const double rms = number(figure, "rms_held_out_um");
-        if (!(rms <= worst)) worst = rms;
-      }
-    }
-    state.error_um = worst;
   }
   m_page->setState(state);
 }

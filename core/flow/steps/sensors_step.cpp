@@ -3,14 +3,70 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/analysis/budget.h"
 #include "core/analysis/clustering.h"
 #include "core/analysis/sensor_choice.h"
+#include "core/analysis/statistics.h"
 #include "core/analysis/training.h"
 #include "core/flow/steps/inputs.h"
 
 namespace zerodrift::flow {
 
 using nlohmann::json;
+
+namespace {
+
+constexpr auto judged_by = analysis::Method::ridge;  // what a controller's table is fitted with
+constexpr int longest_budget = 12;
+
+using Names = std::vector<std::string>;
+
+/// What the kept sensors leave on unseen stretches, what all would, and what each one is worth: kept, by how much the
+/// error rises without it; left, by how much it changes with it.
+Result<json> price_of(const analysis::TrainingSet& training, const Names& chosen, const TaskContext& context) {
+  ZD_TRY(const auto now, analysis::price_set(training, judged_by, chosen, context));
+  ZD_TRY(const auto all, analysis::price_set(training, judged_by, training.sensors, context));
+  json prices = json::object();
+  for (const auto& sensor : training.sensors) {
+    Names other = chosen;
+    const bool kept = std::erase(other, sensor) > 0;
+    if (!kept) other.push_back(sensor);
+    if (other.empty()) continue;
+    ZD_TRY(const auto changed, analysis::price_set(training, judged_by, other, context));
+    prices[sensor] = changed.held_out_rms_um - now.held_out_rms_um;
+  }
+  return json{{"held_out_rms_um", now.held_out_rms_um},
+              {"held_out_peak_um", now.held_out_peak_um},
+              {"all_rms_um", all.held_out_rms_um},
+              {"change_um", std::move(prices)}};
+}
+
+Result<json> budget_of(const analysis::TrainingSet& training, const TaskContext& context) {
+  ZD_TRY(const auto curve, analysis::budget_curve(training, judged_by, longest_budget, context));
+  json list = json::array();
+  for (const auto& point : curve) {
+    list.push_back({{"sensors", point.sensors.size()},
+                    {"added", point.sensors.back()},
+                    {"held_out_rms_um", point.held_out_rms_um},
+                    {"held_out_peak_um", point.held_out_peak_um}});
+  }
+  return list;
+}
+
+/// Of the blocks of the first run, as the clustering states its own.
+double condition_of(const analysis::TrainingSet& training, const Names& chosen) {
+  const auto& samples = training.samples.front().temperature_C;
+  Eigen::MatrixXd columns(samples.rows(), 0);
+  for (const auto& sensor : chosen) {
+    const int column = training.runs.front().sensor(sensor);
+    if (column < 0) continue;
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.col(columns.cols() - 1) = samples.col(column);
+  }
+  return columns.cols() > 0 ? analysis::condition_number(columns) : 1.0;
+}
+
+}  // namespace
 
 Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job, const SensorsOptions& options,
                                                   const TaskContext& context) {
@@ -31,6 +87,9 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   const auto& chosen = options.chosen.empty() ? best.sensors : options.chosen;
   for (const auto& one : chosen) ZD_CHECK(run.require(one).map([](auto) {}));
   body["choice"] = analysis::to_json(choice);
+  ZD_TRY(body["price"], price_of(training, chosen, context));
+  ZD_TRY(body["budget"], budget_of(training, context));
+  body["condition_number"]["chosen"] = condition_of(training, chosen);
   body["chosen"] = chosen;
   body["chosen_by"] = options.chosen.empty() ? std::string(analysis::name_of(best.kind)) : "hand";
   json table = json::array();

@@ -3,6 +3,9 @@
 // other sets of sensors; the one with the least error to expect is kept. Makes the artefact "sensors": the clustering's
 // own JSON (core/analysis/clustering.h) and
 //   "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets} (core/analysis/sensor_choice.h),
+//   "price": {held_out_rms_um, held_out_peak_um (of the chosen), all_rms_um, change_um {sensor: change of the rms when
+//   a kept one is dropped or a left one is added}}, "budget": [{sensors, added, held_out_rms_um, held_out_peak_um}],
+//   "condition_number": {..., chosen},
 //   "table": [{channel, label, cluster, correlation_sum, kept}]
 
 #include <string>

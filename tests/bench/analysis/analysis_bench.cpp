@@ -116,7 +116,9 @@ void leave_one_cycle_out(const Recording& whole) {
     }
     std::printf("  %-44s mean rms %6.2f um\n", bench::name_of(peer).c_str(), rms);
   }
-  for (const auto method : {analysis::Method::ridge, analysis::Method::dynamic}) {
+  for (const auto method :
+       {analysis::Method::ridge, analysis::Method::pcr, analysis::Method::lasso, analysis::Method::robust,
+        analysis::Method::dynamic, analysis::Method::arx, analysis::Method::greybox}) {
     const auto e = analysis::evaluate(*set, analysis::make_recipe(method, set->sensors, *set), 0.9);
     if (!e) continue;
     double rms = 0.0;

@@ -51,7 +51,7 @@ void fillSensors(Page* page, const QString& scene) {
     row.sum = row.r[0] + row.r[1] + row.r[2];
     row.lag_s = 60.0 * (1.5 + 4.0 * cluster[i] + 0.4 * (i % 5));
     row.vif = row.kept ? 2.4 + 1.7 * cluster[i] : 14.0 + 9.0 * (i % 7);
-    row.price_um = row.kept ? 0.35 + 1.9 / (1.0 + cluster[i]) : 0.01 + 0.012 * (i % 6);
+    row.price_um = row.kept ? 0.35 + 1.9 / (1.0 + cluster[i]) : -0.01 - 0.012 * (i % 6);
     row.pc1 = 2.6 * std::cos(1.25 * cluster[i]) + 0.35 * std::sin(3.1 * i);
     row.pc2 = 1.9 * std::sin(1.25 * cluster[i]) + 0.3 * std::cos(2.3 * i);
     s.sensors.append(row);
