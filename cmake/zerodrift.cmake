@@ -11,6 +11,7 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 option(BUILD_TESTING "Build the tests" ON)
 # Several sources are compiled as one: a build from nothing takes half the time. OFF suits work on one room.
 option(ZERODRIFT_UNITY "Compile sources in batches" ON)
+option(ZERODRIFT_FUZZ "Build the fuzz targets (needs Clang)" OFF)
 set(ZERODRIFT_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
 
 # A cache makes branch changes and clean builds cheap; precompiled headers need these sloppiness flags with it.
@@ -51,6 +52,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(zerodrift_options INTERFACE -fpch-preprocess -Wno-restrict -Wno-stringop-overflow
     -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized)
 endif()
+if(ZERODRIFT_FUZZ)
+  target_compile_options(zerodrift_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 if(ZERODRIFT_SANITIZE)
   target_compile_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE})
@@ -90,7 +94,8 @@ function(zerodrift_batches target pch)
   target_precompile_headers(${target} REUSE_FROM ${pch})
   if(ZERODRIFT_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage) # not true of a source included by a batch
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    # not true of a source included by a batch
   endif()
 endfunction()
 

@@ -25,7 +25,12 @@ char separator_of(std::string_view header) {
   char best = ',';
   std::ptrdiff_t most = 0;
   for (const char candidate : {',', ';', '\t'}) {
-    const auto count = std::count(header.begin(), header.end(), candidate);
+    std::ptrdiff_t count = 0;
+    bool quoted = false;
+    for (const char c : header) {
+      if (c == '"') quoted = !quoted;
+      count += c == candidate && !quoted;
+    }
     if (count > most) {
       most = count;
       best = candidate;
@@ -178,7 +183,8 @@ std::string number_text(double value) {
 }
 
 std::string cell_text(std::string_view text) {
-  if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos) return std::string(text);
+  // Blanks at its ends belong to a quoted cell only.
+  if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos && trimmed(text) == text) return std::string(text);
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"') out += '"';

@@ -18,6 +18,9 @@ constexpr double sure_correlation = 0.6;  // below this the next finer level is 
 
 constexpr int climb_steps = 5;  // of half pixels: a quarter pixel's peak is never further off
 
+constexpr double surroundings_px = 3.0;  // of each level of the pyramid
+constexpr double largest_relief = 25.0;  // grey levels
+
 struct Peak {
   double x;
   double y;
@@ -34,6 +37,16 @@ std::vector<GrayImage> pyramid(const GrayImage& image, std::size_t levels) {
   std::vector<GrayImage> out{image};
   while (out.size() < levels) out.push_back(halved(out.back()));
   return out;
+}
+
+// What differs from the surroundings, its extremes cut.
+GrayImage flattened(const GrayImage& image) {
+  cv::Mat level, around, flat;
+  mat_view(image).convertTo(level, CV_32F);
+  cv::GaussianBlur(level, around, {0, 0}, surroundings_px, surroundings_px, cv::BORDER_REPLICATE);
+  cv::Mat(cv::min(cv::max(level - around, -largest_relief), largest_relief) * (127.0 / largest_relief) + 128.0)
+      .convertTo(flat, CV_8U);
+  return gray_from_mat(flat);
 }
 
 GrayImage cut(const GrayImage& image, const Region& region) {
@@ -156,21 +169,32 @@ CoarseSearch::CoarseSearch(const GrayImage& image, const Region& region) : m_reg
   std::size_t levels = 1;
   while (levels <= deepest_level && (std::min(region.width, region.height) >> levels) >= smallest_template_px) ++levels;
   m_templates = pyramid(cut(image, region), levels);
+  for (std::size_t level = 0; level < levels; ++level) m_flat.push_back(flattened(m_templates[level]));
 }
 
 std::vector<Candidate> CoarseSearch::find(const GrayImage& frame, int count) const {
   const std::vector<GrayImage> frames = pyramid(frame, m_templates.size());
-  std::vector<Candidate> found;
-  for (int level = static_cast<int>(m_templates.size()) - 1; level >= 0; --level) {
-    found = find_from(frames, level, count);
-    if (!found.empty() && found.front().correlation > sure_correlation) break;
-    if (level == 1) break;  // the full resolution costs much and finds nothing that the half did not
-  }
+  const int top = static_cast<int>(m_templates.size()) - 1;
+  std::vector<Candidate> found = find_from(frames, m_templates, top, count);
+  const auto sure = [&found] { return !found.empty() && found.front().correlation > sure_correlation; };
+  const auto add = [&](const std::vector<Candidate>& others) {
+    found.insert(found.end(), others.begin(), others.end());
+    sort_and_merge(found, count);
+  };
+  if (sure()) return found;
+  // The full resolution costs much and finds nothing that the half did not.
+  if (top > 1) add(find_from(frames, m_templates, 1, count));
+  if (sure()) return found;
+  std::vector<GrayImage> flat;
+  for (const GrayImage& one : frames) flat.push_back(flattened(one));
+  add(find_from(flat, m_flat, top, count));
   return found;
 }
 
-std::vector<Candidate> CoarseSearch::find_from(const std::vector<GrayImage>& frames, int top_level, int count) const {
-  const GrayImage& top = m_templates[top_level];
+std::vector<Candidate> CoarseSearch::find_from(const std::vector<GrayImage>& frames,
+                                               const std::vector<GrayImage>& templates, int top_level,
+                                               int count) const {
+  const GrayImage& top = templates[top_level];
   const int pad_x = top.width / 4;
   const int pad_y = top.height / 4;
   cv::Mat padded;
@@ -191,7 +215,7 @@ std::vector<Candidate> CoarseSearch::find_from(const std::vector<GrayImage>& fra
   cv::Mat half;
   if (finer)
     cv::copyMakeBorder(mat_view(frames[1]), half, 2 * pad_y, 2 * pad_y, 2 * pad_x, 2 * pad_x, cv::BORDER_REPLICATE);
-  Climb climb(finer ? half : padded, finer ? m_templates[1] : top);
+  Climb climb(finer ? half : padded, finer ? templates[1] : top);
   const int level = finer ? 1 : top_level;
   std::vector<Candidate> candidates;
   for (const cv::Point& peak : starts) {

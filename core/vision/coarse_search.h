@@ -1,6 +1,8 @@
 #pragma once
 // Where the template may be in a frame, to the whole pixel: normalized cross-correlation down a pyramid.
-// Checkers, grids and rings resemble themselves one period further, so the best few candidates are handed on.
+// Checkers, grids and rings resemble themselves one period further, so the best few candidates are handed on. Where
+// nothing is found, a glaring spot may have drowned the target: then it is sought in images whose smooth light is taken
+// off and whose extremes are cut.
 
 #include <vector>
 
@@ -21,10 +23,12 @@ class CoarseSearch {
   std::vector<Candidate> find(const GrayImage& frame, int count) const;
 
  private:
-  std::vector<Candidate> find_from(const std::vector<GrayImage>& frames, int top_level, int count) const;
+  std::vector<Candidate> find_from(const std::vector<GrayImage>& frames, const std::vector<GrayImage>& templates,
+                                   int top_level, int count) const;
 
   Region m_region;
   std::vector<GrayImage> m_templates;  // level k is smaller by 2^k
+  std::vector<GrayImage> m_flat;       // the same without smooth light
 };
 
 }  // namespace zerodrift::vision

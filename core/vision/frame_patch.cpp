@@ -9,7 +9,7 @@ namespace {
 
 constexpr int saturated_level = 252;
 constexpr int smallest_spot_px = 30;
-constexpr double flank_radii = 0.8;  // of the spot's radius: a Gaussian flank has lost most of its height there
+constexpr double flank_radii = 0.5;  // of the spot's radius: a Gaussian flank has lost most of its height there
 
 double largest_spot_radius(const cv::Mat& saturated) {
   cv::Mat labels, figures, centres;

@@ -21,6 +21,11 @@ constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr int largest_rounds = 5;
 
+// More of the target explained, and to a smaller residual.
+double fit_of(const Registration& r) {
+  return r.informed_share * std::max(r.correlation, 0.0) / r.residual;
+}
+
 bool needs_field(const Registration& r) {
   return r.structure > structure_limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
 }
@@ -65,14 +70,23 @@ Registration Registrar::glance(const GrayImage& frame, int dx_px, int dy_px) con
 // then can the rest be solved well, and a smooth field must not take for itself what a blur does.
 void Registrar::match_blur_at_a_glance(const GrayImage& frame, const Region& at, ImageSetup& setup,
                                        std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
+  ImageSetup tried = setup;
+  std::optional<TemplateModel> tried_model;
+  double best = 0.0;
   for (int round = 0; round < largest_rounds; ++round) {
-    const FramePatch patch(frame, at, setup.frame_blur, false);
-    RegistrationSolver solver(blurred_model ? *blurred_model : m_model, patch, nullptr, start);
+    const TemplateModel& model = tried_model ? *tried_model : m_model;
+    const FramePatch patch(frame, at, tried.frame_blur, false);
+    RegistrationSolver solver(model, patch, nullptr, start);
     if (!solver.glance()) return;
+    const double now = fit_of(solver.result(model.pixels / 4));
+    if (now < best) return;  // what looked like a blur was none: a chip over the edges, for example
+    best = now;
+    setup = tried;
+    blurred_model = tried_model;
     start.shift_px = solver.shift_px();
     start.linear = solver.linear();
-    if (!match_blur(solver.extra_blur_px2(), setup)) return;
-    blurred_model = make_template_model(m_source, setup.template_blur, setup.frame_blur);
+    if (!match_blur(solver.extra_blur_px2(), tried)) return;
+    tried_model = make_template_model(m_source, tried.template_blur, tried.frame_blur);
   }
 }
 

@@ -24,7 +24,8 @@ constexpr double outlier_share = 0.0015;  // of the pixels: normal noise has 0.0
 constexpr double settled_px = 3e-5;
 constexpr double nearly_settled_px = 2e-3;
 constexpr double weight_change = 0.03;  // of the weights' sum: beyond it the normal matrix is made anew
-constexpr double least_weight = 0.4;    // of the pixels' own weight must be left by their neighbours
+constexpr double scale_change = 0.1;
+constexpr double least_weight = 0.4;  // of the pixels' own weight must be left by their neighbours
 constexpr int light_rounds = 4;
 constexpr int settle_iterations = 5;
 constexpr int sampling_rounds = 7;
@@ -260,6 +261,8 @@ void RegistrationSolver::weigh(int count, bool ask_neighbours) {
 
 bool RegistrationSolver::outdated(int count, bool light_only) const {
   if (m_prepared.count != count || m_prepared.light_only != light_only) return true;
+  // The priors count in units of the scale.
+  if (std::abs(m_scale - m_prepared.scale) > scale_change * m_scale) return true;
   const double change = (m_weight.head(count) - m_prepared.weight).lpNorm<1>();
   return change > weight_change * m_prepared.weight.sum();
 }
@@ -270,6 +273,7 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   p.light_only = light_only;
   p.weight = m_weight.head(count);
   p.gain = m_light(0);
+  p.scale = m_scale;
   const auto rows = m_rows.leftCols(count);
   const Eigen::MatrixXf weighted = rows.array().rowwise() * p.weight.transpose().array();
   Vector motion_gain = Vector::Ones();

@@ -102,7 +102,7 @@ class RegistrationSolver {
     int count = 0;
     bool light_only = false;
     Eigen::VectorXf weight;
-    double gain = 1.0, linear_prior = 0.0, lens_prior = 0.0, field_prior = 0.0;
+    double scale = 0.0, gain = 1.0, linear_prior = 0.0, lens_prior = 0.0, field_prior = 0.0;
     Normal normal;  // the field eliminated
     Eigen::LDLT<Normal> solved;
     Eigen::LLT<Eigen::MatrixXd> field;

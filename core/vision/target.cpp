@@ -30,15 +30,18 @@ constexpr double least_inliers = 0.55;
 constexpr double least_informed = 0.50;
 // Under a glaring spot less of the target need be left, when what is left fits almost perfectly and nearly all that is
 // missing is known to be the spot.
-constexpr double least_informed_in_glare = 0.30;
-constexpr double glare_correlation = 0.995;
+constexpr double least_informed_in_glare = 0.12;
+constexpr double glare_correlation = 0.999;
 constexpr double glare_explained = 0.9;
 constexpr double least_fine_correlation = 0.90;
 constexpr double least_contrast = 0.2;
 constexpr double largest_contrast = 3.0;
 constexpr double largest_linear = 0.035;
+constexpr double largest_linear_of_twin = 0.07;  // of a frame that nothing but the target itself can be
+constexpr double twin_correlation = 0.999;
 constexpr double accepted_blur_px2 = 18.0;
 constexpr double least_seen = 0.70;
+constexpr double largest_structure = 8.0;  // of the residual's patches: frames that are measured well stay below 2.5
 
 double linear_change(const Registration& r) {
   return (r.linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
@@ -52,7 +55,9 @@ Refusal judge(const Registration& r, double coarse_correlation) {
     return fits ? Refusal::too_different : Refusal::missing;
   }
   if (!fits) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::wrong_target;
-  if (linear_change(r) > largest_linear) return Refusal::wrong_target;
+  if (linear_change(r) > (r.correlation > twin_correlation ? largest_linear_of_twin : largest_linear))
+    return Refusal::wrong_target;
+  if (r.structure > largest_structure) return r.saturated_share > 0.02 ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
   const bool only_glare = r.correlation > glare_correlation && r.informed_share > least_informed_in_glare &&
                           r.inlier_share + r.saturated_share > glare_explained;

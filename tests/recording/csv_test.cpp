@@ -19,6 +19,17 @@ TEST(Csv, ReadsGapsBomAndSeparators) {
   }
 }
 
+TEST(Csv, SeparatorsInsideQuotesDoNotCount) {
+  const auto recording = parse_recording("time_s,\"a;b;c;d\",\" blank \"\n0,1,2\n", "a.csv");
+  ASSERT_TRUE(recording.has_value()) << describe(recording.error());
+  ASSERT_EQ(recording->channels.size(), 2U);
+  EXPECT_EQ(recording->channels[0].name, "a;b;c;d");
+  EXPECT_EQ(recording->channels[1].name, " blank ");
+  const auto again = parse_recording(to_csv(*recording), "b.csv");
+  ASSERT_TRUE(again.has_value()) << describe(again.error());
+  EXPECT_EQ(again->channels[1].name, " blank ");
+}
+
 TEST(Csv, HeaderMapRenames) {
   CsvOptions options;
   options.header_map = {{"Time", "time_s"}, {"Temp 1", "T1_C"}};

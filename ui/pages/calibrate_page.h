@@ -86,7 +86,7 @@ class CalibratePage : public Page {
   QString sentence() const override;
   /// Take the template, Measure positions, Accept.
   PageAction primary() const override;
-  /// "template", "repeat".
+  /// "repeat".
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:

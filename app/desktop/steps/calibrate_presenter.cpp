@@ -49,8 +49,7 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
     }
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
-    // Every measurement begins with a new template at rest.
-    if (action == QStringLiteral("repeat") || action == QStringLiteral("template")) start({});
+    if (action == QStringLiteral("repeat")) start({});
   });
   connect(page, &ui::CalibratePage::regionDrawn, this, &CalibratePresenter::useRegion);
 }
