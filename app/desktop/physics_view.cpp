@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/explain.h"
 #include "core/diagnosis/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/recording/csv.h"
@@ -160,35 +161,12 @@ ui::HeatMapData residual_map(const physics::Machine& machine, const std::string&
   return map;
 }
 
-/// The first parameter that has an uncertainty, as "36.1 ± 2.0 W".
+/// The first parameter of the sentence, which is the effect's size: "P = 36.1 ± 2.0 W".
 QString magnitude_of(const json& effect) {
-  static const std::vector<std::pair<std::string, const char*>> units = {
-      {"_W_m2K", "W/m²K"}, {"_um_per_K", "µm/K"}, {"_um_K", "µm/K"}, {"_W_K", "W/K"},
-      {"_K_per_h", "K/h"}, {"_um", "µm"},         {"_mm", "mm"},     {"_W", "W"},
-      {"_K", "K"},         {"_s", "s"},           {"_percent", "%"}};
-  const json sigma = effect.value("sigma", json::object());
-  QString best;
-  const json parameters = effect.value("parameters", json::object());  // outlives the loop
-  for (const auto& [key, value] : parameters.items()) {
-    if (!value.is_number() || key == "position_mm" || key == "from_s" || key == "tau_s") continue;
-    QString unit;
-    for (const auto& [ending, text] : units) {
-      if (key.size() > ending.size() && key.compare(key.size() - ending.size(), ending.size(), ending) == 0) {
-        unit = QString::fromUtf8(text);
-        break;
-      }
-    }
-    const double width = number_of(sigma, key);
-    const double number = value.get<double>();
-    const double smallest = std::isnan(width) || width <= 0 ? std::abs(number) / 100.0 : width;
-    const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(std::max(smallest, 1e-6)))) + 1, 0, 4);
-    QString text = QString::number(number, 'f', digits);
-    if (!std::isnan(width)) text += QStringLiteral(" ± ") + QString::number(width, 'f', digits);
-    text += QLatin1Char(' ') + unit;
-    if (!std::isnan(width)) return text.trimmed();
-    if (best.isEmpty()) best = text.trimmed();
-  }
-  return best;
+  const auto facts = diagnosis::sentence_from_json(effect.value("said", json())).facts;
+  const auto parameters = facts.find("parameters");
+  return parameters == facts.end() ? QString()
+                                   : QString::fromStdString(parameters->second.substr(0, parameters->second.find(',')));
 }
 
 QString rivals_of(const json& diagnosis) {
@@ -203,14 +181,16 @@ QString rivals_of(const json& diagnosis) {
   return names.isEmpty() ? QString() : say("Cannot be told from: %1").arg(names.join(QStringLiteral(", ")));
 }
 
-std::string most_telling(const json& effect) {
+/// The channel that the effect changes most, in widths of its noise.
+std::string most_telling(const json& effect, const json& noise) {
   std::string best;
   double largest = -1.0;
   const json contribution = effect.value("contribution", json::object());  // outlives the loop
   for (const auto& [channel, value] : contribution.items()) {
-    const bool temperature = recording::kind_of(channel) == recording::ChannelKind::temperature;
-    if (!value.is_number() || !temperature || value.get<double>() < largest) continue;
-    largest = value.get<double>();
+    if (!value.is_number()) continue;
+    const double widths = value.get<double>() / std::max(1e-6, number_of(noise, channel));
+    if (!(widths > largest)) continue;
+    largest = widths;
     best = channel;
   }
   return best;
@@ -300,8 +280,13 @@ QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const
       rod.regionTo_mm = placement.value("to_mm", 0.0);
     }
     if (mismatch.contains("component") && mismatch["component"] == component.id && mismatch["position_mm"].is_array()) {
-      rod.mismatchFrom_mm = mismatch["position_mm"][0].get<double>();
-      rod.mismatchTo_mm = mismatch["position_mm"][1].get<double>();
+      const double from_mm = mismatch["position_mm"][0].get<double>();
+      const double to_mm = mismatch["position_mm"][1].get<double>();
+      // A mismatch along the whole component is at no place.
+      if (to_mm - from_mm < 0.9 * component.length_mm) {
+        rod.mismatchFrom_mm = from_mm;
+        rod.mismatchTo_mm = to_mm;
+      }
     }
     drawn.append(rod);
   }
@@ -371,7 +356,9 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     card.confidence = effect.value("confidence", 0.0);
     card.adopted = listed("adopted", id);
     card.rejected = listed("rejected", id);
-    const std::string channel = most_telling(effect);
+    const std::string channel = most_telling(effect, rmse.value("noise", json::object()));
+    card.unit =
+        recording::kind_of(channel) == recording::ChannelKind::temperature ? QStringLiteral("K") : QStringLiteral("µm");
     card.before = residual_of(runs.recorded, runs.simulated, channel);
     card.after = residual_of(runs.recorded, runs.refined, channel);
     card.rmseBefore = number_of(rmse.value("before", json::object()), channel);
@@ -379,7 +366,9 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     card.rmseAfter = number_of(rmse.value("after", json::object()), channel);
     card.rivals = rivals_of(diagnosis);
     if (detectable.contains(id)) {
-      card.couldDetect = say("Would have shown from %1 on").arg(number_of(detectable[id], "value"), 0, 'g', 2);
+      const std::string least =
+          diagnosis::parameter_in_words(detectable[id].value("key", ""), number_of(detectable[id], "value"), 0.0);
+      if (!least.empty()) card.couldDetect = say("Would have shown from %1 on").arg(QString::fromStdString(least));
     }
     state.explanations.append(card);
   }

@@ -54,6 +54,11 @@ bool is_named(const json& list, const std::string& id) {
   return std::any_of(list.begin(), list.end(), [&](const json& one) { return one.at("id") == id; });
 }
 
+/// A heat that is always there goes by two names.
+bool is_right(const std::string& id, const std::string& truth) {
+  return id == truth || (truth == "standing_heat" && id == "extra_heat_source");
+}
+
 std::string words_of(const json& diagnosis) {
   std::string text = diagnosis.at("verdict").get<std::string>() == "missing_effect" ? "" : diagnosis.at("verdict");
   if (text.empty()) {
@@ -105,8 +110,8 @@ class Experimenter {
     made.plan = experiment.at("plan").value("name", "");
     for (const auto& rival : first->at("ambiguous_with")) made.rivals.push_back(rival.at("id"));
     for (const auto& effect : first->at("effects")) made.rivals.push_back(effect.at("id"));
-    std::erase(made.rivals, made.truth);
-    made.first_right = !first->at("effects").empty() && first->at("effects").front().at("id") == made.truth;
+    std::erase_if(made.rivals, [&](const std::string& id) { return is_right(id, made.truth); });
+    made.first_right = !first->at("effects").empty() && is_right(first->at("effects").front().at("id"), made.truth);
     const auto proposed = steps_of(experiment.at("plan"));
     made.hours = minutes_of(proposed) / 60.0;
     Noise noise(m_options.seed * 77ULL + static_cast<std::uint64_t>(index));
@@ -130,7 +135,8 @@ class Experimenter {
     }
     words = words_of(*both);
     const json& effects = both->at("effects");
-    resolved = both->at("verdict") == "missing_effect" && !effects.empty() && effects.front().at("id") == made.truth;
+    resolved =
+        both->at("verdict") == "missing_effect" && !effects.empty() && is_right(effects.front().at("id"), made.truth);
     for (const auto& rival : made.rivals) {
       resolved = resolved && !is_named(both->at("ambiguous_with"), rival) && !is_named(effects, rival);
     }

@@ -1,15 +1,18 @@
 #pragma once
-// Which short run would tell two rivals apart: from a library of runs, the one in which their predictions differ most
-// in noise widths per hour.
+// Which short run would tell the best model from its rivals: from a library of runs the shortest that is expected to
+// decide, else the one that comes nearest to it. What counts is the difference of the predictions in noise widths that
+// neither model's unknowns, as well as the first recording fixes them, could absorb (T-optimality, Atkinson and Fedorov
+// 1975).
 
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/model.h"
 
 namespace zerodrift::diagnosis {
 
-SuggestedExperiment suggest_experiment(const Model& best, const Model& rival);
+/// Against the rival that is told apart least.
+SuggestedExperiment suggest_experiment(const Model& best, const std::vector<std::shared_ptr<Model>>& rivals);
 
 }  // namespace zerodrift::diagnosis

@@ -35,8 +35,8 @@ constexpr std::array shown_parameters{Shown{"h_W_m2K", "h", "W/m²K"},
                                       Shown{"power_W", "P", "W"},
                                       Shown{"resistance_m2K_W", "R", "mm²K/W", 1e6},
                                       Shown{"um_per_K", "g", "µm/K"},
+                                      Shown{"um_per_unit", "g", "µm per unit of its driver"},
                                       Shown{"room_um_per_K", "g(room)", "µm/K"},
-                                      Shown{"um_per_unit", "g", "µm/K"},
                                       Shown{"lag_s", "τ", "s"},
                                       Shown{"second_lag_s", "τ2", "s"},
                                       Shown{"offset_K", "ΔT", "K"},
@@ -63,17 +63,15 @@ std::string number_of(double value, double sigma) {
   return fmt::format("{:.{}f}", value, std::min(digits, 6));
 }
 
-/// "h = 12.7 ± 0.7 W/m²K, ..."; what has no sign in the table (cosines, logarithms) is left to the JSON.
+/// All parameters in the order of the table: amplitudes before times.
 std::string parameters_in_words(const FoundEffect& effect) {
   std::string text;
   for (const Shown& shown : shown_parameters) {
     const auto at = effect.parameters.find(std::string(shown.key));
     if (at == effect.parameters.end()) continue;
-    const auto found = effect.sigma.find(at->first);
-    const double sigma = found == effect.sigma.end() ? 0.0 : found->second * shown.factor;
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", shown.sign, number_of(at->second * shown.factor, sigma));
-    if (sigma > 0.0) text += " ± " + number_of(sigma, sigma);
-    if (!shown.unit.empty()) text += fmt::format(" {}", shown.unit);
+    const auto sigma = effect.sigma.find(at->first);
+    if (!text.empty()) text += ", ";
+    text += parameter_in_words(at->first, at->second, sigma == effect.sigma.end() ? 0.0 : sigma->second);
   }
   return text;
 }
@@ -104,6 +102,17 @@ Sentence finished(Sentence s) {
 }
 
 }  // namespace
+
+std::string parameter_in_words(const std::string& key, double value, double sigma) {
+  for (const Shown& shown : shown_parameters) {
+    if (shown.key != key) continue;
+    const double width = sigma * shown.factor;
+    std::string text = fmt::format("{} = {}", shown.sign, number_of(value * shown.factor, width));
+    if (width > 0.0) text += " ± " + number_of(width, width);
+    return shown.unit.empty() ? text : fmt::format("{} {}", text, shown.unit);
+  }
+  return {};
+}
 
 Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, double share_removed, double before,
                         const std::string& worst_channel) {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/explain.h"
+#include "core/diagnosis/sentences.h"
+
 namespace zerodrift::diagnosis {
 namespace {
 
@@ -124,8 +127,8 @@ std::string proof_html(const physics::Machine& machine, const Diagnosis& d) {
   std::string body = "<h1>What the simulation left out</h1><p>" + escaped(machine.name) + "</p>";
   for (const auto& sentence : d.sentences) body += "<p class='verdict'>" + escaped(sentence.english) + "</p>";
   for (const auto& effect : d.effects) {
-    body += fmt::format("<div class='card'><b>{}</b> &middot; confidence {:.0f} %<p>{}</p></div>", escaped(effect.id),
-                        100.0 * effect.confidence, escaped(effect.explanation.english));
+    body += fmt::format("<div class='card'><b>{}</b> &middot; confidence {:.0f} %<p>{}</p></div>",
+                        escaped(plain_name(effect.id)), 100.0 * effect.confidence, escaped(effect.explanation.english));
   }
   for (const auto& rival : d.ambiguous_with) body += "<p>" + escaped(rival.why.english) + "</p>";
   if (d.suggested && !d.suggested->text.english.empty()) body += "<p>" + escaped(d.suggested->text.english) + "</p>";
@@ -137,7 +140,8 @@ std::string proof_html(const physics::Machine& machine, const Diagnosis& d) {
     body +=
         "<h2>Could have detected</h2><p>The smallest size of each effect that this recording would have shown:</p><ul>";
     for (const auto& one : d.detectable)
-      body += fmt::format("<li>{}: {} {:.2g}</li>", escaped(one.id), escaped(one.key), one.value);
+      body += fmt::format("<li>{}: {}</li>", escaped(plain_name(one.id)),
+                          escaped(parameter_in_words(one.key, one.value, 0.0)));
     body += "</ul>";
   }
   return "<!doctype html><html><head><meta charset='utf-8'><title>Zerodrift diagnosis</title><style>"

@@ -72,7 +72,10 @@ void ComponentDrawing::paintSensors(QPainter& painter, const QRectF& body) const
   const Colors& c = colors();
   painter.setFont(uiFont(11, QFont::Medium));
   double lastRight[2] = {-1e9, -1e9};
-  for (const DrawnSensor& sensor : m_component.sensors) {
+  QVector<DrawnSensor> sensors = m_component.sensors;
+  std::sort(sensors.begin(), sensors.end(),
+            [](const DrawnSensor& a, const DrawnSensor& b) { return a.position_mm < b.position_mm; });
+  for (const DrawnSensor& sensor : sensors) {
     const double x = px(sensor.position_mm);
     painter.setPen(QPen(c.panel, 1.5));
     painter.setBrush(sensor.judgement == Judgement::none ? c.accent : c.fill(sensor.judgement));
