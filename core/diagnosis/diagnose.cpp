@@ -428,7 +428,7 @@ class Diagnoser {
       if (kept.id.empty() || candidate.detectable < kept.value) kept = {candidate.spec.id, key, candidate.detectable};
     }
     for (auto& [id, detectable] : least) m_out.detectable.push_back(detectable);
-    if (!m_rivals.empty()) m_out.suggested = suggest_experiment(*m_selection.best, m_rivals);
+    if (!m_rivals.empty()) m_out.suggested = suggest_experiment(*m_selection.best, *m_rivals.front());
   }
 
   void notes() {

@@ -176,7 +176,7 @@ double evidence_against(const Expectation& model, const Eigen::VectorXd& differe
 
 }  // namespace
 
-SuggestedExperiment suggest_experiment(const Model& best, const std::vector<std::shared_ptr<Model>>& rivals) {
+SuggestedExperiment suggest_experiment(const Model& best, const std::vector<const Model*>& rivals) {
   constexpr double decisive = 30.0;  // log evidence expected: a shorter run is not worth less certainty
   SuggestedExperiment suggestion;
   double chosen_hours = 0.0;
@@ -185,14 +185,14 @@ SuggestedExperiment suggest_experiment(const Model& best, const std::vector<std:
     const Expectation expected = expectation_of(best, inputs);
     double least = 1e300;
     const Model* nearest = nullptr;
-    for (const auto& rival : rivals) {
+    for (const Model* rival : rivals) {
       const Expectation other = expectation_of(*rival, inputs);
       if (other.values.size() != expected.values.size()) continue;
       const Eigen::VectorXd difference = expected.values - other.values;
       const double apart = std::min(evidence_against(expected, difference), evidence_against(other, difference));
       if (apart >= least) continue;
       least = apart;
-      nearest = rival.get();
+      nearest = rival;
     }
     if (nearest == nullptr || least <= suggestion.distance) continue;
     if (suggestion.distance > decisive && hours_of(run) > chosen_hours) continue;
