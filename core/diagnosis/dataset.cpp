@@ -6,8 +6,6 @@
 namespace zerodrift::diagnosis {
 namespace {
 
-constexpr double drift_time_s = 1500.0;
-
 double range_of(const MeasuredChannel& channel) {
   std::vector<double> sorted;
   for (std::size_t k = 0; k < channel.values.size(); ++k) {
@@ -49,7 +47,7 @@ void set_gains(MeasuredChannel& channel, const std::vector<double>& time_s) {
     Gain& g = channel.gains[k];
     g = Gain{};
     if (k > 0) {
-      g.fade = std::exp(-(time_s[k] - time_s[k - 1]) / drift_time_s);
+      g.fade = std::exp(-(time_s[k] - time_s[k - 1]) / channel.drift_time_s);
       variance = g.fade * g.fade * variance + (1.0 - g.fade * g.fade) * drift2 + channel.timing[k];
     }
     g.present = channel.present[k];
@@ -90,6 +88,56 @@ Dataset make_dataset(const recording::Recording& recording, const physics::Netwo
 
 Dataset with_drift(Dataset data, double factor) {
   for (auto& channel : data.channels) channel.drift *= factor;
+  data.prepare();
+  return data;
+}
+
+namespace {
+
+/// Log likelihood of one channel's difference to a prediction, without the constant.
+double log_likelihood(const MeasuredChannel& channel, const std::vector<double>& predicted) {
+  double mean = 0.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < predicted.size(); ++k) {
+    const Gain& g = channel.gains[k];
+    mean *= g.fade;
+    if (!g.present) continue;
+    const double innovation = channel.values[k] - predicted[k] - mean;
+    sum += innovation * innovation * g.inverse * g.inverse;
+    mean += g.update * innovation;
+  }
+  return -0.5 * sum - 0.5 * channel.log_determinant;
+}
+
+}  // namespace
+
+std::vector<Discrepancy> likely_discrepancy(const Dataset& data, const physics::Prediction& prediction) {
+  std::vector<Discrepancy> list(data.channels.size());
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    if (data.channels[c].samples == 0) continue;
+    MeasuredChannel trial = data.channels[c];
+    const std::vector<double>& predicted = prediction.channels[c].values;
+    const double usual = log_likelihood(trial, predicted);
+    list[c] = {1.0, 1500.0, usual, 0.0};
+    for (const double time_s : {1500.0, 6000.0}) {
+      for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
+        if (factor == 1.0 && time_s == 1500.0) continue;
+        trial.drift = factor * data.channels[c].drift;
+        trial.drift_time_s = time_s;
+        set_gains(trial, data.time_s);
+        const double gain = log_likelihood(trial, predicted) - usual;
+        if (gain > list[c].gain) list[c] = {factor, time_s, usual + gain, gain};
+      }
+    }
+  }
+  return list;
+}
+
+Dataset with_discrepancy(Dataset data, const std::vector<Discrepancy>& channels) {
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    data.channels[c].drift *= channels[c].factor;
+    data.channels[c].drift_time_s = channels[c].time_s;
+  }
   data.prepare();
   return data;
 }

@@ -30,8 +30,9 @@ struct MeasuredChannel {
   bool temperature = true;
   std::vector<double> values;  // 0 where absent
   std::vector<bool> present;
-  double white = 0.0;          // sigma of the sensor noise
-  double drift = 0.0;          // sigma of the slow drift
+  double white = 0.0;  // sigma of the sensor noise
+  double drift = 0.0;  // sigma of the slow drift
+  double drift_time_s = 1500.0;
   std::vector<double> timing;  // variance added at each sample by unknown switching times
   int samples = 0;
   std::vector<Gain> gains;       // of white, drift and timing: set by prepare()
@@ -53,6 +54,19 @@ struct Dataset {
 Dataset make_dataset(const recording::Recording& recording, const physics::Network& network);
 /// The same with the slow drift of every channel times a factor.
 Dataset with_drift(Dataset data, double factor);
+/// The discrepancy that a channel seems to have: its size relative to the default and how slowly it wanders.
+struct Discrepancy {
+  double factor = 1.0;
+  double time_s = 1500.0;
+  double log_likelihood = 0.0;
+  double gain = 0.0;  // of it, against the default
+};
+
+/// For each channel the discrepancy under which its difference to the prediction is most likely: a latent process that
+/// any named effect has to beat, and what is left when one did.
+std::vector<Discrepancy> likely_discrepancy(const Dataset& data, const physics::Prediction& prediction);
+/// The data with those discrepancies (relative to the widths they have).
+Dataset with_discrepancy(Dataset data, const std::vector<Discrepancy>& channels);
 /// Sets the timing noise from how much the switching time moves the nominal prediction.
 void set_timing_noise(Dataset& data, const physics::Network& network, const physics::InputSet& inputs);
 

@@ -36,6 +36,7 @@ Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool
     m_z[i] = std::clamp(m_z[i], m_low[i], m_high[i]);
   }
   m_jacobian.setZero(static_cast<Index>(m_data->stacked()), n);
+  for (const auto& spec : m_machine.effects) m_log_prior += spec.candidate ? physics::log_prior_of(spec.id) : 0.0;
 }
 
 int Model::free_index(int parameter) const {
@@ -180,7 +181,7 @@ void Model::fit(const FitOptions& options) {
 double Model::log_evidence() const {
   if (m_log_evidence) return *m_log_evidence;
   const Eigen::LDLT<Eigen::MatrixXd> factors(hessian());
-  m_log_evidence = -0.5 * m_cost - 0.5 * factors.vectorD().array().max(1e-300).log().sum();
+  m_log_evidence = m_log_prior - 0.5 * m_cost - 0.5 * factors.vectorD().array().max(1e-300).log().sum();
   return *m_log_evidence;
 }
 

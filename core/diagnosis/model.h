@@ -48,7 +48,7 @@ class Model {
   void fit(const FitOptions& options);
 
   double cost() const { return m_cost; }
-  double log_evidence() const;        // -cost/2 - ln det(J'J + I)/2
+  double log_evidence() const;        // -cost/2 - ln det(J'J + I)/2, and the effects' priors
   double log_evidence_total() const;  // with the noise's own determinant: comparable between noise levels
   const Eigen::VectorXd& residual() const { return m_residual; }
   const RowMatrix& jacobian() const { return m_jacobian; }
@@ -75,6 +75,7 @@ class Model {
   bool m_have_columns = false;
   double m_cost = 0.0;
   double m_log_determinant = 0.0;
+  double m_log_prior = 0.0;                      // of the candidates it has
   mutable std::optional<double> m_log_evidence;  // of today's columns and cost
 };
 

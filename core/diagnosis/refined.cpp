@@ -54,7 +54,7 @@ physics::EffectSpec fitted_effect(const Model& model, std::size_t index, std::ma
   }
   for (std::size_t i = 0; i < model.unknowns(); ++i) {
     const auto& p = model.unknown(i);
-    if (p.effect != static_cast<int>(index)) continue;
+    if (p.effect != static_cast<int>(index) || p.per_recording) continue;
     spec.numbers[p.key] = model.value(i);
     if (sigma != nullptr) (*sigma)[p.key] = model.sigma(i);
   }

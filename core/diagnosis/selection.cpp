@@ -20,8 +20,8 @@ bool by_evidence(const ModelPtr& a, const ModelPtr& b) {
 
 bool many_forms(const std::string& id) {
   return id == "extra_heat_source" || id == "contact_resistance" || id == "bearing_preload" || id == "coolant" ||
-         id == "structure_bending" || id == "convection" || id == "sensor_lag" || id == "sensor_offset" ||
-         id == "sensor_gain";
+         id == "structure_bending" || id == "structure_ambient" || id == "convection" || id == "sensor_lag" ||
+         id == "sensor_offset" || id == "sensor_gain";
 }
 
 struct RefineOptions {
@@ -87,6 +87,18 @@ std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>&
   return fits;
 }
 
+/// The best forms in the place of one effect, fitted, best first; its own family only if `own_family`.
+std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const physics::RunFacts& facts,
+                                  bool own_family) {
+  const ModelPtr without = reduced(best, effect);
+  without->fit({10, 0.05, true});
+  std::vector<Candidate> screened = screen(*without, facts);
+  const std::string& own = best.machine().effects[effect].id;
+  if (!own_family) std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
+  if (screened.size() > 40) screened.resize(40);
+  return refine(without, screened, {1, 6.0, own_family ? 8u : 6u});
+}
+
 class Selector {
  public:
   Selector(physics::RunFacts facts, SelectionOptions options, const TaskContext& context)
@@ -114,7 +126,39 @@ class Selector {
       if (m_context.cancelled()) return fail(ErrorCode::cancelled);
       if (m_result.best == before) break;
       eliminate();
+      // With the others known, another effect may fit better in the place of an earlier one.
+      for (int round = 0; round < 3 && swap_one(true); ++round) {
+      }
     }
+    return m_result;
+  }
+
+  Result<Selection> grow(const physics::Machine& machine, std::shared_ptr<const Dataset>& data) {
+    const std::shared_ptr<const Dataset> usual = data;
+    ZD_TRY(m_result, run(machine, usual));
+    if (m_result.best == m_result.base) return m_result;
+    ModelPtr best = with_own_discrepancy(*m_result.best, usual);
+    for (bool removed = true; removed;) {
+      removed = false;
+      ModelPtr better;
+      double least = m_options.second_clean;
+      for (std::size_t i = m_result.described; i < best->machine().effects.size(); ++i) {
+        if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+        const ModelPtr without = with_own_discrepancy(*reduced(*best, i), usual);
+        const double lost = best->log_evidence_total() - without->log_evidence_total();
+        const bool last = best->machine().effects.size() == m_result.described + 1;
+        if (lost >= (last ? m_options.first : least)) continue;
+        least = std::min(least, lost);
+        better = without;
+      }
+      if (better == nullptr) break;
+      best = better;
+      removed = best->machine().effects.size() > m_result.described;
+    }
+    data = best->shared_data();
+    m_result.base = under(*m_result.base, data);
+    m_result.best = best->machine().effects.size() == m_result.described ? m_result.base : best;
+    if (m_result.best != m_result.base && swap_one()) m_result.best = under(*m_result.best, data);
     return m_result;
   }
 
@@ -140,6 +184,24 @@ class Selector {
   }
 
  private:
+  static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data) {
+    auto result = std::make_shared<Model>(model.machine(), data);
+    result->start_from(model, false);
+    result->fit({20, 0.05, true});
+    return result;
+  }
+
+  /// Fitted with the discrepancy that suits it best: such models are compared by their total evidence, so that an
+  /// effect has to do better than a latent process in every channel would.
+  static ModelPtr with_own_discrepancy(const Model& model, const std::shared_ptr<const Dataset>& usual) {
+    ModelPtr fitted = under(model, model.shared_data());
+    for (int round = 0; round < 2; ++round) {
+      const auto likely = likely_discrepancy(*usual, fitted->prediction());
+      fitted = under(*fitted, std::make_shared<Dataset>(with_discrepancy(*usual, likely)));
+    }
+    return fitted;
+  }
+
   /// The two best first effects of different families.
   std::vector<ModelPtr> beam_of(const std::vector<ModelPtr>& first) const {
     std::vector<ModelPtr> beam;
@@ -152,11 +214,13 @@ class Selector {
     return beam;
   }
 
-  /// Another family in the place of one effect, where it is clearly better.
-  bool swap_one() {
-    for (std::size_t i = m_result.described; i < m_result.best->machine().effects.size(); ++i) {
-      const auto rivals = rivals_of(*m_result.best, i, m_facts);
-      if (rivals.empty() || rivals.front()->log_evidence() < m_result.best->log_evidence() + 3.0) continue;
+  /// Another family in the place of one effect, where it is better; with `forms` also another form of the same.
+  bool swap_one(bool forms = false) {
+    const std::size_t count = m_result.best->machine().effects.size();
+    if (forms && count < m_result.described + 2) return false;
+    for (std::size_t i = m_result.described; i < count; ++i) {
+      const auto rivals = in_place_of(*m_result.best, i, m_facts, forms);
+      if (rivals.empty() || rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
       m_result.best = rivals.front();
       return true;
     }
@@ -182,10 +246,13 @@ class Selector {
     }
   }
 
+  /// What an effect more has to gain where the others leave nothing slow.
+  double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
+
   bool accepted(const Model& fit, const Excess& before) const {
     const double gained = fit.log_evidence() - m_result.best->log_evidence();
-    if (before.largest < 1.6) return gained > m_options.second_clean;
     const double so_far = m_result.best->log_evidence() - m_result.base->log_evidence();
+    if (before.largest < 1.6) return gained > least_gain(so_far);
     if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
     if (!m_options.excess_must_fall) return true;
     const Excess after = excess_of(fit);
@@ -201,7 +268,8 @@ class Selector {
       for (std::size_t i = m_result.described; i < count; ++i) {
         ModelPtr without = reduced(*m_result.best, i);
         without->fit({15, 0.05, true});
-        if (m_result.best->log_evidence() - without->log_evidence() >= m_options.second_clean) continue;
+        const double so_far = without->log_evidence() - m_result.base->log_evidence();
+        if (m_result.best->log_evidence() - without->log_evidence() >= least_gain(so_far)) continue;
         m_result.best = without;
         add_one({without});
         removed = m_result.best == without;
@@ -244,14 +312,14 @@ Result<Selection> reconsider(const Selection& selection, std::shared_ptr<const D
   return Selector(facts, options, context).again(selection, data);
 }
 
+Result<Selection> grow_effects(const physics::Machine& machine, std::shared_ptr<const Dataset>& data,
+                               const physics::RunFacts& facts, const SelectionOptions& options,
+                               const TaskContext& context) {
+  return Selector(facts, options, context).grow(machine, data);
+}
+
 std::vector<std::shared_ptr<Model>> rivals_of(const Model& best, std::size_t effect, const physics::RunFacts& facts) {
-  const ModelPtr without = reduced(best, effect);
-  without->fit({10, 0.05, true});
-  std::vector<Candidate> screened = screen(*without, facts);
-  const std::string& own = best.machine().effects[effect].id;
-  std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
-  if (screened.size() > 40) screened.resize(40);
-  return refine(without, screened, {1, 6.0, 6});
+  return in_place_of(best, effect, facts, false);
 }
 
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,

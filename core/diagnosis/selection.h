@@ -10,10 +10,11 @@ namespace zerodrift::diagnosis {
 
 /// Thresholds on the log evidence (natural logarithm), found on concealed cases; see the proof.
 struct SelectionOptions {
-  double first = 5.5;         // an effect against none
-  double second_screen = 20;  // score gain that makes a second effect worth a refit
-  double second_clean = 10;   // a second effect where the first leaves nothing slow
-  double second = 25;         // a second effect where it does
+  double first = 5.5;             // an effect against none
+  double second_screen = 20;      // score gain that makes a second effect worth a refit
+  double second_clean = 7.5;      // a second effect where the first leaves nothing slow
+  double clean_relative = 0.001;  // of the evidence so far: a strong effect's law is never quite right
+  double second = 25;             // a second effect where it does
   double second_relative = 0.002;
   int most_effects = 3;
   bool excess_must_fall = true;  // a second effect must also remove much of what is slow in some channel
@@ -39,6 +40,13 @@ struct Selection {
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,
                                  const physics::RunFacts& facts, const SelectionOptions& options,
                                  const TaskContext& context);
+
+/// For a description so crude (a lump a sensor) that its discrepancy must be learned with its effects: every effect is
+/// judged again with the discrepancy that suits the model best with and without it. `data` with default widths;
+/// afterwards with the best model's own.
+Result<Selection> grow_effects(const physics::Machine& machine, std::shared_ptr<const Dataset>& data,
+                               const physics::RunFacts& facts, const SelectionOptions& options,
+                               const TaskContext& context);
 
 /// The same effects under other noise: refitted, and dropped where that noise no longer asks for them.
 Result<Selection> reconsider(const Selection& selection, std::shared_ptr<const Dataset> data,

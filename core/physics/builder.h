@@ -11,6 +11,10 @@
 
 namespace zerodrift::physics {
 
+inline constexpr double m_per_mm = 1e-3;
+/// A lump of unknown capacity: only ratios to it can be identified.
+inline constexpr double stand_in_capacity_J_K = 1000.0;
+
 struct BuildOptions {
   int cells = 40;  // of a rod
 };

@@ -90,6 +90,7 @@ struct StructureTerm {
   int gain = -1;  // parameter, um per unit of the driver
   int lag = -1;   // parameter tau in s, -1: none
   int second_lag = -1;
+  int initial = -1;  // parameter: by how much the lagged driver differs from the driver at the start
   int signal = -1;
   int probe = -1;
   double probe_reference = 0.0;

@@ -116,6 +116,16 @@ class Observer {
     const double tau_s = term.lag >= 0 ? m_values[term.lag] : 0.0;
     std::vector<double> by_tau;
     std::vector<double> shape = lagged(driver, m_in.time_s, tau_s, &by_tau);
+    std::vector<double> fading;
+    if (term.initial >= 0 && tau_s > 1e-9) {
+      const double initial = m_values[term.initial];
+      for (std::size_t k = 0; k < rows(); ++k) {
+        const double age = (m_in.time_s[k] - m_in.time_s[0]) / tau_s;
+        fading.push_back(std::exp(-age));
+        shape[k] += initial * fading[k];
+        by_tau[k] += initial * fading[k] * age / tau_s;
+      }
+    }
     std::vector<double> by_second;
     std::vector<double> shape_by_tau = by_tau;
     const bool difference = term.second_lag >= 0;
@@ -131,6 +141,7 @@ class Observer {
     for (std::size_t k = 0; k < rows(); ++k) out.values[k] += gain * shape[k];
     add_column(out, column(term.gain), term.factor, shape);
     if (term.lag >= 0) add_column(out, column(term.lag), gain, shape_by_tau);
+    if (!fading.empty()) add_column(out, column(term.initial), gain, fading);
     if (difference) add_column(out, column(term.second_lag), -gain, by_second);
     if (by.empty() || gain == 0.0) return;
     lag_columns(by, m_run.columns, m_in.time_s, tau_s);

@@ -42,7 +42,7 @@ TEST(Diagnosis, SaysWhenNothingIsMissing) {
 }
 
 TEST(Diagnosis, GivesUpOnWhatTheLibraryLacks) {
-  EXPECT_EQ(diagnosed(proof::make_case(31, "unlisted")).verdict, Verdict::unexplained);
+  EXPECT_EQ(diagnosed(proof::make_case(31, "unlisted:wandering_heat")).verdict, Verdict::unexplained);
 }
 
 TEST(Diagnosis, RefinedDescriptionSimulatesWhatTheDiagnosisPredicted) {

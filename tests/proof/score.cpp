@@ -1,5 +1,5 @@
 // Draws concealed cases, diagnoses them, opens the answers and prints the table of the proof.
-//   proof [--cases N] [--seed S] [--kind K] [--verbose] [--write DIR]
+//   proof [--cases N] [--seed S] [--kind K] [--verbose] [--oracle] [--write DIR]
 #include "app/proof/score.h"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/recording/csv.h"
 #include "tests/proof/case_generator.h"
+#include "tests/proof/oracle.h"
 
 namespace {
 
@@ -49,6 +50,19 @@ OpenedAnswer truth_of(const Case& one) {
   return truth;
 }
 
+/// Of a case that went wrong: how much evidence each hidden effect has for one who knows it.
+bool decidable(const zerodrift::physics::Machine& machine, const Case& one) {
+  const auto truth = zerodrift::proof::told_the_truth(machine, one);
+  std::string text;
+  bool all = truth.beside.size() == one.hidden.size();
+  for (const auto& [id, evidence] : truth.beside) {
+    text += fmt::format(" {} {:.1f}", id, evidence);
+    all = all && evidence > 10.0;
+  }
+  fmt::print("  told the truth: {:.1f} over none;{}{}\n", truth.evidence, text, all ? "" : " (undecidable)");
+  return all;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -56,6 +70,8 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   std::string kind;
   bool verbose = false;
+  bool oracle = false;
+  int undecidable = 0, undecidable_pairs = 0;
   std::string folder;
   for (int i = 1; i < argc; ++i) {
     const std::string a = argv[i];
@@ -63,6 +79,7 @@ int main(int argc, char** argv) {
     if (a == "--seed" && i + 1 < argc) seed = std::strtoull(argv[++i], nullptr, 10);
     if (a == "--kind" && i + 1 < argc) kind = argv[++i];
     if (a == "--verbose") verbose = true;
+    if (a == "--oracle") oracle = true;
     if (a == "--write" && i + 1 < argc) folder = argv[++i];
   }
   zerodrift::proof::Score score;
@@ -85,7 +102,12 @@ int main(int argc, char** argv) {
       score.add_failure(truth_of(one), "refused");
       continue;
     }
-    score.add(truth_of(one), zerodrift::diagnosis::to_json(*d));
+    const auto judged = score.add(truth_of(one), zerodrift::diagnosis::to_json(*d));
+    const bool wrong = judged.outcome != zerodrift::proof::Outcome::right && !one.hidden.empty();
+    if (oracle && wrong && !truth_of(one).unlisted && !decidable(*machine, one)) {
+      ++undecidable;
+      if (one.hidden.size() == 2) ++undecidable_pairs;
+    }
     if (!verbose) continue;
     std::string truth;
     for (const auto& h : one.hidden) {
@@ -116,5 +138,9 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   fmt::print("seed {}\n{}", seed, score.text());
+  if (oracle) {
+    fmt::print("of those not right, undecidable even when told: {}, pairs among them {}\n", undecidable,
+               undecidable_pairs);
+  }
   return 0;
 }

@@ -60,6 +60,9 @@ struct RunFacts {
 
 const std::vector<const Effect*>& all_effects();
 const Effect* find_effect(std::string_view id);
+/// Natural logarithm of how much rarer an effect is, beforehand, than the common ones (engineering judgement: twenty to
+/// one).
+double log_prior_of(std::string_view id);
 /// "convection, speed_convection, ..."
 std::string effect_ids();
 

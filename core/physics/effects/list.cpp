@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "core/physics/effects/effect.h"
@@ -28,6 +30,7 @@ extern const Effect heater_body_effect;
 extern const Effect sensor_gain_effect;
 extern const Effect casting_core_effect;
 extern const Effect standing_heat_effect;
+extern const Effect speed_heat_curve_effect;
 extern const Effect structure_driver_effect;
 extern const Effect structure_lag_effect;
 
@@ -57,6 +60,7 @@ const std::vector<const Effect*>& all_effects() {
       &sensor_gain_effect,
       &casting_core_effect,
       &standing_heat_effect,
+      &speed_heat_curve_effect,
       &structure_driver_effect,
       &structure_lag_effect,
   };
@@ -68,6 +72,14 @@ const Effect* find_effect(std::string_view id) {
     if (effect->id == id) return effect;
   }
   return nullptr;
+}
+
+double log_prior_of(std::string_view id) {
+  // What service reports name often, against what a machine has now and then.
+  static constexpr std::string_view rarer[] = {"draught",           "chiller_cycle",    "bearing_run_in",
+                                               "room_sensor_fault", "bracket_slip",     "conductivity_temperature",
+                                               "sensor_gain",       "speed_heat_curve", "casting_core"};
+  return std::find(std::begin(rarer), std::end(rarer), id) == std::end(rarer) ? 0.0 : -3.0;
 }
 
 std::string effect_ids() {

@@ -36,4 +36,15 @@ inline bool is_across(const Displacement& displacement) {
   return displacement.direction == "X" || displacement.direction == "Y";
 }
 
+/// The structure need not have been in balance with the room when the recording began.
+inline int unknown_start(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  Parameter start;
+  start.key = "start_K";
+  start.channel = spec.word_or("channel", "");
+  start.effect = index;
+  start.sigma = 0.4;
+  start.per_recording = true;
+  return builder.add_parameter(start);
+}
+
 }  // namespace zerodrift::physics

@@ -21,7 +21,7 @@ const Effect sensor_gain_effect = {"sensor_gain",
                                    "wrong characteristic, poor contact: 2 to 30 %",
                                    "One channel is off in proportion to its rise, in step with it",
                                    "contact_resistance sensor_lag",
-                                   {{"gain_error", 0.08, -0.6, 0.6, true}},
+                                   {{"gain_error", 0.08, -0.3, 0.3, true}},
                                    {"gain_error"},
                                    sensor_gain::add,
                                    sensor_gain::candidates};

@@ -10,6 +10,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   StructureTerm term;
   term.gain = builder.effect_parameter(spec, index, "um_per_K");
   term.lag = builder.effect_parameter(spec, index, "lag_s", 4000.0);
+  term.initial = unknown_start(builder, spec, index);
   term.signal = room_rise_signal(builder);
   seen->structure.push_back(term);
 }

@@ -38,6 +38,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   term.gain = gain;
   term.lag = lag;
   term.second_lag = second;
+  const int start = second < 0 ? unknown_start(builder, spec, index) : -1;
   const auto temperature = [&](double position_mm, double factor) {
     StructureTerm one = term;
     one.probe = builder.probe(builder.probe_at(rod, position_mm));
@@ -61,6 +62,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
       StructureTerm over_room = term;
       over_room.signal = room_rise_signal(builder);
       over_room.factor = -1.0;
+      over_room.initial = start;
       terms.push_back(over_room);
     }
   }
@@ -68,6 +70,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     StructureTerm room;
     room.gain = builder.effect_parameter(spec, index, "room_um_per_K");
     room.lag = lag;
+    room.initial = start;
     room.signal = room_rise_signal(builder);
     terms.push_back(room);
   }

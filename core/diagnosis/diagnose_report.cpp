@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/diagnosis/diagnoser.h"
+#include "core/diagnosis/experiment.h"
+#include "core/diagnosis/locate.h"
+#include "core/diagnosis/refined.h"
+
+namespace zerodrift::diagnosis {
+
+using physics::Machine;
+using recording::Recording;
+
+double rms_between(const Recording& recording, const std::string& name, const std::vector<double>& predicted) {
+  const recording::Channel* seen = recording.find(name);
+  if (seen == nullptr || seen->values.size() != predicted.size()) return std::nan("");
+  const std::vector<bool> spike = physics::spikes(seen->values, physics::noise_width(seen->values, 0.01));
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < predicted.size(); ++k) {
+    if (!std::isfinite(seen->values[k]) || spike[k]) continue;
+    sum += (seen->values[k] - predicted[k]) * (seen->values[k] - predicted[k]);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : std::nan("");
+}
+
+void Diagnoser::series() {
+  m_out.time_s = recording().time_s;
+  const physics::Network network = physics::build_network(m_machine, recording());
+  const physics::Prediction nominal =
+      physics::predict(network, physics::make_inputs(network, recording()), network.start_values());
+  const physics::Prediction base = m_selection.base->prediction();
+  m_explained = m_selection.best->prediction();
+  const Excess before = excess_of(*m_selection.base);
+  const Excess after = excess_of(*m_selection.best);
+  without_effects();
+  for (std::size_t c = 0; c < m_data->channels.size(); ++c) {
+    const MeasuredChannel& channel = m_data->channels[c];
+    if (channel.samples == 0) continue;
+    ChannelReport report;
+    report.channel = channel.name;
+    report.temperature = channel.temperature;
+    report.measured = recording().find(channel.name)->values;
+    report.nominal = nominal.channels[c].values;
+    report.refitted = base.channels[c].values;
+    report.explained = m_explained.channels[c].values;
+    report.rms_nominal = rms_between(recording(), channel.name, report.nominal);
+    report.rms_refitted = rms_between(recording(), channel.name, report.refitted);
+    report.rms_explained = rms_between(recording(), channel.name, report.explained);
+    report.noise = channel.white;
+    report.excess_refitted = before.per_channel[c];
+    report.excess_explained = after.per_channel[c];
+    // The channel's mismatch is what the effects change in it, in noise widths; without an effect, what is left over.
+    report.score = m_contribution.empty() ? std::sqrt(std::max(0.0, report.excess_refitted))
+                                          : m_contribution[c] / usual_noise(channel.temperature);
+    m_out.channels.push_back(std::move(report));
+  }
+}
+
+/// Sensors of a kind are alike: the median of their noise, so that no channel is worst for seeming a little quieter.
+double Diagnoser::usual_noise(bool temperature) const {
+  std::vector<double> widths;
+  for (const auto& channel : m_data->channels) {
+    if (channel.samples > 0 && channel.temperature == temperature) widths.push_back(channel.white);
+  }
+  if (widths.empty()) return 1.0;
+  std::sort(widths.begin(), widths.end());
+  return widths[widths.size() / 2];
+}
+
+/// Rms of what all found effects together change in each channel: the best model with and without them.
+void Diagnoser::without_effects() {
+  if (m_selection.effects().empty()) return;
+  Machine bare = refined_machine(*m_selection.best);
+  bare.effects.resize(m_selection.described);
+  const physics::Network network = physics::build_network(bare, recording());
+  const physics::InputSet inputs = physics::make_inputs(network, recording());
+  const Machine full = refined_machine(*m_selection.best);
+  const physics::Network full_network = physics::build_network(full, recording());
+  const physics::Prediction with =
+      physics::predict(full_network, physics::make_inputs(full_network, recording()), full_network.start_values());
+  const physics::Prediction without = physics::predict(network, inputs, network.start_values());
+  m_contribution.assign(m_data->channels.size(), 0.0);
+  m_contribution_in_time.assign(recording().rows(), 0.0);
+  for (std::size_t c = 0; c < m_contribution.size(); ++c) {
+    if (m_data->channels[c].samples == 0) continue;
+    const double noise = std::hypot(m_data->channels[c].white, m_data->channels[c].drift);
+    for (std::size_t k = 0; k < recording().rows(); ++k) {
+      const double d = with.channels[c].values[k] - without.channels[c].values[k];
+      m_contribution[c] += d * d / static_cast<double>(recording().rows());
+      m_contribution_in_time[k] += d * d / (noise * noise);
+    }
+    m_contribution[c] = std::sqrt(m_contribution[c]);
+  }
+}
+
+void Diagnoser::mismatch() {
+  Mismatch& m = m_out.mismatch;
+  if (m_out.verdict == Verdict::consistent) return;
+  std::vector<const ChannelReport*> order;
+  for (const auto& channel : m_out.channels) order.push_back(&channel);
+  std::sort(order.begin(), order.end(), [](auto* a, auto* b) { return a->score > b->score; });
+  for (const auto* channel : order) {
+    if (channel->score > std::max(1.0, 0.15 * order.front()->score)) m.channels.push_back(channel->channel);
+  }
+  if (m.channels.empty() && !order.empty()) m.channels.push_back(order.front()->channel);
+  locate();
+  times();
+}
+
+void Diagnoser::locate() {
+  Mismatch& m = m_out.mismatch;
+  const physics::Sensor* sensor = m_machine.sensor(m.channels.empty() ? "" : m.channels.front());
+  for (const auto& component : m_machine.components) {
+    if (sensor != nullptr && sensor->component == component.id) m.component = component.id;
+    if (component.lump || m.position_mm) continue;
+    if (m.component.empty()) m.component = component.id;
+    Model nominal(m_machine, m_default_data);
+    nominal.fit({0, 0.05, true});
+    const SourceScan scan = scan_sources(nominal, component.id);
+    m.position_mm = {scan.from_mm, scan.to_mm};
+    m.best_position_mm = scan.best_mm;
+    m.scan_position_mm = scan.position_mm;
+    m.scan_evidence = scan.evidence;
+    m.regime = regime_of(scan, recording());
+    double sum = 0.0;
+    for (const double w : scan.watts) sum += std::abs(w);
+    m.missing_heat_W = scan.watts.empty() ? 0.0 : sum / static_cast<double>(scan.watts.size());
+    HeatMap heat;
+    heat.component = component.id;
+    heat.position_mm = scan.position_mm;
+    heat.time_s = scan.time_s;
+    heat.watts = scan.watts_by_position;
+    m_out.heat = std::move(heat);
+  }
+}
+
+/// Stretches of at least a block in which the mismatch is above a third of its largest.
+void Diagnoser::times() {
+  std::vector<double> size = m_contribution_in_time;
+  if (size.empty()) {
+    size.assign(recording().rows(), 0.0);
+    for (const auto& channel : m_out.channels) {
+      for (std::size_t k = 0; k < size.size(); ++k) {
+        const double d = (channel.measured[k] - channel.refitted[k]) / std::max(1e-9, channel.noise);
+        if (std::isfinite(d)) size[k] += d * d;
+      }
+    }
+  }
+  const double largest = *std::max_element(size.begin(), size.end());
+  bool inside = false;
+  for (std::size_t k = 0; k < size.size(); ++k) {
+    const bool above = size[k] > largest / 9.0;
+    if (above && !inside) m_out.mismatch.time_s.emplace_back(m_out.time_s[k], m_out.time_s[k]);
+    if (above) m_out.mismatch.time_s.back().second = m_out.time_s[k];
+    inside = above || (inside && m_out.time_s[k] - m_out.mismatch.time_s.back().second < 900.0);
+  }
+}
+
+/// A named place is better known than the hypothesis-free scan's.
+void Diagnoser::place_from_effect() {
+  for (const auto& effect : m_out.effects) {
+    if (!effect.position_mm) continue;
+    const double half_mm = std::max(1.0, 2.0 * effect.position_sigma_mm);
+    m_out.mismatch.position_mm = {std::max(0.0, *effect.position_mm - half_mm), *effect.position_mm + half_mm};
+    m_out.mismatch.best_position_mm = *effect.position_mm;
+    return;
+  }
+}
+
+void Diagnoser::held_out() {
+  const Machine base = refined_machine(*m_selection.base);
+  for (std::size_t i = 1; i < m_recordings.size(); ++i) {
+    const Recording& other = m_recordings[i];
+    HeldOut result;
+    result.recording = other.name;
+    const auto put = [&](const Machine& machine, std::map<std::string, double>& target) {
+      for (const auto& channel : predict_other(machine, other).channels) {
+        const double rms = rms_between(other, channel.channel, channel.values);
+        if (std::isfinite(rms)) target[channel.channel] = rms;
+      }
+    };
+    put(m_machine, result.nominal);
+    put(base, result.refitted);
+    put(m_out.refined, result.explained);
+    m_out.held_out.push_back(std::move(result));
+  }
+}
+
+void Diagnoser::details() {
+  std::map<std::string, Detectable> least;
+  for (const auto& candidate : m_selection.screened) {
+    if (candidate.detectable <= 0.0) continue;
+    const auto& parameters = physics::find_effect(candidate.spec.id)->parameters;
+    std::string key;
+    for (const auto& p : parameters) {
+      if (p.amplitude && candidate.spec.numbers.count(std::string(p.key)) != 0 && key.empty()) key = p.key;
+    }
+    auto& kept = least[candidate.spec.id];
+    if (kept.id.empty() || candidate.detectable < kept.value) kept = {candidate.spec.id, key, candidate.detectable};
+  }
+  for (auto& [id, detectable] : least) m_out.detectable.push_back(detectable);
+  if (!m_rivals.empty()) m_out.suggested = suggest_experiment(*m_selection.best, *m_rivals.front());
+}
+
+void Diagnoser::notes() {
+  const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
+    double low = 1e300, high = -1e300;
+    for (const double v : c.measured) {
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    return high - low > 12.0 * c.noise;
+  });
+  if (!excited) m_out.notes.emplace_back("no_excitation");
+  for (const auto& other : m_out.held_out) {
+    for (const auto& [channel, rms] : other.explained) {
+      for (const auto& report : m_out.channels) {
+        if (report.channel == channel && rms > 10.0 * std::max(report.rms_explained, 3.0 * report.noise)) {
+          m_out.notes.push_back("held_out_differs:" + other.recording + ":" + channel);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,59 @@
+#pragma once
+// One diagnosis in the making: what select_effects finds is judged (diagnose.cpp) and told (diagnose_report.cpp).
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/selection.h"
+
+namespace zerodrift::diagnosis {
+
+/// Root mean square of measured - predicted where a sample is there and no spike; NaN without such a channel.
+double rms_between(const recording::Recording& recording, const std::string& name,
+                   const std::vector<double>& predicted);
+
+class Diagnoser {
+ public:
+  Diagnoser(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
+            const DiagnoseOptions& options, const TaskContext& context);
+  Result<Diagnosis> run();
+
+ private:
+  static constexpr double most_left = 0.2;  // of the mismatch, rms, for an effect to explain it
+
+  /// What is fitted: the first recording, thinned if it is long.
+  const recording::Recording& recording() const { return m_fitted; }
+  Status prepare();
+  Status choose_drift();
+  double leftover(const physics::Prediction& prediction) const;
+  void decide();
+  void effects();
+  double confidence_of(const FoundEffect& found) const;
+  void rivals();
+  void series();
+  double usual_noise(bool temperature) const;
+  void without_effects();
+  void mismatch();
+  void locate();
+  void times();
+  void place_from_effect();
+  void held_out();
+  void details();
+  void notes();
+
+  const physics::Machine& m_machine;
+  const std::vector<recording::Recording>& m_recordings;
+  const recording::Recording m_fitted;
+  DiagnoseOptions m_options;
+  const TaskContext& m_context;
+  SelectionOptions m_limits;
+  std::shared_ptr<const Dataset> m_data, m_default_data;
+  bool m_lumps_only = false;
+  physics::RunFacts m_facts;
+  Selection m_selection;
+  std::shared_ptr<Model> m_used;
+  physics::Prediction m_explained;
+  std::vector<double> m_contribution, m_contribution_in_time;
+  std::vector<std::shared_ptr<Model>> m_rivals;
+  Diagnosis m_out;
+};
+
+}  // namespace zerodrift::diagnosis

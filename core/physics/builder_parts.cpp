@@ -1,0 +1,269 @@
+// What every machine has: conduction, capacities, start, couplings, sensors, displacements.
+#include <algorithm>
+#include <cmath>
+
+#include "core/physics/builder.h"
+#include "core/physics/initial_state.h"
+
+namespace zerodrift::physics {
+
+void NetworkBuilder::add_rod(const Component& component) {
+  Network::Place at;
+  at.component = component.id;
+  at.first = static_cast<int>(m_network.nodes());
+  at.count = m_options.cells;
+  at.cell_m = component.length_mm * m_per_mm / at.count;
+  m_network.places.push_back(at);
+  const Material& m = component.material;
+  Parameter k;
+  k.key = "conductivity_W_mK";
+  k.component = component.id;
+  k.mean = k.start = m.conductivity_W_mK;
+  k.sigma = m_machine.tolerances.conductivity;
+  k.logarithmic = true;
+  m_conductivity[component.id] = add_parameter(k);
+  Parameter c = k;
+  c.key = "heat_capacity_J_kgK";
+  c.mean = c.start = m.heat_capacity_J_kgK;
+  c.sigma = m_machine.tolerances.heat_capacity;
+  m_capacity[component.id] = add_parameter(c);
+  const double section_m2 = component.section_m2();
+  for (int i = 0; i < at.count; ++i) {
+    add_node(m.density_kg_m3 * section_m2 * at.cell_m, m_capacity[component.id], reference_C(component.id));
+  }
+  Term conduction;
+  conduction.kind = TermKind::link;
+  conduction.law_kind = LawKind::constant;
+  conduction.label = component.id + "/conduction";
+  for (int i = 0; i + 1 < at.count; ++i)
+    conduction.links.push_back({at.first + i, at.first + i + 1, section_m2 / at.cell_m});
+  conduction.parameters = {m_conductivity[component.id]};
+  conduction.law = [](const LawPoint& point) {
+    Strength s;
+    s.value = point.values[0];
+    s.by_parameter[0] = 1.0;
+    return s;
+  };
+  add(std::move(conduction));
+}
+
+void NetworkBuilder::add_lump(const Component& component) {
+  Network::Place at;
+  at.component = component.id;
+  at.first = static_cast<int>(m_network.nodes());
+  at.count = 1;
+  m_network.places.push_back(at);
+  if (component.heat_capacity_J_K) {
+    Parameter c;
+    c.key = "heat_capacity_J_K";
+    c.component = component.id;
+    c.mean = c.start = *component.heat_capacity_J_K;
+    c.sigma = m_machine.tolerances.heat_capacity;
+    c.logarithmic = true;
+    m_capacity[component.id] = add_parameter(c);
+    add_node(1.0, m_capacity[component.id], reference_C(component.id));
+  } else {
+    add_node(stand_in_capacity_J_K, -1, reference_C(component.id));
+    m_network.notes.push_back("capacity_unknown:" + component.id);
+  }
+}
+
+void NetworkBuilder::add_components() {
+  for (const auto& component : m_machine.components) {
+    // A prescribed lump is a surrounding, not a node.
+    if (component.prescribed) {
+      Environment boundary;
+      boundary.name = component.id;
+      for (const auto& sensor : m_machine.sensors) {
+        if (sensor.component == component.id && m_inputs.find(sensor.channel) != nullptr) {
+          boundary.series = linear(sensor.channel);
+        }
+      }
+      boundary.constant_C = boundary.series >= 0 ? 0.0 : reference_C(component.id);
+      environment(std::move(boundary));
+    } else if (component.lump) {
+      add_lump(component);
+    } else {
+      add_rod(component);
+    }
+  }
+}
+
+void NetworkBuilder::add_initial_state() {
+  const auto warm = warm_start_profiles(m_machine, m_inputs);
+  for (const auto& at : m_network.places) {
+    double accuracy_C = 0.0;
+    int sensors = 0;
+    for (const auto& sensor : m_machine.sensors) {
+      if (sensor.component == at.component) accuracy_C += sensor.accuracy_C, ++sensors;
+    }
+    // The start temperature is known from the description, or from the mean of the sensors with their offsets.
+    const double from_sensors_K = sensors == 0 ? 1.0 : accuracy_C / sensors / std::sqrt(sensors);
+    Parameter level;
+    level.key = "initial_temperature_K";
+    level.component = at.component;
+    level.sigma = m_machine.initial_temperature_C ? 0.15 : std::max(0.15, from_sensors_K);
+    level.per_recording = true;
+    InitialPart uniform{add_parameter(level), {}};
+    for (int i = 0; i < at.count; ++i) uniform.nodes.emplace_back(at.first + i, 1.0);
+    m_network.initial_parts.push_back(std::move(uniform));
+    if (at.cell_m == 0.0) continue;
+    Parameter tilt = level;
+    tilt.key = "initial_tilt_K";
+    InitialPart slope{add_parameter(tilt), {}};
+    for (int i = 0; i < at.count; ++i) slope.nodes.emplace_back(at.first + i, (i + 0.5) / at.count - 0.5);
+    m_network.initial_parts.push_back(std::move(slope));
+    const auto profile = warm.find(at.component);
+    if (profile == warm.end()) continue;
+    for (int i = 0; i < at.count; ++i) {
+      m_network.initial_C[at.first + i] = profile_at(profile->second, (i + 0.5) * at.cell_m / m_per_mm);
+    }
+    m_network.notes.push_back("warm_start:" + at.component);
+  }
+}
+
+void NetworkBuilder::add_couplings() {
+  for (const auto& coupling : m_machine.couplings) {
+    const Component& first = *m_machine.find(coupling.first.component);
+    const Component& second = *m_machine.find(coupling.second.component);
+    if (first.prescribed && second.prescribed) continue;
+    Parameter g;
+    g.key = "conductance_W_K";
+    g.component = first.id + "-" + second.id;
+    if (coupling.conductance_W_K && *coupling.conductance_W_K > 0.0) {
+      g.mean = g.start = *coupling.conductance_W_K;
+      g.logarithmic = true;
+      g.sigma = m_machine.tolerances.conductance;
+    } else {
+      // Unknown: somewhere around a time constant of an hour and a half, a factor of five either way.
+      const Component& inner = first.prescribed ? second : first;
+      const double capacity_J_K = inner.heat_capacity_J_K.value_or(stand_in_capacity_J_K);
+      g.mean = g.start = capacity_J_K / 5000.0;
+      g.logarithmic = true;
+      g.sigma = 1.6;
+      m_network.notes.push_back("conductance_unknown:" + g.component);
+    }
+    Term term;
+    term.label = g.component;
+    term.law_kind = LawKind::constant;
+    term.parameters = {add_parameter(g)};
+    term.law = [](const LawPoint& point) {
+      Strength s;
+      s.value = point.values[0];
+      s.by_parameter[0] = 1.0;
+      return s;
+    };
+    if (first.prescribed || second.prescribed) {
+      const Component& boundary = first.prescribed ? first : second;
+      const CouplingEnd& inner = first.prescribed ? coupling.second : coupling.first;
+      term.kind = TermKind::film;
+      const Probe at = probe_at(inner.component, inner.position_mm);
+      term.first_node =
+          std::max_element(at.begin(), at.end(), [](auto& a, auto& b) { return a.second < b.second; })->first;
+      term.weights = {1.0};
+      for (std::size_t e = 0; e < m_network.environments.size(); ++e) {
+        if (m_network.environments[e].name == boundary.id) term.environment = static_cast<int>(e);
+      }
+    } else {
+      term.kind = TermKind::link;
+      const Probe one = probe_at(first.id, coupling.first.position_mm);
+      const Probe two = probe_at(second.id, coupling.second.position_mm);
+      for (const auto& [a, wa] : one) {
+        for (const auto& [b, wb] : two) {
+          if (wa * wb > 0.0) term.links.push_back({a, b, wa * wb});
+        }
+      }
+    }
+    add(std::move(term));
+  }
+}
+
+void NetworkBuilder::add_sensors() {
+  for (const auto& sensor : m_machine.sensors) {
+    const Component* component = m_machine.find(sensor.component);
+    if (component == nullptr || component->prescribed) continue;
+    Observation seen;
+    seen.channel = sensor.channel;
+    seen.probe = probe(probe_at(component->id, sensor.position_mm));
+    seen.reference = reference_C(component->id);
+    Parameter offset;
+    offset.key = "offset_K";
+    offset.channel = sensor.channel;
+    offset.sigma = 0.5 * sensor.accuracy_C;  // as wide as the accuracy it would hide a faulty sensor
+    offset.per_recording = true;
+    seen.offset = add_parameter(offset);
+    m_network.observations.push_back(std::move(seen));
+  }
+}
+
+void NetworkBuilder::add_displacements() {
+  for (const auto& displacement : m_machine.displacements) {
+    Observation seen;
+    seen.channel = displacement.channel;
+    seen.temperature = false;
+    const Component* component = displacement.component.empty() ? nullptr : m_machine.find(displacement.component);
+    const bool across = displacement.direction == "X" || displacement.direction == "Y";
+    const bool grows = component != nullptr && !component->prescribed && component->length_mm > 0.0 &&
+                       component->material.expansion_1_K != 0.0 && (component->lump || !across);
+    if (grows) {
+      Parameter alpha;
+      alpha.key = "expansion_1_K";
+      alpha.component = component->id;
+      alpha.channel = displacement.channel;
+      alpha.mean = alpha.start = component->material.expansion_1_K;
+      alpha.sigma = m_machine.tolerances.expansion;
+      alpha.logarithmic = true;
+      seen.scale = add_parameter(alpha);
+      Probe length_um;
+      const auto& at = place(component->id);
+      const double cell_um = (at.cell_m == 0.0 ? component->length_mm * m_per_mm : at.cell_m) * 1e6 * displacement.sign;
+      for (int i = 0; i < at.count; ++i) {
+        length_um.emplace_back(at.first + i, cell_um);
+        seen.reference += cell_um * reference_C(component->id);
+      }
+      seen.probe = probe(std::move(length_um));
+    }
+    Parameter offset;
+    offset.key = "offset_um";
+    offset.channel = displacement.channel;
+    // A probe is set to zero at some moment: on a machine that starts warm that says little.
+    offset.sigma = warm_start_profiles(m_machine, m_inputs).empty() ? 1.5 : 30.0;
+    offset.per_recording = true;
+    seen.offset = add_parameter(offset);
+    m_network.observations.push_back(std::move(seen));
+  }
+}
+
+void NetworkBuilder::build() {
+  m_initial_C = initial_temperatures(m_machine, m_inputs);
+  double sum = 0.0;
+  for (const auto& [id, value] : m_initial_C) sum += value;
+  if (!m_initial_C.empty()) m_mean_initial_C = sum / static_cast<double>(m_initial_C.size());
+  Parameter hold;
+  hold.key = "hold";
+  hold.mean = 0.3;
+  hold.sigma = 0.3;
+  hold.low = 0.0;
+  hold.high = 1.0;
+  hold.start = 0.0;
+  hold.per_recording = true;
+  m_network.hold_parameter = add_parameter(hold);
+  add_components();
+  add_initial_state();
+  add_sensors();
+  add_displacements();
+  for (std::size_t i = 0; i < m_machine.effects.size(); ++i) {
+    const EffectSpec& spec = m_machine.effects[i];
+    find_effect(spec.id)->add(*this, spec, static_cast<int>(i));
+  }
+  add_sources();
+  add_couplings();
+}
+
+Network build_network(const Machine& machine, const recording::Recording& inputs, const BuildOptions& options) {
+  NetworkBuilder builder(machine, inputs, options);
+  builder.build();
+  return std::move(builder.network());
+}
+
+}  // namespace zerodrift::physics

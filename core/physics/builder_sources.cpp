@@ -1,0 +1,106 @@
+// The listed heat sources of a machine and their nominal heat.
+#include <algorithm>
+#include <cmath>
+
+#include "core/physics/builder.h"
+#include "core/physics/sources.h"
+
+namespace zerodrift::physics {
+
+void NetworkBuilder::add_source(const Component& component, const HeatSource& source) {
+  if (component.prescribed) return;
+  Term term = source_over(component.id, source.from_mm, source.to_mm);
+  if (const auto body = m_bodies.find(source.id); body != m_bodies.end()) {
+    // The heat enters the source's own body; the body's contact spreads it over the same place.
+    for (std::size_t i = 0; i < term.weights.size(); ++i) {
+      body->second.links.push_back({body->second.first_node, term.first_node + static_cast<int>(i), term.weights[i]});
+    }
+    term.first_node = body->second.first_node;
+    term.weights = {1.0};
+    add(body->second);
+  }
+  term.label = component.id + "/" + source.id;
+  Parameter scale;
+  scale.key = "scale:" + source.id;
+  scale.component = component.id;
+  scale.mean = scale.start = source.scale > 0.0 ? source.scale : 1.0;
+  scale.logarithmic = true;
+  scale.sigma = source.power_unknown ? std::max(0.5, m_machine.tolerances.heat_source_power)
+                                     : m_machine.tolerances.heat_source_power;
+  if (source.kind == SourceKind::speed) {
+    const double capacity_J_K = component.lump ? component.heat_capacity_J_K.value_or(stand_in_capacity_J_K) : 4000.0;
+    for (const auto& law : source.law) {
+      Parameter watts;
+      watts.key = "watts_" + law + ":" + source.id;
+      watts.component = component.id;
+      watts.low = 0.0;
+      watts.sigma = capacity_J_K * 20.0 / 3600.0;  // 20 K in an hour
+      const auto known = source.law_watts.find(law);
+      watts.start = known == source.law_watts.end() ? 0.0 : known->second;
+      watts.mean = watts.start;
+      if (!source.power_unknown)
+        watts.sigma = std::max(0.1 * watts.sigma, m_machine.tolerances.heat_source_power * watts.start);
+      term.parameters.push_back(add_parameter(watts));
+    }
+    const double full = source.full_speed_rpm > 0.0 ? source.full_speed_rpm : m_network.full_speed_rpm;
+    term.law = speed_law(source.law, held(source.channel), full);
+    add(std::move(term));
+    return;
+  }
+  term.parameters = {add_parameter(scale)};
+  if (source.kind == SourceKind::motor) {
+    term.law = motor_law(source, held_speed());
+    if (source.jacket) {
+      term.law_kind = LawKind::state;
+      for (std::size_t i = 0; i < term.weights.size(); ++i) {
+        term.driver.emplace_back(term.first_node + static_cast<int>(i), term.weights[i]);
+      }
+    }
+  } else if (source.kind == SourceKind::bearing) {
+    const auto& modifiers = m_modifiers[source.id];
+    for (const auto& m : modifiers) {
+      term.parameters.push_back(m.parameter);
+      if (m.second_parameter >= 0) term.parameters.push_back(m.second_parameter);
+    }
+    term.law = bearing_law(source, held_speed(), m_network.full_speed_rpm, modifiers);
+    if (!modifiers.empty()) {
+      term.law_kind = LawKind::state;
+      for (std::size_t i = 0; i < term.weights.size(); ++i) {
+        term.driver.emplace_back(term.first_node + static_cast<int>(i), term.weights[i]);
+      }
+    }
+  } else if (source.kind == SourceKind::input) {
+    term.law = input_law(source.watts_per_unit, held(source.channel));
+  } else {
+    term.law = friction_law(source.friction_N, held(source.channel));
+  }
+  add(std::move(term));
+}
+
+void NetworkBuilder::add_sources() {
+  for (const auto& component : m_machine.components) {
+    for (const auto& source : component.sources) add_source(component, source);
+  }
+}
+
+double nominal_heat_W(const HeatSource& source, double input, double full_speed_rpm) {
+  const double one = 1.0;
+  LawPoint at;
+  at.held = &input;
+  at.values = &one;
+  if (source.kind == SourceKind::motor) {
+    HeatSource dry = source;
+    dry.jacket.reset();
+    return source.scale * motor_law(dry, 0)(at).value;
+  }
+  if (source.kind == SourceKind::bearing) return source.scale * bearing_law(source, 0, full_speed_rpm, {})(at).value;
+  if (source.kind == SourceKind::input) return source.scale * source.watts_per_unit * input;
+  if (source.kind == SourceKind::speed) {
+    double sum_W = 0.0;
+    for (const auto& [law, watts] : source.law_watts) sum_W += watts * speed_term(law, input, full_speed_rpm);
+    return sum_W;
+  }
+  return source.scale * source.friction_N * std::abs(input) / 60000.0;
+}
+
+}  // namespace zerodrift::physics
