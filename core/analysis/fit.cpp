@@ -35,6 +35,9 @@ std::vector<std::string> sensitive_points(const std::vector<recording::Recording
   return clusters ? std::move(clusters->sensitive_points) : std::vector<std::string>{};
 }
 
+/// On more sensors than this the textbook's regression fits noise.
+constexpr std::size_t most_for_mlr = 8;
+
 /// What to try, from simple to complex: the order in which ties are broken.
 struct Plan {
   std::vector<Recipe> recipes;
@@ -68,7 +71,7 @@ Result<Plan> plan_for(const FitOptions& options, const std::vector<recording::Re
   // many candidates is the luckiest (winner's curse).
   if (any) {
     plan.recipes.push_back(make_recipe(Method::ridge, few, set));
-    plan.recipes.push_back(make_recipe(Method::mlr, few, set));
+    if (few.size() <= most_for_mlr) plan.recipes.push_back(make_recipe(Method::mlr, few, set));
   } else if (is_static(options.method)) {
     plan.recipes.push_back(make_recipe(options.method, few, set));
   }
@@ -95,7 +98,8 @@ Result<Trial> try_out(const TrainingSet& set, const Recipe& recipe, double cover
   return trial;
 }
 
-const Trial* choose(const std::vector<Trial>& trials, Method method, bool static_only) {
+/// `rank` false: one cycle, whose end says nothing about other speeds; then the first one allowed is taken.
+const Trial* choose(const std::vector<Trial>& trials, Method method, bool static_only, bool rank) {
   const auto allowed = [&](const Trial& t) {
     if (static_only) return t.summary.runs_on_controller;
     return method == Method::automatic || t.recipe.method == method;
@@ -105,7 +109,7 @@ const Trial* choose(const std::vector<Trial>& trials, Method method, bool static
     if (allowed(t)) best = std::min(best, t.evaluation.expected_um);
   }
   for (const auto& t : trials) {
-    if (allowed(t) && t.evaluation.expected_um <= margin * best) return &t;
+    if (allowed(t) && (!rank || t.evaluation.expected_um <= margin * best)) return &t;
   }
   return nullptr;
 }
@@ -118,6 +122,10 @@ std::string reason_for(const Trial& chosen, const std::vector<Trial>& trials, co
   }
   const auto left = fmt::format("leaves {:.2f} um rms with {} left out", chosen.evaluation.rms_um, set.folds.in_words);
   if (options.method != Method::automatic) return fmt::format("{} as asked for; {}", chosen.summary.label, left);
+  if (set.folds.cycles < 2) {
+    return fmt::format("{} {}; one cycle cannot rank methods, so the one that shrinks what it cannot tell is taken",
+                       chosen.summary.label, left);
+  }
   if (best == &chosen) return fmt::format("{} {}, less than every other method tried", chosen.summary.label, left);
   return fmt::format("{} {}; {} leaves {:.2f} um, which is not clearly better, so the simpler model is taken",
                      chosen.summary.label, left, best->summary.label, best->evaluation.rms_um);
@@ -360,8 +368,9 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
       return fail(std::move(trial).error());
     }
   }
-  const Trial* chosen = choose(trials, options.method, false);
-  const Trial* table_trial = choose(trials, options.method, true);
+  const bool rank = set.folds.cycles >= 2;
+  const Trial* chosen = choose(trials, options.method, false, rank);
+  const Trial* table_trial = choose(trials, options.method, true, rank);
   if (chosen == nullptr || table_trial == nullptr) {
     return fail(ErrorCode::not_enough_data, {{"what", "the run"},
                                              {"found", fmt::format("{} blocks of measurements", set.error_um.rows())},

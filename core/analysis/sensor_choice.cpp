@@ -68,9 +68,7 @@ bool told_worse(const SensorSet& set, const SensorSet& best) {
   for (std::size_t f = 0; f < best.fold_um.size(); ++f) {
     square += std::pow(set.fold_um[f] - best.fold_um[f] - mean, 2);
   }
-  // One stretch has no standard error: then a quarter of the error itself.
-  const double standard_error = n >= 2.0 ? std::sqrt(square / (n - 1.0) / n) : 0.25 * best.fold_um.front();
-  return mean > standard_error;
+  return mean > std::sqrt(square / (n - 1.0) / n);
 }
 
 /// `sets` from few sensors to many.
@@ -87,6 +85,14 @@ std::size_t best_of(const std::vector<SensorSet>& sets) {
   return best;
 }
 
+/// The smallest set of the kind "nearest"; the smallest of all when there is none.
+std::size_t few_nearest(const std::vector<SensorSet>& sets) {
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (sets[i].kind == SetKind::nearest) return i;
+  }
+  return 0;
+}
+
 std::string comparison(const std::vector<SensorSet>& sets, std::size_t chosen, const std::string& left_out) {
   const SensorSet& best = sets[chosen];
   std::string text =
@@ -98,7 +104,7 @@ std::string comparison(const std::vector<SensorSet>& sets, std::size_t chosen, c
   }
   const auto least = std::min_element(sets.begin(), sets.end(),
                                       [](const auto& a, const auto& b) { return a.expected_um < b.expected_um; });
-  if (least->expected_um < best.expected_um) {
+  if (least->expected_um < best.expected_um && best.fold_um.size() >= 2) {
     text += "; what was left out does not tell them apart, and the mean of more sensors is quieter";
   }
   return text;
@@ -152,8 +158,10 @@ Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptio
     candidate.noise_um = judged->mean_noise_um;
     out.sets.push_back(std::move(candidate));
   }
-  out.chosen = best_of(out.sets);
+  const bool one_cycle = set.folds.count < 2;
+  out.chosen = one_cycle ? few_nearest(out.sets) : best_of(out.sets);
   out.reason = comparison(out.sets, out.chosen, set.folds.in_words);
+  if (one_cycle) out.reason += "; one cycle cannot rank them: a second speed would";
   return out;
 }
 

@@ -48,8 +48,10 @@ struct ChoiceOptions {
   std::size_t most = 0;                       // 0: no limit; else no set is larger
 };
 
-/// The largest set whose error is not told apart from the least one: a few left-out stretches do not rank sets of
-/// sensors, and the mean of many sensors is quieter and stays right when a slow body goes where it was never seen.
+/// One cycle ranks nothing: the few sensors nearest to the model on all are taken, because sensors that rose together
+/// in it need not do so at other speeds. With more: the largest set whose error is not told apart from the least one: a
+/// few left-out stretches do not rank sets of sensors, and the mean of many sensors is quieter and stays right when a
+/// slow body goes where it was never seen.
 Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptions& options,
                                        const TaskContext& context = {});
 

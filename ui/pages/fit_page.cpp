@@ -243,6 +243,9 @@ void FitPage::renderWords() {
   m_wordCard->setTitle(tr("What to expect"));
   if (std::isnan(m_state.attainableRms_um)) {
     m_headline->setText(tr("Choose a method to see what it will leave."));
+  } else if (std::isnan(m_state.attainable90_um)) {
+    m_headline->setText(tr("Left %1 µm on the end of the run; one cycle says nothing about other speeds.")
+                            .arg(m_state.attainableRms_um, 0, 'f', 1));
   } else {
     m_headline->setText(tr("Will leave %1 µm (90 %: %2 µm) at speeds like these.")
                             .arg(m_state.attainableRms_um, 0, 'f', 1)

@@ -315,7 +315,7 @@ void SensorsPage::renderTable() {
     name.checkable = true;
     name.checked = s.kept;
     name.strong = s.kept;
-    DataCell lag = numberCell(s.lag_s / 60.0, 1);
+    DataCell lag = numberCell(s.lag_s / 60.0, 0);
     if (!std::isnan(s.lag_s)) lag.text = tr("%1 min").arg(lag.text);
     DataCell price;
     price.text = QStringLiteral("–");

@@ -81,18 +81,22 @@ void FitPresenter::fill(ui::FitState& state) {
   double rms = 0.0;
   double band = 0.0;
   double coverage = 1.0;
+  bool stated = true;
   double range = 0.0;
   for (const auto& error : model->errors) {
     peak = std::max(peak, error.held_out.peak_um);
     rms = std::max(rms, error.held_out.rms_um);
     band = std::max(band, error.band.half_width_um);
     coverage = std::min(coverage, error.band.measured_coverage);
+    stated = stated && error.band.stated_coverage > 0.0;
   }
   range = model->quality.error_range_um;
   state.attainablePeak_um = peak;
   state.attainableRms_um = rms;
-  state.attainable90_um = band;
-  state.coverage_percent = 100.0 * coverage;
+  if (stated) {  // one cycle allows no statement
+    state.attainable90_um = band;
+    state.coverage_percent = 100.0 * coverage;
+  }
   if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
   for (const auto& sensor : model->sensors)
     state.sensors << QString::fromStdString(sensor).remove(QStringLiteral("_C"));
@@ -123,6 +127,11 @@ void FitPresenter::fill(ui::FitState& state) {
   for (const auto& finding : model->findings) state.advice << QString::fromStdString(analysis::describe(finding));
   const auto run = flow::run_of(*bench().job(), *warmup);
   if (!run) return;
+  if (model->quality.cycles < 2 && run->rows() > 1) {  // the last quarter was left out; cycles are all left out in turn
+    const double end_s = run->time_s.back();
+    const double split_s = run->time_s.front() + 0.75 * (end_s - run->time_s.front());
+    state.stretches = {{run->time_s.front(), split_s, true}, {split_s, end_s, false}};
+  }
   const auto prediction = analysis::predict(*model, *run);
   if (!prediction) return;
   const std::string sensor = model->sensors.empty() ? "" : model->sensors.front();

@@ -12,7 +12,8 @@
 namespace zerodrift::bench {
 namespace {
 
-std::vector<RunStep> warm_up() {
+std::vector<RunStep> warm_up(bool one_speed) {
+  if (one_speed) return {{14400, 3000, true, true}};
   return {{7200, 3000, true, true}, {2880, 6000, true, true}, {2160, 1500, false, true}, {2160, 0, false, false}};
 }
 std::vector<RunStep> verification() {
@@ -54,12 +55,12 @@ struct Way {
   Totals other;
 };
 
-void run(std::uint64_t first, int count, double filter_s) {
+void run(std::uint64_t first, int count, double filter_s, bool one_speed) {
   std::vector<Way> ways{{"sensitive points", {}, {}}, {"spread 5", {}, {}}, {"auto", {}, {}}, {"all", {}, {}}};
   for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(count); ++seed) {
     machine::Machine machine(machine::build_machine(seed));
     machine.advance_to(2600.0);
-    const VirtualRun train = run_machine(machine, warm_up(), 120.0, seed);
+    const VirtualRun train = run_machine(machine, warm_up(one_speed), 120.0, seed);
     const VirtualRun same = run_machine(machine, verification(), 120.0, seed + 500);
     auto tomorrow = machine::build_machine(seed);
     tomorrow.noise_day = 1;
@@ -117,7 +118,9 @@ int main(int argc, char** argv) {
   app.add_option("first", first, "First seed");
   app.add_option("count", count, "Number of seeds");
   app.add_option("--filter", filter_s, "Low-pass of the controller's temperatures, s");
+  bool one_speed = false;
+  app.add_flag("--one-speed", one_speed, "Train on four hours at 3000 rpm instead of the stepped plan");
   CLI11_PARSE(app, argc, argv);
-  zerodrift::bench::run(first, count, filter_s);
+  zerodrift::bench::run(first, count, filter_s, one_speed);
   return 0;
 }
