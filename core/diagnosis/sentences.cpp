@@ -22,7 +22,7 @@ constexpr std::array catalogue{
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
           "({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}."},
     Entry{"rival_left",
-          "{@name}{@where} explains this recording almost as well (log evidence {behind} behind); it cannot be "
+          "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
           "excluded."},
     Entry{"experiment_run", "To tell {@best} from {@rival}: {@run}."},
     Entry{"nothing_to_simulate", "The profile holds no machine description, so there is nothing to simulate."},
