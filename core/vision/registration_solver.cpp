@@ -12,6 +12,7 @@ constexpr double reach_px = 8.0;  // the coarse search is never further off
 constexpr double lens_unit = registration_lens_unit;
 constexpr double length_px = registration_length_px;
 constexpr double linear_prior = 0.02;  // standard deviation of the affine part: keeps rings, which cannot see rotation
+constexpr double linear_prior_with_field = 0.006;  // beside a free field, shape is weak evidence of the linear part
 constexpr double field_prior_levels = 60.0;
 constexpr double middle_grey = 128.0;
 constexpr double usual_read_variance = 25.0;  // of the noise at black in units of that of one grey level: shot noise
@@ -289,7 +290,8 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
     p.field_share = p.field.solve(cross);
     p.normal -= cross.transpose() * p.field_share;
   }
-  p.linear_prior = std::pow(m_scale / (length_px * linear_prior), 2);
+  const double linear = m_field != nullptr ? linear_prior_with_field : linear_prior;
+  p.linear_prior = std::pow(m_scale / (length_px * linear), 2);
   p.lens_prior = std::pow(m_scale * lens_unit / m_prior.sigma_per_px2, 2);
   p.normal.diagonal().segment<4>(axx).array() += p.linear_prior;
   p.normal(bend, bend) += p.lens_prior;

@@ -37,8 +37,8 @@ constexpr double least_fine_correlation = 0.90;
 constexpr double least_contrast = 0.2;
 constexpr double largest_contrast = 3.0;
 constexpr double largest_linear = 0.035;
-constexpr double largest_linear_of_twin = 0.07;  // of a frame that nothing but the target itself can be
-constexpr double twin_correlation = 0.999;
+constexpr double largest_linear_in_glare = 0.07;  // a halo bends what little a ball shows
+constexpr double some_glare = 0.02;               // of the pixels
 constexpr double accepted_blur_px2 = 18.0;
 constexpr double least_seen = 0.70;
 constexpr double largest_structure = 8.0;  // of the residual's patches: frames that are measured well stay below 2.5
@@ -55,12 +55,12 @@ Refusal judge(const Registration& r, double coarse_correlation) {
     return fits ? Refusal::too_different : Refusal::missing;
   }
   if (!fits) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::wrong_target;
-  if (linear_change(r) > (r.correlation > twin_correlation ? largest_linear_of_twin : largest_linear))
-    return Refusal::wrong_target;
+  const bool all_but_glare = r.correlation > glare_correlation && r.inlier_share + r.saturated_share > glare_explained;
+  const bool bent_by_glare = all_but_glare && r.saturated_share > some_glare;
+  if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
   if (r.structure > largest_structure) return r.saturated_share > 0.02 ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
-  const bool only_glare = r.correlation > glare_correlation && r.informed_share > least_informed_in_glare &&
-                          r.inlier_share + r.saturated_share > glare_explained;
+  const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;
   if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {
     if (r.saturated_share > 0.10) return Refusal::glare;
     return coarse_correlation < 0.5 ? Refusal::missing : Refusal::occluded;

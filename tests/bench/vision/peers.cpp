@@ -1,5 +1,6 @@
 #include "tests/bench/vision/peers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -84,6 +85,27 @@ std::optional<PeerAnswer> ecc(const cv::Mat& pattern, const cv::Mat& frame, cons
                     at.dy + w(1, 0) * cx + w(1, 1) * cy + w(1, 2) - cy - margin_px, score > accepted_correlation};
 }
 
+// Keys' cubic convolution; cv::remap knows 1/32 pixels only, which would be all of the peer's error.
+double bicubic(const cv::Mat& image, double x, double y) {
+  const auto weights = [](double t, double* w) {
+    w[0] = ((-0.5 * t + 1.0) * t - 0.5) * t;
+    w[1] = (1.5 * t - 2.5) * t * t + 1.0;
+    w[2] = ((-1.5 * t + 2.0) * t + 0.5) * t;
+    w[3] = (0.5 * t - 0.5) * t * t;
+  };
+  const int column = std::clamp(static_cast<int>(std::floor(x)), 1, image.cols - 3);
+  const int row = std::clamp(static_cast<int>(std::floor(y)), 1, image.rows - 3);
+  double wx[4], wy[4];
+  weights(std::clamp(x - column, 0.0, 1.0), wx);
+  weights(std::clamp(y - row, 0.0, 1.0), wy);
+  double sum = 0.0;
+  for (int j = 0; j < 4; ++j) {
+    const float* from = image.ptr<float>(row - 1 + j) + column - 1;
+    sum += wy[j] * (wx[0] * from[0] + wx[1] * from[1] + wx[2] * from[2] + wx[3] * from[3]);
+  }
+  return sum;
+}
+
 // Plain digital image correlation: inverse-compositional Gauss-Newton, affine, zero-mean normalized, bicubic.
 std::optional<PeerAnswer> plain_icgn(const cv::Mat& pattern, const cv::Mat& frame, const Region& region,
                                      const Coarse& at) {
@@ -111,16 +133,13 @@ std::optional<PeerAnswer> plain_icgn(const cv::Mat& pattern, const cv::Mat& fram
   cv::Matx33d motion(1, 0, margin_px, 0, 1, margin_px, 0, 0, 1);
   double correlation = 0.0;
   for (int iteration = 0; iteration < 25; ++iteration) {
-    cv::Mat map_x(f.size(), CV_32F), map_y(f.size(), CV_32F), g;
+    cv::Mat g(f.size(), CV_64F);
     for (int y = 0; y < f.rows; ++y) {
       for (int x = 0; x < f.cols; ++x) {
         const cv::Vec3d to = motion * cv::Vec3d(x - cx, y - cy, 1.0);
-        map_x.at<float>(y, x) = static_cast<float>(to[0] + cx);
-        map_y.at<float>(y, x) = static_cast<float>(to[1] + cy);
+        g.at<double>(y, x) = bicubic(image, to[0] + cx, to[1] + cy);
       }
     }
-    cv::remap(image, g, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-    g.convertTo(g, CV_64F);
     g -= cv::mean(g)[0];
     const double norm_g = cv::norm(g);
     correlation = f0.dot(g) / (norm_f * norm_g);

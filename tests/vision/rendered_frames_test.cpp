@@ -1,0 +1,73 @@
+// The image measurement on rendered frames whose displacement is exact, one small session for each thing that has to
+// hold; the figures of all sets are in docs/measuring-accuracy.md.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/vision/image_quality.h"
+#include "core/vision/target.h"
+#include "tests/support/frame_set.h"
+
+namespace zerodrift::vision {
+namespace {
+
+using test_support::Disturbance;
+using test_support::PatternKind;
+
+GrayImage image_of(const test_support::Frame& frame) {
+  return {frame.width_px, frame.height_px, frame.pixels};
+}
+
+Region region_of(const test_support::PixelRegion& at) {
+  return {at.x, at.y, at.width, at.height};
+}
+
+// Largest error in px over the frames, all of which must be measured.
+double largest_error_px(PatternKind kind, Disturbance disturbance, std::uint64_t seed) {
+  const test_support::Session session = test_support::make_session(kind, disturbance, seed, 4);
+  const auto target = Target::create(image_of(session.renderer.render(session.template_spec)), region_of(session.roi),
+                                     std::nullopt, "template");
+  if (!target) return std::nan("");
+  std::vector<GrayImage> views;
+  for (const auto& view : session.grid_views) views.push_back(image_of(session.renderer.render(view.spec)));
+  const Target learned = target->learned_from(views);
+  double worst = 0.0;
+  for (const auto& spec : session.frames) {
+    const Location at = learned.locate(image_of(session.renderer.render(spec)));
+    EXPECT_TRUE(at.ok) << at.reason;
+    const auto truth = test_support::truth_of(session, spec).shift_px;
+    worst = std::max({worst, std::abs(at.x_px - truth.x), std::abs(at.y_px - truth.y)});
+  }
+  return worst;
+}
+
+}  // namespace
+
+// A plate is measured to some thousandths of a pixel whatever is printed on it; five sigma of the worst set.
+TEST(RenderedFrames, APlateOfAnyDesignIsMeasuredUnderAHalo) {
+  EXPECT_LT(largest_error_px(PatternKind::code, Disturbance::glare, 77), 0.012);
+  EXPECT_LT(largest_error_px(PatternKind::rings, Disturbance::glare, 77), 0.012);
+}
+
+TEST(RenderedFrames, ChipsOnTheTargetPullNothing) {
+  EXPECT_LT(largest_error_px(PatternKind::checkerboard, Disturbance::occluded, 77), 0.008);
+}
+
+TEST(RenderedFrames, AGlaringSpotDoesNotHideTheBall) {
+  EXPECT_LT(largest_error_px(PatternKind::ball, Disturbance::glare, 77), 0.1);
+}
+
+TEST(RenderedFrames, BlurIsToldWhateverThePattern) {
+  for (const PatternKind kind : {PatternKind::checkerboard, PatternKind::rings, PatternKind::code}) {
+    const test_support::Session session = test_support::make_session(kind, Disturbance::clean, 5, 1);
+    for (const double blur_px : {1.0, 1.8}) {
+      test_support::FrameSpec spec = session.template_spec;
+      spec.blur_px = blur_px;
+      const ImageQuality found = quality_of(image_of(session.renderer.render(spec)), region_of(session.roi));
+      EXPECT_NEAR(found.blur_px, blur_px, 0.25 * blur_px) << test_support::name_of(kind);
+    }
+  }
+}
+
+}  // namespace zerodrift::vision
