@@ -90,6 +90,42 @@ int remove_spikes(std::vector<double>& values) {
   return removed;
 }
 
+int remove_wild_errors(std::vector<double>& values) {
+  constexpr double share_of_range = 0.2;
+  constexpr double scatters = 10.0;
+  constexpr std::size_t fewest = 12;
+  std::vector<std::size_t> rows;
+  std::vector<double> v;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    rows.push_back(i);
+    v.push_back(values[i]);
+  }
+  if (v.size() < fewest) return 0;
+  std::vector<double> sorted = v;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t edge = std::max<std::size_t>(v.size() / 50, 1);
+  const double range = sorted[v.size() - 1 - edge] - sorted[edge];
+  std::vector<double> bends;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) bends.push_back(std::abs(v[i - 1] - 2.0 * v[i] + v[i + 1]));
+  const double scatter = 1.4826 * median_of(std::move(bends)) / std::sqrt(6.0);
+  const double allowed = std::max(share_of_range * range, scatters * scatter);
+  int removed = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    double above = std::numeric_limits<double>::infinity();
+    double below = above;
+    for (std::size_t k = i < 2 ? 0 : i - 2; k <= std::min(i + 2, v.size() - 1); ++k) {
+      if (k == i) continue;
+      above = std::min(above, v[i] - v[k]);
+      below = std::min(below, v[k] - v[i]);
+    }
+    if (std::max(above, below) <= allowed || allowed <= 0.0) continue;
+    values[rows[i]] = missing_sample;
+    ++removed;
+  }
+  return removed;
+}
+
 std::optional<Finding> fatal_fault(const std::string& channel, const std::vector<double>& time_s,
                                    const std::vector<double>& values) {
   const std::vector<double> there = present(values);

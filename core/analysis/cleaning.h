@@ -16,6 +16,11 @@ inline constexpr double missing_sample = std::numeric_limits<double>::quiet_NaN(
 /// median absolute deviation) become missing. Returns how many spikes there were.
 int remove_spikes(std::vector<double>& values);
 
+/// The same for measured errors, which may kink where the speed changes: a measurement becomes missing when it stands
+/// out from the two before and the two after it by more than a fifth of the range of all (without the outermost 2 %)
+/// and by far more than neighbours scatter.
+int remove_wild_errors(std::vector<double>& values);
+
 /// A fault that makes the whole series useless, if there is one: dead, died half-way, constant.
 std::optional<Finding> fatal_fault(const std::string& channel, const std::vector<double>& time_s,
                                    const std::vector<double>& values);

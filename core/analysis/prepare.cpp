@@ -113,6 +113,11 @@ Status take_errors(const Recording& recording, const PrepareOptions& options, Pr
   for (const auto& name : names) {
     ZD_TRY(const Channel* channel, recording.require(name));
     std::vector<double> values = channel->values;
+    const int wild = remove_wild_errors(values);
+    if (wild > 0) {
+      out.findings.push_back(
+          {FindingKind::spikes, FindingAction::repaired, name, fmt::format("{} measurements left out", wild)});
+    }
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     int count = 0;

@@ -91,6 +91,20 @@ TEST(Cleaning, FaultySensorAskedForByNameIsRefused) {
   EXPECT_EQ(data.error().context.at("sensor"), "T2_C");
 }
 
+TEST(Cleaning, WildErrorMeasurementIsNamedAndLeftOut) {
+  auto r = test::machine_run({});
+  auto& dz = r.channels.back();
+  ASSERT_EQ(dz.name, "dZ_um");
+  ASSERT_TRUE(prepare(r)->findings.empty());
+  dz.values[600] = 500.0;  // measured every sixth row
+  const auto data = prepare(r);
+  ASSERT_TRUE(data) << describe(data.error());
+  ASSERT_EQ(data->findings.size(), 1U);
+  EXPECT_EQ(data->findings[0].kind, FindingKind::spikes);
+  EXPECT_EQ(data->findings[0].channel, "dZ_um");
+  EXPECT_FALSE(std::isfinite(data->error_um(600, 2)));
+}
+
 TEST(Cleaning, RecordingWithoutMovingErrorsIsRefused) {
   auto r = machine_run({});
   for (const char* e : {"dX_um", "dY_um", "dZ_um"}) {
