@@ -111,7 +111,7 @@ int remove_wild_errors(std::vector<double>& values) {
   const double scatter = 1.4826 * median_of(std::move(bends)) / std::sqrt(6.0);
   const double allowed = std::max(share_of_range * range, scatters * scatter);
   int removed = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) {  // the first and last may well be the largest: a start is steep
     double above = std::numeric_limits<double>::infinity();
     double below = above;
     for (std::size_t k = i < 2 ? 0 : i - 2; k <= std::min(i + 2, v.size() - 1); ++k) {
