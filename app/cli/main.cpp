@@ -75,6 +75,8 @@ std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command != "commission" && command != "report") return std::make_unique<QCoreApplication>(argc, argv);
   qputenv("QT_QPA_PLATFORM", "offscreen");
+  // What the toolkit remarks about its surroundings is not for the reader of stderr.
+  qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
   return std::make_unique<QApplication>(argc, argv);
 }
 

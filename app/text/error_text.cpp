@@ -91,6 +91,8 @@ constexpr std::array rows = {
     SAY(machine_register_unknown, "The register map {map} has no register \"{register}\".",
         "Add it to the map, or switch off the function that needs it."),
     SAY(machine_not_ready, "The machine is not ready for {what}: {reason}.", "Put it right and try again."),
+    SAY(target_partly_covered, "The target before camera {view} is partly occluded: {percent} % of it is measured.",
+        "The numbers hold, with their uncertainty; wipe the target at the next stop."),
     SAY(sensor_dead, "The temperature sensor {sensor} gives no value.",
         "Check its plug and cable, or leave it out of the model."),
     SAY(sensor_stuck, "The temperature sensor {sensor} has not moved for {seconds} s: it is stuck.",

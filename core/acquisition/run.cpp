@@ -213,6 +213,11 @@ void Run::note_measurement(const Result<ErrorSample>& measured) {
   }
   m_failed_measurements = 0;
   ++m_summary.measurements;
+  if (measured->remark) {
+    raise("target", *measured->remark);
+  } else {
+    clear("target");
+  }
   if (measured->problems.empty()) {
     clear("errors");
     return;

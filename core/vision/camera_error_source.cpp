@@ -10,6 +10,8 @@ namespace zerodrift::vision {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+// A clean target is measured with nearly all of its pixels.
+constexpr double covered_share = 0.8;
 constexpr const char* axis_names[] = {"X", "Y", "Z"};
 
 // What a dead camera is called among the reasons of a sample.
@@ -55,6 +57,9 @@ Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskConte
     // Only the first frame can have been on its way when the machine came to stand; the others follow it.
     after = state.frame->arrived - std::chrono::milliseconds(1);
     locations.push_back(locate_against(*view.target, view.references, state.frame->image, &state.references));
+  }
+  for (const Location& one : locations) {
+    if (one.ok) state.least_share = std::min(state.least_share, one.inlier_share);
   }
   const MeanLocation mean = mean_of(locations);
   state.location = mean.location;
@@ -121,6 +126,10 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
       state.error = view.calibration.to_um(since_zero);
       combined[view.axes[0]].add(state.error.x_um, state.error.sigma_x_um);
       combined[view.axes[1]].add(state.error.y_um, state.error.sigma_y_um);
+      if (state.least_share < covered_share) {
+        const std::string percent = std::to_string(static_cast<int>(100.0 * state.least_share));
+        sample.remark = Error{ErrorCode::target_partly_covered, {{"view", view.id}, {"percent", percent}}};
+      }
     } else {
       state.error = {nan_value, nan_value, nan_value, nan_value};
       sample.problems.push_back(view.id + ": " + state.problem);

@@ -40,6 +40,7 @@ struct ViewState {
   std::vector<Location> references;  // in the last frame
   int good_frames = 0;
   int refused_frames = 0;
+  double least_share = 1.0;   // of the target's pixels measured, over the good frames
   double scatter_x_px = 0.0;  // of single frames
   double scatter_y_px = 0.0;
   ErrorUm error;                  // along the view's two axes since the zero; NaN when refused
