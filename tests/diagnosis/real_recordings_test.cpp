@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/recording/csv.h"
@@ -56,6 +57,26 @@ TEST(RealRecordings, HeaterBoardHasThreeEffects) {
   EXPECT_TRUE(names(d, "neighbour_heat"));
   EXPECT_TRUE(names(d, "sensor_lag"));
   EXPECT_LT(largest(d.held_out[0].explained), 1.0);
+}
+
+TEST(RealRecordings, GantryLosesHeatAndFollowsTheBed) {
+  NEEDS("gantry-drift");
+  const Diagnosis d = diagnosed("gantry-drift", {"gantry_B.csv"});
+  EXPECT_TRUE(names(d, "convection"));
+  EXPECT_TRUE(names(d, "structure_driver"));
+}
+
+TEST(RealRecordings, SpindleChillerCoolsTwoPlacesOnly) {
+  NEEDS("spindle-drift");
+  const Diagnosis d = diagnosed("spindle-drift", {"spindle_drift.csv"});
+  std::set<std::string> cooled, heated;
+  for (const auto& effect : d.effects) {
+    if (effect.id == "coolant") cooled.insert(effect.component);
+    if (effect.id == "standing_heat") heated.insert(effect.component);
+  }
+  EXPECT_EQ(cooled, (std::set<std::string>{"L1", "L2"}));
+  EXPECT_EQ(heated, (std::set<std::string>{"L9"}));
+  EXPECT_LT(d.seconds, 60.0);
 }
 
 }  // namespace zerodrift::diagnosis
