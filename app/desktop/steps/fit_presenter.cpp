@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/figures.h"
 #include "core/analysis/predict.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
@@ -40,6 +41,32 @@ ui::FitSeries series_of(const recording::Recording& run, const recording::Record
     series.temperature_C.append(temperature == nullptr ? std::nan("") : temperature->values[r]);
   }
   return series;
+}
+
+/// One cycle: where the end of the run was left out, the curve is that of the fit that did not see it.
+void show_left_out(const analysis::Model& model, const recording::Recording& run, ui::FitState& state) {
+  const auto figures = analysis::fit_figures(model, {run});
+  if (!figures) return;
+  double split_s = run.time_s.back();
+  for (std::size_t e = 0; e < figures->size() && static_cast<qsizetype>(e) < state.series.size(); ++e) {
+    const analysis::FitFigure& figure = (*figures)[e];
+    ui::FitSeries& series = state.series[static_cast<qsizetype>(e)];
+    std::size_t block = 0;
+    for (qsizetype i = 0; i < series.time_s.size(); ++i) {
+      const double time_s = series.time_s[i];
+      while (block + 1 < figure.time_s.size() &&
+             std::abs(figure.time_s[block + 1] - time_s) <= std::abs(figure.time_s[block] - time_s)) {
+        ++block;
+      }
+      if (figure.time_s.empty() || !std::isfinite(figure.left_out_um[block])) continue;
+      const double shift_um = figure.left_out_um[block] - figure.predicted_um[block];
+      series.predicted_um[i] += shift_um;
+      series.low_um[i] += shift_um;
+      series.high_um[i] += shift_um;
+      split_s = std::min(split_s, time_s);
+    }
+  }
+  state.stretches = {{run.time_s.front(), split_s, true}, {split_s, run.time_s.back(), false}};
 }
 
 }  // namespace
@@ -127,11 +154,6 @@ void FitPresenter::fill(ui::FitState& state) {
   for (const auto& finding : model->findings) state.advice << QString::fromStdString(analysis::describe(finding));
   const auto run = flow::run_of(*bench().job(), *warmup);
   if (!run) return;
-  if (model->quality.cycles < 2 && run->rows() > 1) {  // the last quarter was left out; cycles are all left out in turn
-    const double end_s = run->time_s.back();
-    const double split_s = run->time_s.front() + 0.75 * (end_s - run->time_s.front());
-    state.stretches = {{run->time_s.front(), split_s, true}, {split_s, end_s, false}};
-  }
   const auto prediction = analysis::predict(*model, *run);
   if (!prediction) return;
   const std::string sensor = model->sensors.empty() ? "" : model->sensors.front();
@@ -139,6 +161,7 @@ void FitPresenter::fill(ui::FitState& state) {
   for (const auto& error : model->errors) {
     state.series.append(series_of(*run, predicted, error.error, sensor));
   }
+  if (model->quality.cycles < 2) show_left_out(*model, *run, state);
 }
 
 void FitPresenter::refresh() {
