@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/time_text.h"
-#include "core/controller/table_history.h"
+#include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
+#include "core/flow/steps/audited.h"
 #include "core/flow/steps/inputs.h"
 
 namespace zerodrift::desktop {
@@ -16,19 +17,6 @@ using controller::UploadRecord;
 using nlohmann::json;
 
 namespace {
-
-Status audited(commissioning::Job& job, commissioning::AuditEntry entry, const std::function<Status()>& work) {
-  entry.result = "started";
-  ZD_CHECK(job.audit(entry).map([](const auto&) {}));
-  const Status done = work();
-  entry.result = done ? "done" : std::string(name_of(done.error().code));
-  ZD_CHECK(job.audit(entry).map([](const auto&) {}));
-  return done;
-}
-
-std::string machine_name(const acquisition::MachineIdentity& identity) {
-  return fmt::format("{} (serial {})", identity.name, identity.serial);
-}
 
 json body_of(const UploadRecord& record, const compensation::Table& table) {
   json states = json::array();
@@ -59,28 +47,21 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   ZD_TRY(const auto machine_artefact, flow::need(job, "upload", "machine"));
   ZD_TRY(auto devices, flow::Devices::open(profile, false));
   ZD_TRY(const auto identity, devices.machine->identify());
-  const controller::TableHistory history;
-  ZD_TRY(const auto former, history.read(identity.serial));
-  if (former.empty()) {
-    return fail(ErrorCode::not_enough_data,
-                {{"what", "former tables of " + machine_name(identity)}, {"found", "0"}, {"needed", "1"}});
-  }
-  ZD_TRY(auto table, controller::decode_table(former.back().words, profile));
+  ZD_TRY(const auto former, controller::former_table(*devices.machine));
+  ZD_TRY(auto table, controller::decode_table(former.words, profile));
   commissioning::AuditEntry entry;
-  entry.machine = machine_name(identity);
+  entry.machine = flow::machine_text(identity.name, identity.serial);
   entry.action = "roll back table";
   entry.subject = "compensation table";
   entry.old_value = "the active table";
   entry.new_value = compensation::to_json(table).dump();
   controller::UploadOptions options;
   options.observer = observer;
-  options.activation = controller::Activation::as_before;
   UploadRecord record;
-  ZD_CHECK(audited(job, entry, [&]() -> Status {
-    record = controller::upload_words(*devices.machine, former.back().words, options, context);
+  ZD_CHECK(flow::audited(job, entry, [&]() -> Status {
+    record = controller::roll_back(*devices.machine, former, options, context);
     return record.result;
   }));
-  ZD_CHECK(history.pop(identity.serial));
   table.version = record.sequence;
   return NewArtefact::of("upload", body_of(record, table), {machine_artefact.id});
 }
@@ -96,7 +77,7 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
   ZD_TRY(const auto source, flow::open_error_source(job, devices));
   ZD_CHECK(devices.machine->move_to(profile.measure_position_mm));
   commissioning::AuditEntry entry;
-  entry.machine = machine_name(identity);
+  entry.machine = flow::machine_text(identity.name, identity.serial);
   entry.action = "test offset";
   entry.subject = "host offset of X, Y, Z, one after the other";
   entry.old_value = "0 um";
@@ -107,7 +88,7 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
     record = controller::check_signs(*devices.machine, *source, {}, context);
     return record.result;
   };
-  ZD_CHECK(audited(job, entry, check));
+  ZD_CHECK(flow::audited(job, entry, check));
   return record;
 }
 
@@ -119,12 +100,12 @@ Result<bool> switch_compensation(commissioning::Job* job, const controller::Prof
     ZD_CHECK(work());
   } else {
     commissioning::AuditEntry entry;
-    entry.machine = machine_name(identity);
+    entry.machine = flow::machine_text(identity.name, identity.serial);
     entry.action = "switch compensation";
     entry.subject = "compensation switch";
     entry.old_value = on ? "off" : "on";
     entry.new_value = on ? "on" : "off";
-    ZD_CHECK(audited(*job, entry, work));
+    ZD_CHECK(flow::audited(*job, entry, work));
   }
   return devices.machine->compensation_on();
 }

@@ -266,6 +266,7 @@ QVector<ui::TableVersion> history_of(const std::vector<controller::FormerTable>&
     const auto time = QDateTime::fromString(QString::fromStdString(table->time), Qt::ISODate);
     row.when = QLocale().toString(time.toLocalTime(), QStringLiteral("d MMM HH:mm"));
     row.what = words_of(table->words);
+    row.who = QString::fromStdString(table->who);
     row.restorable = table == tables.rbegin();  // one goes back step by step
     rows.append(row);
   }

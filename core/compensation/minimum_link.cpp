@@ -45,27 +45,31 @@ class Lines {
     return *best;
   }
 
-  /// False, and unchanged, when no line would be left.
+  /// False, and unchanged, when no line would be left. Called for every window twice and more: no allocation here.
   bool cut(const HalfPlane& plane) {
-    const auto distance = [&](const Dual& corner) { return plane.sign * (at(corner, plane.x) - plane.bound); };
-    bool any_out = false;
-    bool any_in = false;
-    for (const Dual& corner : m_corners) (distance(corner) < 0.0 ? any_out : any_in) = true;
-    if (!any_in) return false;
-    m_planes.push_back(plane);
-    if (!any_out) return true;
-    std::vector<Dual> kept;
+    const double dx = plane.x - m_origin;
+    std::size_t out = 0;
+    m_distances.resize(m_corners.size());
     for (std::size_t i = 0; i < m_corners.size(); ++i) {
+      m_distances[i] = plane.sign * (m_corners[i].value + m_corners[i].slope * dx - plane.bound);
+      out += m_distances[i] < 0.0 ? 1 : 0;
+    }
+    if (out == m_corners.size()) return false;
+    m_planes.push_back(plane);
+    if (out == 0) return true;
+    m_kept.clear();
+    for (std::size_t i = 0; i < m_corners.size(); ++i) {
+      const std::size_t j = i + 1 == m_corners.size() ? 0 : i + 1;
       const Dual& a = m_corners[i];
-      const Dual& b = m_corners[(i + 1) % m_corners.size()];
-      const double da = distance(a);
-      const double db = distance(b);
-      if (da >= 0.0) kept.push_back(a);
+      const Dual& b = m_corners[j];
+      const double da = m_distances[i];
+      const double db = m_distances[j];
+      if (da >= 0.0) m_kept.push_back(a);
       if ((da < 0.0) == (db < 0.0)) continue;
       const double f = da / (da - db);
-      kept.push_back({a.slope + f * (b.slope - a.slope), a.value + f * (b.value - a.value)});
+      m_kept.push_back({a.slope + f * (b.slope - a.slope), a.value + f * (b.value - a.value)});
     }
-    m_corners = std::move(kept);
+    std::swap(m_corners, m_kept);
     return true;
   }
 
@@ -93,6 +97,8 @@ class Lines {
  private:
   double m_origin;
   std::vector<Dual> m_corners;
+  std::vector<Dual> m_kept;         // room for a cut
+  std::vector<double> m_distances;  // room for a cut
   std::vector<HalfPlane> m_planes;
 };
 
@@ -147,9 +153,9 @@ double crossing(const LinkLine& a, const LinkLine& b, double low, double high) {
   return std::clamp(x, low, high);
 }
 
-}  // namespace
-
-LinkPath minimum_link_path(const std::vector<double>& x_mm, const std::vector<double>& e_um, double tolerance_um) {
+/// Nothing when it takes more than `most` links.
+std::optional<LinkPath> path_within(const std::vector<double>& x_mm, const std::vector<double>& e_um,
+                                    double tolerance_um, std::size_t most) {
   const auto [low, high] = std::minmax_element(e_um.begin(), e_um.end());
   const double room = 10.0 * (*high - *low + tolerance_um) + 1.0;
   const Problem problem{x_mm, e_um, tolerance_um, *low - room, *high + room, 1e-7 * (tolerance_um + *high - *low)};
@@ -164,12 +170,19 @@ LinkPath minimum_link_path(const std::vector<double>& x_mm, const std::vector<do
     if (last) path.joints_mm.push_back(crossing(path.lines.back(), own, last->contact_mm, x_mm[last->missed]));
     path.lines.push_back(own);
     if (!end) break;
+    if (path.lines.size() == most) return std::nullopt;
     lines = start_link(problem, *end);
     next = end->missed;
     last = end;
   }
   path.joints_mm.push_back(x_mm.back());
   return path;
+}
+
+}  // namespace
+
+LinkPath minimum_link_path(const std::vector<double>& x_mm, const std::vector<double>& e_um, double tolerance_um) {
+  return *path_within(x_mm, e_um, tolerance_um, x_mm.size());
 }
 
 LinkPath tightest_minimum_link_path(const std::vector<double>& x_mm, const std::vector<double>& e_um,
@@ -180,12 +193,11 @@ LinkPath tightest_minimum_link_path(const std::vector<double>& x_mm, const std::
   double high = tolerance_um;
   for (int i = 0; i < 8; ++i) {
     const double middle = 0.5 * (low + high);
-    LinkPath path = minimum_link_path(x_mm, e_um, middle);
-    if (path.lines.size() > fewest) {
-      low = middle;
-    } else {
+    if (auto path = path_within(x_mm, e_um, middle, fewest)) {
       high = middle;
-      best = std::move(path);
+      best = std::move(*path);
+    } else {
+      low = middle;
     }
   }
   return best;

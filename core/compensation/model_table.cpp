@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/recording/recording.h"
+
 namespace zerodrift::compensation {
 namespace {
 
@@ -44,10 +46,10 @@ Result<Table> table_from_model(const analysis::Model& model, const ModelTableOpt
     warn(fmt::format("the model is dynamic; its static approximation in the table leaves {:.0f} % more error",
                      model.table_lost_percent));
   }
-  const auto used = sensors_of(table);
   for (std::size_t i = 0; i < model.domain.channels.size(); ++i) {
     const std::string& channel = model.domain.channels[i];
-    if (std::find(used.begin(), used.end(), channel) == used.end()) continue;
+    const auto kind = recording::kind_of(channel);
+    if (kind != recording::ChannelKind::temperature && kind != recording::ChannelKind::ambient) continue;
     table.valid[channel] = {model.domain.low[i], model.domain.high[i]};
   }
   ZD_CHECK(check(table));

@@ -73,10 +73,53 @@ struct Points {
   const std::vector<double>& e;
 };
 
-bool accepted(const Fit& line_fit, std::size_t n, const SegmentationOptions& options) {
-  if (n <= 2) return true;
-  if (options.criterion == Criterion::coordinates) return std::abs(line_fit.r_coordinates) >= options.threshold;
-  return line_fit.spread_um <= options.resolution_um || std::abs(line_fit.r_errors) >= options.threshold;
+/// Sums of the first n points, point by point (Welford), so that one pass tells for every n whether it would pass.
+class GrowingFit {
+ public:
+  void add(double x, double e) {
+    ++m_n;
+    const double dx = x - m_mean_x;
+    const double de = e - m_mean_e;
+    m_mean_x += dx / m_n;
+    m_mean_e += de / m_n;
+    m_sxx += dx * (x - m_mean_x);
+    m_sxe += dx * (e - m_mean_e);
+    m_see += de * (e - m_mean_e);
+    m_low = m_n == 1.0 ? e : std::min(m_low, e);
+    m_high = m_n == 1.0 ? e : std::max(m_high, e);
+  }
+  /// |r| at least the threshold, compared as squares: r is 0 where a spread is 0.
+  bool accepted(const SegmentationOptions& options) const {
+    if (m_n <= 2.0) return true;
+    const double limit = options.threshold * options.threshold;
+    if (options.criterion != Criterion::coordinates) {
+      return m_high - m_low <= options.resolution_um || (m_see > 0.0 && m_sxe * m_sxe >= limit * m_sxx * m_see);
+    }
+    const double sxy = m_sxx + 1e-3 * m_sxe;
+    const double syy = m_sxx + 2e-3 * m_sxe + 1e-6 * m_see;
+    return syy > 0.0 && sxy * sxy >= limit * m_sxx * syy;
+  }
+
+ private:
+  double m_n = 0.0;
+  double m_mean_x = 0.0;
+  double m_mean_e = 0.0;
+  double m_sxx = 0.0;
+  double m_sxe = 0.0;
+  double m_see = 0.0;
+  double m_low = 0.0;
+  double m_high = 0.0;
+};
+
+/// Where dropping the last of n points until the rest passes comes to an end: the largest count that passes.
+std::size_t points_kept(const Points& points, std::size_t first, std::size_t n, const SegmentationOptions& options) {
+  GrowingFit growing;
+  std::size_t kept = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    growing.add(points.x[first + i], points.e[first + i]);
+    if (growing.accepted(options)) kept = i + 1;
+  }
+  return kept;
 }
 
 Segmentation published_rule(const Points& points, const SegmentationOptions& options) {
@@ -84,17 +127,14 @@ Segmentation published_rule(const Points& points, const SegmentationOptions& opt
   std::size_t first = 0;
   while (first < points.x.size()) {
     const std::size_t left = points.x.size() - first;
-    std::size_t n = std::min<std::size_t>(static_cast<std::size_t>(options.start_points), left);
-    if (n == 1) {  // a single last point
+    const std::size_t start = std::min<std::size_t>(static_cast<std::size_t>(options.start_points), left);
+    if (start == 1) {  // a single last point
       const double x0 = out.segments.back().to_mm;
       out.segments.push_back(joint(x0, error_at(out.segments.back(), x0), points.x[first], points.e[first]));
       break;
     }
-    Fit found;
-    for (;; --n) {
-      found = fit(std::span(points.x).subspan(first, n), std::span(points.e).subspan(first, n));
-      if (accepted(found, n, options)) break;
-    }
+    const std::size_t n = points_kept(points, first, start, options);
+    const Fit found = fit(std::span(points.x).subspan(first, n), std::span(points.e).subspan(first, n));
     const double from = points.x[first];
     if (!out.segments.empty()) {
       const double x0 = out.segments.back().to_mm;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -27,8 +28,10 @@ class Loop {
     ZD_CHECK(compensation::allow_offset_write(on));
     double next = m_clock.steady().count();
     while (!ending()) {
-      ZD_CHECK(turn(next));
-      next = std::max(next + m_options.period_s, m_clock.steady().count());
+      const double late_s = m_clock.steady().count() - next;
+      ZD_CHECK(turn(late_s));
+      // A turn that came more than a period late is not made up for: the schedule begins anew.
+      next += m_options.period_s + (late_s > m_options.period_s ? late_s : 0.0);
       m_clock.wait_until(Seconds(next), m_context.stop);
     }
     ZD_CHECK(run_to_zero());
@@ -64,10 +67,8 @@ class Loop {
   }
 
   /// One turn. A lost link is not the end: the controller's watchdog takes the offset out, and we come back.
-  Status turn(double planned_s) {
-    const double now_s = m_clock.steady().count();
-    const double late_s = now_s - planned_s;
-    m_summary.largest_jitter_s = std::max(m_summary.largest_jitter_s, late_s);
+  Status turn(double late_s) {
+    m_summary.lateness.add(late_s);
     if (late_s > 0.5 * m_options.period_s) ++m_summary.late_turns;
     ++m_summary.turns;
     CompensatorTurn report;
@@ -133,7 +134,7 @@ class Loop {
     m_follower.stop();
     const double end_s = m_clock.steady().count() + m_machine.host_seconds(600.0);
     while (!m_follower.at_zero() && m_clock.steady().count() < end_s) {
-      ZD_CHECK(turn(m_clock.steady().count()));
+      ZD_CHECK(turn(0.0));
       m_clock.wait_for(Seconds(std::min(m_options.period_s, 0.2)), {});
     }
     return {};
@@ -150,6 +151,29 @@ class Loop {
 };
 
 }  // namespace
+
+void Lateness::add(double late_s) {
+  const double last = static_cast<double>(m_bins.size() - 1);
+  ++m_bins[static_cast<std::size_t>(std::clamp(std::floor(1e3 * late_s), 0.0, last))];
+  ++m_count;
+  m_largest_s = std::max(m_largest_s, late_s);
+}
+
+double Lateness::quantile_s(double share) const {
+  const double wanted = share * static_cast<double>(m_count);
+  long below = 0;
+  for (std::size_t i = 0; i + 1 < m_bins.size(); ++i) {
+    below += m_bins[i];
+    if (static_cast<double>(below) >= wanted) return std::min(m_largest_s, 1e-3 * static_cast<double>(i + 1));
+  }
+  return m_largest_s;
+}
+
+long Lateness::above(double late_s) const {
+  long later = 0;
+  for (std::size_t i = m_bins.size(); i-- > 0 && 1e-3 * static_cast<double>(i) >= late_s - 1e-9;) later += m_bins[i];
+  return later;
+}
 
 Result<CompensatorSummary> run_host_compensator(ModbusMachine& machine, const compensation::Table& table,
                                                 const HostCompensatorOptions& options, const TaskContext& context,

@@ -3,6 +3,7 @@
 // offset, interlocked with the switch. Both sides watch: the host beats a heartbeat, the controller ramps the offset to
 // 0 when it stops. At the end the offset is run to 0. Runs for days in constant memory.
 
+#include <array>
 #include <functional>
 #include <optional>
 
@@ -31,11 +32,27 @@ struct CompensatorTurn {
   bool link_lost = false;
 };
 
+/// How late turns began against their schedule, in bins of 1 ms up to a second: a figure for days in constant memory.
+class Lateness {
+ public:
+  void add(double late_s);
+  double largest_s() const { return m_largest_s; }
+  /// The upper edge of the bin below which the share of turns lies.
+  double quantile_s(double share) const;
+  /// Turns later than this (whole milliseconds below a second).
+  long above(double late_s) const;
+
+ private:
+  std::array<long, 1001> m_bins{};  // the last: a second and more
+  long m_count = 0;
+  double m_largest_s = 0.0;
+};
+
 struct CompensatorSummary {
   long turns = 0;
   long late_turns = 0;  // turns that began more than half a period late
   long lost_turns = 0;  // without the machine
-  double largest_jitter_s = 0.0;
+  Lateness lateness;
   std::array<double, 3> largest_offset_um{};  // absolute
 };
 

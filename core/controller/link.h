@@ -55,7 +55,7 @@ class Link {
   using Pdu = std::vector<std::uint8_t>;  // function code and data
 
   Result<Pdu> exchange(const Pdu& request, const std::string& what, Retry retry);
-  Result<Pdu> exchange_once(const Pdu& request, const std::string& what);
+  Result<Pdu> exchange_once(const Pdu& request, const std::string& what, Retry retry);
   bool again(const Error& error, int attempt, Retry retry) const;
 
   ControllerSettings m_settings;

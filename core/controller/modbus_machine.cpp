@@ -18,7 +18,6 @@ using acquisition::MachineSample;
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double move_timeout_machine_s = 120.0;
 constexpr double ramp_timeout_machine_s = 300.0;
-constexpr double watchdog_host_s = 5.0;
 
 // Capability bits of the identity block.
 constexpr int can_host_offset = 1 << 0;
@@ -314,10 +313,10 @@ Result<double> ModbusMachine::wait_for_ramp(bool on) {
   }
 }
 
-/// The watchdog counts machine seconds; it must outlast a few turns of a host that is far slower than a quick machine.
-Status ModbusMachine::set_watchdog() {
-  if (m_watchdog_set || m_map.find("host_watchdog_s") == nullptr) return {};
-  const double seconds = std::clamp(std::ceil(watchdog_host_s * m_profile.time_factor), 10.0, 60000.0);
+Status ModbusMachine::set_watchdog(double host_s) {
+  if (m_map.find("host_watchdog_s") == nullptr) return {};
+  // It counts machine seconds; on a quick machine it must still outlast a few turns of the host.
+  const double seconds = std::clamp(std::ceil(host_s * m_profile.time_factor), 10.0, 60000.0);
   ZD_CHECK(write_values("host_watchdog_s", {seconds}));
   m_watchdog_set = true;
   return {};
@@ -332,7 +331,7 @@ Status ModbusMachine::write_host_offset(const std::array<double, 3>& compensatio
                                             {"found", fmt::format("{:.2f} um", compensation_um[i])},
                                             {"limit", fmt::format("{:.0f} um", m_profile.max_um)}});
   }
-  ZD_CHECK(set_watchdog());
+  if (!m_watchdog_set) ZD_CHECK(set_watchdog(default_watchdog_s));
   ZD_CHECK(beat());
   return write_values("host_offset_um", {compensation_um.begin(), compensation_um.end()});
 }

@@ -40,6 +40,10 @@ class ModbusMachine : public acquisition::MachineIo {
   Status write_words(const std::string& name, int offset, std::span<const std::uint16_t> words);
   Result<bool> compensation_on();
   Status beat();
+  static constexpr double default_watchdog_s = 5.0;  // host seconds
+  /// How long the controller waits for a heartbeat before it takes the host offset out. Longer
+  /// only where one thread must look away for a while.
+  Status set_watchdog(double host_s);
   /// Waits until the ramp of the applied compensation has ended; the percentage reached (100 when it does not tell).
   Result<double> wait_for_ramp(bool on);
 
@@ -52,7 +56,6 @@ class ModbusMachine : public acquisition::MachineIo {
 
  private:
   Result<std::vector<std::uint16_t>> read_span(const ReadSpan& span, const std::string& what);
-  Status set_watchdog();
   Status wait_until_zero(const std::string& name, double host_s, const std::string& what);
 
   Profile m_profile;

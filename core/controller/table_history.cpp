@@ -1,6 +1,8 @@
 #include "core/controller/table_history.h"
 
 #include <fmt/format.h>
+#include <pwd.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -15,6 +17,7 @@ constexpr std::size_t most_tables = 50;
 FormerTable read_one(JsonObject& o) {
   FormerTable table;
   table.time = o.text_or("time", "");
+  table.who = o.text_or("who", "");
   table.sequence = o.integer_or("sequence", 0, 0, 65535);
   table.replaced_by_crc = static_cast<std::uint32_t>(o.number_or("replaced_by_crc", 0.0, not_negative));
   for (const double word : o.numbers("words")) {
@@ -33,6 +36,11 @@ std::filesystem::path TableHistory::default_folder() {
   }
   const char* home = std::getenv("HOME");
   return std::filesystem::path(home == nullptr ? "." : home) / ".local" / "state" / "zerodrift";
+}
+
+std::string TableHistory::user() {
+  const passwd* entry = ::getpwuid(::getuid());
+  return entry == nullptr ? std::to_string(::getuid()) : entry->pw_name;
 }
 
 std::filesystem::path TableHistory::file_of(std::uint32_t serial) const {
@@ -61,6 +69,7 @@ Status TableHistory::write(std::uint32_t serial, const std::vector<FormerTable>&
   nlohmann::json list = nlohmann::json::array();
   for (const auto& table : tables) {
     list.push_back({{"time", table.time},
+                    {"who", table.who},
                     {"sequence", table.sequence},
                     {"words", table.words},
                     {"replaced_by_crc", table.replaced_by_crc}});

@@ -14,6 +14,7 @@ namespace zerodrift::controller {
 
 struct FormerTable {
   std::string time;  // when it was replaced, UTC
+  std::string who;   // by whom: the name of the user of the computer
   int sequence = 0;
   std::vector<std::uint16_t> words;
   std::uint32_t replaced_by_crc = 0;  // of the table that took its place: only from there does one go back to it
@@ -24,6 +25,9 @@ class TableHistory {
   explicit TableHistory(std::filesystem::path folder = default_folder()) : m_folder(std::move(folder)) {}
   /// $ZERODRIFT_STATE_DIR, else $XDG_STATE_HOME/zerodrift, else ~/.local/state/zerodrift.
   static std::filesystem::path default_folder();
+
+  /// Who works at this computer.
+  static std::string user();
 
   Result<std::vector<FormerTable>> read(std::uint32_t serial) const;
   Status push(std::uint32_t serial, FormerTable table) const;

@@ -148,6 +148,10 @@ Result<Table> decode_table(std::span<const std::uint16_t> words, const Profile& 
   return table;
 }
 
+compensation::ModelTableOptions table_options(const Profile& profile) {
+  return {profile.name, profile.max_um, profile.max_um_per_s};
+}
+
 std::uint32_t crc_of_words(std::span<const std::uint16_t> words) {
   return crc32_of(bytes_of(words));
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/compensation/table.h"
+#include "core/compensation/model_table.h"
 #include "core/controller/profile.h"
 
 namespace zerodrift::controller {
@@ -17,6 +17,8 @@ Result<std::vector<std::uint16_t>> encode_table(const compensation::Table& table
                                                 int capacity = 2000);
 /// wrong_format when the words are not a table. An empty list of words is the empty table.
 Result<compensation::Table> decode_table(std::span<const std::uint16_t> words, const Profile& profile);
+/// Name and limits that a table for this machine gets.
+compensation::ModelTableOptions table_options(const Profile& profile);
 std::uint32_t crc_of_words(std::span<const std::uint16_t> words);
 
 }  // namespace zerodrift::controller

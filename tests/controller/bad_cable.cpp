@@ -87,6 +87,11 @@ bool BadCable::pass(int from, int to) {
     std::uint8_t byte = buffer[static_cast<std::size_t>(i)];
     const bool hit = m_passed++ == m_strike_at;
     if (hit && m_fault == Fault::stall) m_stalled = true;
+    if (hit && m_fault == Fault::delay) {  // the bytes before it were on their way already
+      if (!bytes.empty() && ::send(to, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) return false;
+      bytes.clear();
+      std::this_thread::sleep_for(m_delay);
+    }
     if (hit && m_fault == Fault::corrupt) byte ^= 0x5A;
     if (m_stalled) continue;
     cut = hit && m_fault == Fault::cut;

@@ -1,8 +1,10 @@
 #pragma once
 // A TCP relay between host and device that spoils the stream at one chosen byte: cuts the connection, turns a byte
-// over, sends a byte twice or stops passing anything on. What the upload is tried against, byte by byte.
+// over, sends a byte twice, holds everything back for a while or stops passing anything on. What the upload is tried
+// against, byte by byte.
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <thread>
 
@@ -14,6 +16,7 @@ class BadCable {
     cut,        // both sides are closed
     corrupt,    // a byte is turned over
     duplicate,  // a byte comes twice
+    delay,      // this byte and what follows come later than the host waits
     stall,      // nothing passes any more on this connection
   };
 
@@ -26,6 +29,9 @@ class BadCable {
   /// From now on: the fault strikes once, at byte n of both directions together, counted from here.
   void strike(Fault fault, long n);
   long passed() const { return m_passed; }
+  /// Did the chosen byte pass, so that the fault happened?
+  bool struck() const { return m_strike_at >= 0 && m_passed > m_strike_at; }
+  void set_delay(std::chrono::milliseconds delay) { m_delay = delay; }
 
  private:
   void serve(const std::stop_token& stop);
@@ -38,6 +44,7 @@ class BadCable {
   std::atomic<long> m_passed{0};
   std::atomic<long> m_strike_at{-1};
   std::atomic<Fault> m_fault{Fault::cut};
+  std::chrono::milliseconds m_delay{100};
   bool m_stalled = false;
   std::jthread m_thread;
 };

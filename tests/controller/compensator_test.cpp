@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "core/controller/host_compensator.h"
@@ -29,24 +30,53 @@ std::unique_ptr<ModbusMachine> open(const Profile& profile) {
   return std::move(*machine);
 }
 
-/// Sees what the device applies, turned and mixed as told.
+/// Sees what the device applies, turned, mixed, scaled and drifting as told.
 class Watcher : public acquisition::ErrorSource {
  public:
-  Watcher(Device& device, double sign, bool swap_xy) : m_device(device), m_sign(sign), m_swap(swap_xy) {}
+  explicit Watcher(Device& device, double gain = 1.0) : m_device(device), m_gain(gain) {}
   Status take_zero(const TaskContext&) override { return {}; }
   Result<acquisition::ErrorSample> measure(const TaskContext&) override {
+    ++looks;
+    if (on_look) on_look(looks);
     acquisition::ErrorSample sample{};
-    for (std::size_t i = 0; i < 3; ++i) sample.error_um[i] = m_sign * m_device.float_at(40 + 2 * static_cast<int>(i));
-    if (m_swap) std::swap(sample.error_um[0], sample.error_um[1]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double n = looks;
+      sample.error_um[i] = m_gain * m_device.float_at(40 + 2 * static_cast<int>(i)) + drift_um * (n + 0.05 * n * n);
+      sample.sigma_um[i] = sigma_um;
+    }
+    if (swap_xy) std::swap(sample.error_um[0], sample.error_um[1]);
     return sample;
   }
   std::string name() const override { return "watcher"; }
 
+  bool swap_xy = false;
+  double drift_um = 0.0;
+  double sigma_um = 0.05;
+  int looks = 0;
+  std::function<void(int)> on_look;
+
  private:
   Device& m_device;
-  double m_sign;
-  bool m_swap;
+  double m_gain;
 };
+
+/// A device whose clock runs 60 times as fast as ours, so that settling takes milliseconds.
+struct Quick {
+  Quick() {
+    device.run_clock(60.0);
+    Profile profile = device.profile();
+    profile.time_factor = 60.0;
+    machine = open(profile);
+  }
+  Device device;
+  std::unique_ptr<ModbusMachine> machine;
+};
+
+std::string found_by(const SignCheckRecord& record) {
+  if (record.result) return "passed";
+  const auto& context = record.result.error().context;
+  return context.contains("found") ? context.at("axis") + ": " + context.at("found") : describe(record.result.error());
+}
 
 }  // namespace
 
@@ -97,28 +127,68 @@ TEST(HostCompensator, IsInterlocked) {
 }
 
 TEST(SignCheck, PassesWithTheRightSign) {
-  Device device;
-  auto machine = open(device.profile());
-  Watcher watcher(device, 1.0, false);
-  const auto record = check_signs(*machine, watcher, {}, {});
+  Quick quick;
+  Watcher watcher(quick.device);
+  const auto record = check_signs(*quick.machine, watcher, {}, {});
   ASSERT_TRUE(record.result) << describe(record.result.error());
   ASSERT_EQ(record.axes.size(), 3U);
-  EXPECT_DOUBLE_EQ(record.axes[2].seen_um[2], 10.0);
-  EXPECT_EQ(device.word(17), 0);  // as it was found
-  EXPECT_DOUBLE_EQ(device.float_at(144), 0.0);
+  EXPECT_NEAR(record.axes[2].seen_um[2], 10.0, 1e-9);
+  EXPECT_GT(record.axes[2].sigma_um[2], 0.03);
+  EXPECT_EQ(quick.device.word(17), 0);  // as it was found
+  EXPECT_DOUBLE_EQ(quick.device.float_at(144), 0.0);
 }
 
 TEST(SignCheck, AWrongSignOrAxisStops) {
-  Device device;
-  auto machine = open(device.profile());
-  Watcher turned(device, -1.0, false);
-  EXPECT_EQ(check_signs(*machine, turned, {}, {}).result.error().code, ErrorCode::sign_check_failed);
-  Watcher swapped(device, 1.0, true);
-  const auto record = check_signs(*machine, swapped, {}, {});
-  EXPECT_EQ(record.result.error().code, ErrorCode::sign_check_failed);
-  EXPECT_EQ(record.result.error().context.at("axis"), "X");
-  EXPECT_EQ(device.word(17), 0);
-  EXPECT_DOUBLE_EQ(device.float_at(140), 0.0);
+  Quick quick;
+  Watcher turned(quick.device, -1.0);
+  EXPECT_EQ(found_by(check_signs(*quick.machine, turned, {}, {})), "X: the sign is wrong");
+  Watcher swapped(quick.device);
+  swapped.swap_xy = true;
+  EXPECT_EQ(found_by(check_signs(*quick.machine, swapped, {}, {})), "X: it moves Y, the wrong axis");
+  EXPECT_EQ(quick.device.word(17), 0);
+  EXPECT_DOUBLE_EQ(quick.device.float_at(140), 0.0);
+}
+
+TEST(SignCheck, AWrongSizeAndNothingAtAllStop) {
+  Quick quick;
+  for (const double gain : {0.52, 0.65, 1.35, 2.0}) {
+    Watcher wrong(quick.device, gain);
+    EXPECT_EQ(found_by(check_signs(*quick.machine, wrong, {}, {})), "X: the size is wrong") << gain;
+  }
+  for (const double gain : {0.75, 1.25}) {
+    Watcher close(quick.device, gain);
+    EXPECT_EQ(found_by(check_signs(*quick.machine, close, {}, {})), "passed") << gain;
+  }
+  Watcher blind(quick.device, 0.01);
+  EXPECT_EQ(found_by(check_signs(*quick.machine, blind, {}, {})), "X: nothing moves");
+  Watcher coarse(quick.device);
+  coarse.sigma_um = 20.0;
+  EXPECT_NE(found_by(check_signs(*quick.machine, coarse, {}, {})).find("too uncertain"), std::string::npos);
+}
+
+TEST(SignCheck, ADriftMeanwhileIsNoMove) {
+  Quick quick;
+  Watcher watcher(quick.device);
+  watcher.drift_um = -3.0;  // a look, and growing
+  const auto record = check_signs(*quick.machine, watcher, {}, {});
+  ASSERT_TRUE(record.result) << describe(record.result.error());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(record.axes[i].seen_um[i], 10.0, 0.5);
+}
+
+TEST(SignCheck, AnOffsetThatIsTakenOutMeanwhileIsMeasuredAgain) {
+  Quick quick;
+  Watcher watcher(quick.device);
+  watcher.on_look = [&](int look) {  // as the controller's watchdog does
+    if (look != 2) return;
+    quick.device.set_float(140, 4.0);
+    quick.device.set_float(40, 4.0);
+  };
+  const auto record = check_signs(*quick.machine, watcher, {}, {});
+  ASSERT_TRUE(record.result) << describe(record.result.error());
+  EXPECT_NEAR(record.axes[0].seen_um[0], 10.0, 1e-9);
+  Watcher always(quick.device);
+  always.on_look = [&](int) { quick.device.set_float(140, 4.0); };
+  EXPECT_EQ(check_signs(*quick.machine, always, {}, {}).result.error().code, ErrorCode::machine_not_ready);
 }
 
 TEST(SignCheck, APeersProbesSeeTheOffset) {

@@ -22,6 +22,7 @@ Device::Device() : m_words(6000, 0) {
   ModbusServerOptions options;
   options.read = [this](int address, int count) -> RegisterReply {
     const std::scoped_lock guard(m_lock);
+    tick();
     if (address + count > 6000) return tl::unexpected(ModbusException::illegal_address);
     return std::vector<std::uint16_t>(m_words.begin() + address, m_words.begin() + address + count);
   };
@@ -80,6 +81,15 @@ void Device::spoil(int n, ReplyFault fault, bool lasting) {
   m_lasting = lasting;
   m_requests = 0;
   m_spoil_at = n;
+}
+
+void Device::tick() {
+  const double speed = m_clock_speed;
+  if (speed == 0.0) return;
+  const double seconds = speed * std::chrono::duration<double>(std::chrono::steady_clock::now() - m_started).count();
+  const auto hundredths = static_cast<std::uint32_t>(100.0 * seconds);
+  m_words[8] = static_cast<std::uint16_t>(hundredths >> 16);
+  m_words[9] = static_cast<std::uint16_t>(hundredths & 0xFFFF);
 }
 
 std::optional<ModbusException> Device::write(int address, std::span<const std::uint16_t> values) {

@@ -3,6 +3,7 @@
 // chosen request: what the upload and the compensator are tried against.
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -31,12 +32,16 @@ class Device {
   /// Referenced, standing, identity as shipped: a corrupted write may have hit any of it.
   void reset_state();
   int requests() const { return m_requests; }
+  /// The device's clock runs so much faster than ours; 0: it stands until it is set.
+  void run_clock(double speed) { m_clock_speed = speed; }
   /// Called on each write, with the lock held; may refuse.
   std::function<std::optional<ModbusException>(int address, std::span<const std::uint16_t>)> on_write;
 
  private:
   std::optional<ModbusException> write(int address, std::span<const std::uint16_t> values);
   void commit();
+
+  void tick();
 
   mutable std::mutex m_lock;
   std::vector<std::uint16_t> m_words;
@@ -45,6 +50,8 @@ class Device {
   std::atomic<int> m_spoil_at{-1};
   std::atomic<bool> m_lasting{false};
   ReplyFault m_fault;
+  std::atomic<double> m_clock_speed{0.0};
+  std::chrono::steady_clock::time_point m_started = std::chrono::steady_clock::now();
   std::unique_ptr<ModbusServer> m_server;  // last: stops before the rest goes
 };
 

@@ -6,9 +6,11 @@
 #include <fstream>
 
 #include "app/cli/command.h"
+#include "app/cli/service_notice.h"
 #include "core/analysis/predict.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/host_compensator.h"
+#include "core/controller/table_words.h"
 
 namespace zerodrift::cli {
 namespace {
@@ -62,6 +64,43 @@ class Speaker {
   std::vector<std::string> m_last;
 };
 
+/// Under systemd: ready with the first turn that reached the machine, alive with every turn - also one that did not,
+/// for then it is the machine that is gone - and what it does, in words, when that changes.
+class Service {
+ public:
+  void hear(const controller::CompensatorTurn& turn) {
+    const std::string status = status_of(turn);
+    std::string lines = "WATCHDOG=1";
+    if (!turn.link_lost && !m_ready) lines += "\nREADY=1";
+    if (status != m_status) lines += "\nSTATUS=" + status;
+    m_ready = m_ready || !turn.link_lost;
+    m_status = status;
+    m_notice.say(lines);
+  }
+  ~Service() { m_notice.say("STOPPING=1"); }
+
+ private:
+  static std::string status_of(const controller::CompensatorTurn& turn) {
+    if (turn.link_lost) return "no answer from the controller";
+    if (!turn.switch_on) return "the compensation switch is off";
+    switch (turn.output.mode) {
+      case compensation::FollowerMode::following:
+        return "compensating";
+      case compensation::FollowerMode::held_at_edge:
+        return "compensating, held at the edge of the training range";
+      case compensation::FollowerMode::safe_zero:
+        return "the offset runs to 0: a sensor is dead";
+      case compensation::FollowerMode::stopping:
+        return "ending: the offset runs to 0";
+    }
+    return {};
+  }
+
+  ServiceNotice m_notice;
+  std::string m_status;
+  bool m_ready = false;
+};
+
 /// A model that remembers, at work beside the machine; errors other than dX, dY, dZ are not compensated.
 compensation::Predictor live(const analysis::Model& model) {
   auto predictor = std::make_shared<analysis::LivePredictor>(model);
@@ -81,8 +120,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
-  const compensation::ModelTableOptions limits{profile.name, profile.max_um, profile.max_um_per_s};
-  ZD_TRY(const auto table, compensation::table_from_model(model, limits));
+  ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
   Log log;
   ZD_CHECK(log.open(options.log));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
@@ -92,18 +130,27 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   if (options.seconds > 0.0) how.duration_s = options.seconds;
   if (!model.is_static()) how.predictor = live(model);
   Speaker speaker;
+  Service service;
   ZD_TRY(const auto summary, controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {
            log.add(turn);
            speaker.hear(turn);
+           service.hear(turn);
          }));
   output.json = {{"turns", summary.turns},
                  {"late_turns", summary.late_turns},
                  {"lost_turns", summary.lost_turns},
-                 {"largest_jitter_s", summary.largest_jitter_s},
+                 {"largest_jitter_s", summary.lateness.largest_s()},
+                 {"jitter_p50_s", summary.lateness.quantile_s(0.5)},
+                 {"jitter_p99_s", summary.lateness.quantile_s(0.99)},
+                 {"jitter_p999_s", summary.lateness.quantile_s(0.999)},
+                 {"turns_later_than_20_ms", summary.lateness.above(0.02)},
                  {"largest_offset_um", summary.largest_offset_um},
                  {"faults", machine->health().faults}};
-  output.text = fmt::format("{} turns, {} late, {} without the machine; the offset is back at 0", summary.turns,
-                            summary.late_turns, summary.lost_turns);
+  output.text = fmt::format(
+      "{} turns, {} late, {} without the machine; began at most {:.1f} ms late, 99.9 % within {:.0f} ms; the offset is "
+      "back at 0",
+      summary.turns, summary.late_turns, summary.lost_turns, 1e3 * summary.lateness.largest_s(),
+      1e3 * summary.lateness.quantile_s(0.999));
   return output;
 }
 

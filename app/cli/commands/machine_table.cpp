@@ -7,10 +7,8 @@
 #include <iostream>
 
 #include "app/cli/command.h"
-#include "core/base/time_text.h"
-#include "core/controller/table_history.h"
+#include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
-#include "core/controller/upload.h"
 
 namespace zerodrift::cli {
 namespace {
@@ -89,22 +87,9 @@ Result<CommandOutput> push(const Options& options, const TaskContext& context) {
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
   ZD_TRY(const compensation::Table table, compensation::read_table_file(options.table, &warnings));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
-  const controller::TableHistory history;
-  bool kept = false;
-  UploadOptions upload;
-  upload.keep_old = [&](const UploadRecord& record) {
-    kept = true;
-    return history.push(record.serial, {to_text(record.started), record.old_sequence, record.old_words, record.crc});
-  };
-  const auto record =
-      confirmed("Writing the table into the controller", options, upload, [&](const UploadOptions& how) {
-        UploadRecord done = upload_table(*machine, table, how, context);
-        // The old table is active still: there is nothing to go back from.
-        if (kept && !done.result && done.reached != controller::UploadState::restore_failed) {
-          static_cast<void>(history.pop(done.serial));
-        }
-        return done;
-      });
+  const auto record = confirmed("Writing the table into the controller", options, {}, [&](const UploadOptions& how) {
+    return controller::push_table(*machine, table, how, context);
+  });
   if (!record) return fail(record.error());
   return output_of(*record, std::move(warnings));
 }
@@ -135,29 +120,10 @@ Result<CommandOutput> rollback(const Options& options, const TaskContext& contex
   std::vector<std::string> warnings;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
-  ZD_TRY(const auto identity, machine->identify());
-  const controller::TableHistory history;
-  ZD_TRY(const auto former, history.read(identity.serial));
-  if (former.empty()) {
-    return fail(
-        ErrorCode::not_enough_data,
-        {{"what", fmt::format("former tables of machine {}", identity.serial)}, {"found", "0"}, {"needed", "1"}});
-  }
-  ZD_TRY(const controller::ActiveTable active, controller::read_active(*machine));
-  const auto& last = former.back();
-  const bool interrupted = active.words == last.words;
-  if (!interrupted && controller::crc_of_words(active.words) != last.replaced_by_crc) {
-    return fail(ErrorCode::data_does_not_fit,
-                {{"what", "the active table"},
-                 {"found", fmt::format("version {}, not written from here", active.sequence)},
-                 {"expected", "the table that was pushed last"}});
-  }
-  UploadOptions upload;
-  upload.activation = controller::Activation::as_before;
+  ZD_TRY(const auto former, controller::former_table(*machine));
   ZD_TRY(const UploadRecord record,
-         confirmed(fmt::format("Going back to the table of {}", last.time), options, upload,
-                   [&](const UploadOptions& how) { return upload_words(*machine, last.words, how, context); }));
-  if (!record.dry_run) ZD_CHECK(history.pop(identity.serial));
+         confirmed(fmt::format("Going back to the table of {}", former.time), options, {},
+                   [&](const UploadOptions& how) { return controller::roll_back(*machine, former, how, context); }));
   return output_of(record, std::move(warnings));
 }
 

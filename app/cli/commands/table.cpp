@@ -20,8 +20,8 @@ Result<CommandOutput> run(const Options& options, const TaskContext&) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
-  const compensation::ModelTableOptions limits{profile.name, profile.max_um, profile.max_um_per_s};
-  ZD_TRY(compensation::Table table, compensation::table_from_model(model, limits, &output.warnings));
+  ZD_TRY(compensation::Table table,
+         compensation::table_from_model(model, controller::table_options(profile), &output.warnings));
   for (const auto& file : options.axis_tables) {
     ZD_TRY(const auto axis_table, compensation::read_table_file(file, &output.warnings));
     ZD_CHECK(compensation::add_axis_table(table, axis_table));

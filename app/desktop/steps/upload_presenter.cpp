@@ -261,7 +261,8 @@ void UploadPresenter::exportTable() {
     const auto model = artefact && *artefact ? flow::model_of(**artefact) : fail(ErrorCode::step_blocked);
     const auto profile = flow::profile_of(*bench().job(), "upload");
     if (model && profile) {
-      if (auto made = flow::table_from_model(*model, *profile)) table = std::move(*made);
+      if (auto made = compensation::table_from_model(*model, controller::table_options(*profile)))
+        table = std::move(*made);
     }
   }
   if (!table) return;
@@ -357,7 +358,8 @@ void UploadPresenter::refresh() {
       const auto words = body.at("record").value("old_words", std::vector<std::uint16_t>{});
       old_table = controller::decode_table(words, *profile).value_or(compensation::Table{});
     } else {
-      table = flow::table_from_model(*model, *profile).value_or(compensation::Table{});
+      table =
+          compensation::table_from_model(*model, controller::table_options(*profile)).value_or(compensation::Table{});
     }
     state.axes = axes_of(old_table, table, *profile, run);
     if (std::isnan(state.steepest_um_per_K)) state.steepest_um_per_K = steepest_um_per_K(table);

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/fit.h"
+#include "core/compensation/model_table.h"
+#include "core/controller/table_words.h"
 #include "core/flow/steps/inputs.h"
 
 namespace zerodrift::flow {
@@ -43,35 +45,6 @@ Result<analysis::Model> model_of(const commissioning::Artefact& artefact) {
   return analysis::model_from_json(body.at("model"), "the job's model");
 }
 
-Result<compensation::Table> table_from_model(const analysis::Model& model, const controller::Profile& profile) {
-  compensation::Table table;
-  table.machine = profile.name;
-  for (const auto& terms : model.table) {
-    for (const char* axis : {"X", "Y", "Z"}) {
-      if (terms.error != "d" + std::string(axis) + "_um") continue;
-      auto& record = table.axes[axis];
-      record.offset_um = terms.offset_um;
-      record.max_um = profile.max_um;
-      record.max_um_per_s = profile.max_um_per_s;
-      for (const auto& term : terms.terms) record.terms.push_back({term.sensor, term.um_per_K, term.reference_C, 0.0});
-    }
-  }
-  for (std::size_t i = 0; i < model.domain.channels.size(); ++i) {
-    const auto& channel = model.domain.channels[i];
-    if (recording::kind_of(channel) != recording::ChannelKind::temperature &&
-        recording::kind_of(channel) != recording::ChannelKind::ambient) {
-      continue;
-    }
-    table.valid[channel] = {model.domain.low[i], model.domain.high[i]};
-  }
-  ZD_CHECK(compensation::check(table));
-  if (table.axes.empty()) {
-    return fail(ErrorCode::data_does_not_fit,
-                {{"what", "the model"}, {"found", "no error of an axis"}, {"expected", "dX_um, dY_um or dZ_um"}});
-  }
-  return table;
-}
-
 Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, const FitStepOptions& options,
                                              const TaskContext& context) {
   ZD_TRY(const Input warmup, need(job, "fit", "warmup"));
@@ -91,7 +64,7 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
     fit_options.method = analysis::Method::ridge;
     ZD_TRY(model, analysis::fit({run}, fit_options, context));
   }
-  ZD_TRY(const auto table, table_from_model(model, profile));
+  ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
   json figures = json::array();
   for (const auto& error : model.errors) {
     figures.push_back({{"channel", error.error},

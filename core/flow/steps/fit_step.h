@@ -10,8 +10,6 @@
 #include "core/analysis/model.h"
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
-#include "core/compensation/table.h"
-#include "core/controller/profile.h"
 
 namespace zerodrift::flow {
 
@@ -24,9 +22,5 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
 
 /// The model of an artefact "model".
 Result<analysis::Model> model_of(const commissioning::Artefact& artefact);
-
-/// The table a controller runs, from the model's static part: axis X from dX_um and so on. Version 0: the upload
-/// numbers it. Errors without an axis (tilts) are left out.
-Result<compensation::Table> table_from_model(const analysis::Model& model, const controller::Profile& profile);
 
 }  // namespace zerodrift::flow

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/base/time_text.h"
 #include "core/compensation/model_table.h"
-#include "core/controller/table_history.h"
+#include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
+#include "core/flow/steps/audited.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 
@@ -15,20 +15,6 @@ namespace zerodrift::flow {
 using nlohmann::json;
 
 namespace {
-
-std::string machine_name(const controller::UploadRecord& record) {
-  return fmt::format("{} (serial {})", record.machine, record.serial);
-}
-
-/// Writes an entry before the machine is touched and one after; the second tells how it ended.
-Status audited(commissioning::Job& job, commissioning::AuditEntry entry, const std::function<Status()>& work) {
-  entry.result = "started";
-  ZD_CHECK(job.audit(entry).map([](auto) {}));
-  const Status done = work();
-  entry.result = done ? "done" : std::string(name_of(done.error().code));
-  ZD_CHECK(job.audit(entry).map([](auto) {}));
-  return done;
-}
 
 std::map<std::string, std::pair<std::string, std::string>> entries_of(const compensation::Table& old_table,
                                                                       const compensation::Table& new_table) {
@@ -88,7 +74,7 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
   ZD_TRY(const auto source, open_error_source(job, devices));
   ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
   commissioning::AuditEntry entry;
-  entry.machine = machine_name(preview.record);
+  entry.machine = machine_text(preview.record.machine, preview.record.serial);
   entry.action = "test offset";
   entry.subject = "host offset of X, Y, Z, one after the other";
   entry.old_value = "0 um";
@@ -113,7 +99,7 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
     ZD_TRY(const auto artefact, job.latest("model"));
     if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
     ZD_TRY(const auto model, model_of(*artefact));
-    ZD_TRY(preview.table, table_from_model(model, devices.profile));
+    ZD_TRY(preview.table, compensation::table_from_model(model, controller::table_options(devices.profile)));
     ZD_TRY(const auto axes, job.latest("axis_table"));
     if (axes) {
       ZD_TRY(const json body, axes->document());
@@ -146,12 +132,8 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   controller::UploadRecord record;
   controller::UploadOptions upload_options;
   upload_options.observer = options.observer;
-  upload_options.keep_old = [](const controller::UploadRecord& before) {
-    return controller::TableHistory().push(before.serial,
-                                           {to_text(SystemClock().utc()), before.old_sequence, before.old_words});
-  };
   commissioning::AuditEntry entry;
-  entry.machine = machine_name(preview.record);
+  entry.machine = machine_text(preview.record.machine, preview.record.serial);
   entry.action = "upload table";
   entry.subject = "compensation table";
   entry.old_value =
@@ -159,7 +141,7 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   entry.new_value = compensation::to_json(preview.table).dump();
   context.progress(0.4, "uploading");
   ZD_CHECK(audited(job, entry, [&]() -> Status {
-    record = controller::upload_table(*devices.machine, preview.table, upload_options, context);
+    record = controller::push_table(*devices.machine, preview.table, upload_options, context);
     return record.result;
   }));
   std::vector<commissioning::ArtefactId> inputs = {machine.id, model.id};
