@@ -114,7 +114,7 @@ constexpr std::array rows = {
         "The upload failed ({reason}) AND the old table could not be restored ({detail}). The machine's table is not "
         "known.",
         "Do not machine parts. Switch the compensation off at the controller, then use rollback."),
-    SAY(sign_check_failed, "The sign check failed on axis {axis}: {found}. Commanded {commanded_um} um, seen {seen_um} um.",
+    SAY(sign_check_failed, "The sign check failed on axis {axis}: commanded {commanded_um} um, seen in um: {seen_um}.",
         "Nothing was written; check the axis direction and the calibration."),
 };
 #undef SAY

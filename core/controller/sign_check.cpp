@@ -119,9 +119,8 @@ class SignCheck {
       m_record.axes.push_back(row);
       if (fault.empty()) return {};
       return fail(ErrorCode::sign_check_failed, {{"axis", axis},
-                                                 {"found", fault},
                                                  {"commanded_um", fmt::format("{:.1f}", row.commanded_um)},
-                                                 {"seen_um", seen_text(row)}});
+                                                 {"seen_um", seen_text(row) + " - " + fault}});
     }
   }
 

@@ -75,7 +75,9 @@ struct Quick {
 std::string found_by(const SignCheckRecord& record) {
   if (record.result) return "passed";
   const auto& context = record.result.error().context;
-  return context.contains("found") ? context.at("axis") + ": " + context.at("found") : describe(record.result.error());
+  if (!context.contains("seen_um")) return describe(record.result.error());
+  const std::string& seen = context.at("seen_um");
+  return context.at("axis") + ": " + seen.substr(seen.find(" - ") + 3);
 }
 
 }  // namespace
