@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -39,9 +40,11 @@ class Watcher : public acquisition::ErrorSource {
     ++looks;
     if (on_look) on_look(looks);
     acquisition::ErrorSample sample{};
+    // Heat follows the machine's clock (60 times ours, as in Quick), however slow the looks are.
+    const double t_s = 60.0 * std::chrono::duration<double>(std::chrono::steady_clock::now() - m_started).count();
     for (std::size_t i = 0; i < 3; ++i) {
-      const double n = looks;
-      sample.error_um[i] = m_gain * m_device.float_at(40 + 2 * static_cast<int>(i)) + drift_um * (n + 0.05 * n * n);
+      sample.error_um[i] =
+          m_gain * m_device.float_at(40 + 2 * static_cast<int>(i)) + drift_um_per_s * (t_s + 0.002 * t_s * t_s);
       sample.sigma_um[i] = sigma_um;
     }
     if (swap_xy) std::swap(sample.error_um[0], sample.error_um[1]);
@@ -50,7 +53,7 @@ class Watcher : public acquisition::ErrorSource {
   std::string name() const override { return "watcher"; }
 
   bool swap_xy = false;
-  double drift_um = 0.0;
+  double drift_um_per_s = 0.0;
   double sigma_um = 0.05;
   int looks = 0;
   std::function<void(int)> on_look;
@@ -58,6 +61,7 @@ class Watcher : public acquisition::ErrorSource {
  private:
   Device& m_device;
   double m_gain;
+  std::chrono::steady_clock::time_point m_started = std::chrono::steady_clock::now();
 };
 
 /// A device whose clock runs 60 times as fast as ours, so that settling takes milliseconds.
@@ -171,7 +175,7 @@ TEST(SignCheck, AWrongSizeAndNothingAtAllStop) {
 TEST(SignCheck, ADriftMeanwhileIsNoMove) {
   Quick quick;
   Watcher watcher(quick.device);
-  watcher.drift_um = -3.0;  // a look, and growing
+  watcher.drift_um_per_s = -0.3;  // and growing
   const auto record = check_signs(*quick.machine, watcher, {}, {});
   ASSERT_TRUE(record.result) << describe(record.result.error());
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(record.axes[i].seen_um[i], 10.0, 0.5);
