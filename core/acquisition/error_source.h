@@ -17,7 +17,7 @@ struct ErrorSample {
   std::array<double, 3> error_um;     // X Y Z
   std::array<double, 3> sigma_um;     // standard uncertainty of each
   std::vector<std::string> problems;  // why a direction is missing, one short reason each
-  std::optional<Error> remark;        // what was seen and overcome: the numbers hold
+  std::optional<Error> remark = {};   // what was seen and overcome: the numbers hold
 };
 
 class ErrorSource {
