@@ -1,7 +1,7 @@
 #pragma once
 // The sign check: before a table is trusted, a small test offset is written and the camera or the probes watch it. A
-// compensation of +d um moves the axis by +d, so the error seen grows by +d; a wrong sign, a wrong axis, nothing at all or
-// a wrong size (outside 0.7 to 1.3 of it, beyond what the measurement may be wrong by) stops everything.
+// compensation of +d um moves the axis by +d, so the error seen grows by +d; a wrong sign, a wrong axis, nothing at all
+// or a wrong size (outside 0.7 to 1.3 of it, beyond what the measurement may be wrong by) stops everything.
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
@@ -25,7 +25,7 @@ struct SignCheckAxis {
   double commanded_um = 0.0;
   std::array<double, 3> seen_um{};   // change of the error in X, Y, Z; NaN where not seen
   std::array<double, 3> sigma_um{};  // standard uncertainty of each
-  bool watched = false;             // false: the source does not see this direction
+  bool watched = false;              // false: the source does not see this direction
 };
 
 struct SignCheckRecord {
