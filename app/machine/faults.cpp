@@ -82,7 +82,11 @@ CameraFault camera_fault(const std::vector<Fault>& faults, double machine_time_s
     if (fault.name == "camera-freeze") camera.kind = CameraFault::Kind::freeze;
     if (fault.name == "camera-occluded") camera.kind = CameraFault::Kind::occluded;
     if (camera.kind == CameraFault::Kind::none) continue;
-    if (fault.always) return camera;
+    if (fault.always) {
+      // A chip that lay there while the template was taken would be a part of the target and hide nothing.
+      if (camera.kind == CameraFault::Kind::occluded) camera.from_machine_s = spell_start_s;
+      return camera;
+    }
     const double period_begin = std::floor(machine_time_s / spell_period_s) * spell_period_s;
     camera.from_machine_s = period_begin + spell_start_s;
     camera.until_machine_s = period_begin + spell_period_s;

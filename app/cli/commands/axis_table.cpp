@@ -12,7 +12,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace axis_table_command {
 
 using compensation::Criterion;
 using compensation::Segmentation;
@@ -194,9 +194,10 @@ void add_apply(Cli& cli) {
   command->add_option("--axis", options->axis, "Axis, when the table has several");
 }
 
-}  // namespace
+}  // namespace axis_table_command
 
 void add_axis_table(Cli& cli) {
+  using namespace axis_table_command;
   auto options = std::make_shared<TableOptions>();
   CLI::App* command =
       cli.add("axis-table", "Make an axis table and its figures from a laser report", [options](const TaskContext&) {

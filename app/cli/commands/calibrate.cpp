@@ -12,7 +12,7 @@
 #include "core/vision/target_file.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace calibrate_command {
 
 struct Options {
   std::string image;
@@ -50,9 +50,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace calibrate_command
 
 void add_calibrate(Cli& cli) {
+  using namespace calibrate_command;
   auto options = std::make_shared<Options>();
   CLI::App* command = cli.add("calibrate", "Calibrate a camera from views of the target at known machine positions",
                               [options](const TaskContext& context) { return run(*options, context); });

@@ -10,7 +10,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace cluster_command {
 
 struct Options {
   std::string recording;
@@ -78,9 +78,10 @@ Result<CommandOutput> run(const Options& options, bool clusters_given, const Tas
   return output;
 }
 
-}  // namespace
+}  // namespace cluster_command
 
 void add_cluster(Cli& cli) {
+  using namespace cluster_command;
   auto options = std::make_shared<Options>();
   auto command = std::make_shared<CLI::App*>(nullptr);
   *command = cli.add("cluster", "Group the sensors of a recording and name the thermally sensitive points",

@@ -16,7 +16,7 @@
 #include "core/controller/profile.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace commission_command {
 
 struct Options {
   std::string profile;
@@ -75,9 +75,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace commission_command
 
 void add_commission(Cli& cli) {
+  using namespace commission_command;
   auto options = std::make_shared<Options>();
   auto* command = cli.add("commission", "Everything, start to end: calibrate, record, fit, upload, verify, report",
                           [options](const TaskContext& context) { return run(*options, context); });

@@ -13,7 +13,7 @@
 #include "core/controller/table_words.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace compensate_command {
 
 struct Options {
   std::string profile;
@@ -154,9 +154,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace compensate_command
 
 void add_compensate(Cli& cli) {
+  using namespace compensate_command;
   auto options = std::make_shared<Options>();
   CLI::App* command =
       cli.add("compensate", "Compensate from this computer: read temperatures, predict, write the offset",

@@ -11,7 +11,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace diagnose_command {
 
 struct DiagnoseArguments {
   std::string machine;
@@ -62,9 +62,10 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
   return output;
 }
 
-}  // namespace
+}  // namespace diagnose_command
 
 void add_diagnose(Cli& cli) {
+  using namespace diagnose_command;
   auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* command = cli.add("diagnose", "Find the physics that a simulation left out",
                               [arguments](const TaskContext& context) { return run_diagnose(*arguments, context); });

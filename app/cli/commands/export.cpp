@@ -7,7 +7,7 @@
 #include "core/controller/exports/export_format.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace export_command {
 
 struct Options {
   std::string table;
@@ -58,9 +58,10 @@ Result<CommandOutput> run(Options options, const TaskContext&) {
   return output;
 }
 
-}  // namespace
+}  // namespace export_command
 
 void add_export(Cli& cli) {
+  using namespace export_command;
   auto options = std::make_shared<Options>();
   CLI::App* command = cli.add("export", "Write a table as the file of another controller",
                               [options](const TaskContext& context) { return run(*options, context); });

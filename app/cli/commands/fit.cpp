@@ -9,7 +9,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace fit_command {
 
 struct Options {
   std::vector<std::string> recordings;
@@ -76,9 +76,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace fit_command
 
 void add_fit(Cli& cli) {
+  using namespace fit_command;
   auto options = std::make_shared<Options>();
   CLI::App& app = *cli.add("fit", "Fit the thermal-error model to one or several runs",
                            [options](const TaskContext& context) { return run(*options, context); });

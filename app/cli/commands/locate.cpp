@@ -14,7 +14,7 @@
 #include "core/vision/target_file.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace locate_command {
 
 struct Options {
   std::string image;
@@ -108,9 +108,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace locate_command
 
 void add_locate(Cli& cli) {
+  using namespace locate_command;
   auto options = std::make_shared<Options>();
   CLI::App* command = cli.add("locate", "Measure the target's displacement in the frames of a folder",
                               [options](const TaskContext& context) { return run(*options, context); });

@@ -10,7 +10,7 @@
 #include "core/vision/camera.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace machine_check_command {
 
 using nlohmann::json;
 
@@ -104,9 +104,10 @@ Result<CommandOutput> run(const std::string& file, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace machine_check_command
 
 void add_machine_check(Cli& cli) {
+  using namespace machine_check_command;
   auto file = std::make_shared<std::string>();
   CLI::App* machine = cli.add("machine", "Look at the connected machine",
                               [file](const TaskContext& context) { return run(*file, context); });

@@ -11,7 +11,7 @@
 #include "core/controller/table_words.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace machine_table_command {
 
 using controller::UploadOptions;
 using controller::UploadRecord;
@@ -127,9 +127,10 @@ Result<CommandOutput> rollback(const Options& options, const TaskContext& contex
   return output_of(record, std::move(warnings));
 }
 
-}  // namespace
+}  // namespace machine_table_command
 
 void add_machine_table(Cli& cli) {
+  using namespace machine_table_command;
   auto options = std::make_shared<Options>();
   const auto with_profile = [&](CLI::App* command) {
     command->add_option("--profile", options->profile, "Connection profile")->required();

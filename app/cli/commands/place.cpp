@@ -8,7 +8,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace place_command {
 
 struct PlaceArguments {
   std::string machine;
@@ -63,9 +63,10 @@ Result<CommandOutput> run_place(const PlaceArguments& arguments, const TaskConte
   return output;
 }
 
-}  // namespace
+}  // namespace place_command
 
 void add_place(Cli& cli) {
+  using namespace place_command;
   auto arguments = std::make_shared<PlaceArguments>();
   CLI::App* command = cli.add("place", "Find the place on a rod whose temperature follows the displacement best",
                               [arguments](const TaskContext& context) { return run_place(*arguments, context); });

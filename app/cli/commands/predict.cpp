@@ -8,7 +8,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace predict_command {
 
 struct Options {
   std::string model;
@@ -67,9 +67,10 @@ Result<CommandOutput> run(const Options& options) {
   return output;
 }
 
-}  // namespace
+}  // namespace predict_command
 
 void add_predict(Cli& cli) {
+  using namespace predict_command;
   auto options = std::make_shared<Options>();
   CLI::App& app = *cli.add("predict", "Predict the errors of a recording with a fitted model",
                            [options](const TaskContext&) { return run(*options); });

@@ -12,7 +12,7 @@
 #include "app/reporting/writers.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace prove_command {
 
 struct ProveArguments {
   int cases = 300;
@@ -58,9 +58,10 @@ Result<CommandOutput> run_prove(const ProveArguments& arguments, const TaskConte
   return output;
 }
 
-}  // namespace
+}  // namespace prove_command
 
 void add_prove(Cli& cli) {
+  using namespace prove_command;
   auto arguments = std::make_shared<ProveArguments>();
   CLI::App* command = cli.add("prove", "Blind trial: concealed physics, sealed answers, diagnosis, score and report",
                               [arguments](const TaskContext& context) { return run_prove(*arguments, context); });

@@ -14,7 +14,7 @@
 #include "core/flow/steps/warmup_step.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace record_command {
 
 using commissioning::Job;
 using commissioning::NewArtefact;
@@ -65,9 +65,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace record_command
 
 void add_record(Cli& cli) {
+  using namespace record_command;
   auto options = std::make_shared<Options>();
   CLI::App* app = cli.add("record", "Record the warm-up run into a job, or go on with one that was broken off",
                           [options](const TaskContext& context) { return run(*options, context); });

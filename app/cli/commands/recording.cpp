@@ -7,7 +7,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace recording_command {
 
 struct Options {
   std::string job;
@@ -38,9 +38,10 @@ Result<CommandOutput> run(const Options& options) {
   return output;
 }
 
-}  // namespace
+}  // namespace recording_command
 
 void add_recording(Cli& cli) {
+  using namespace recording_command;
   auto options = std::make_shared<Options>();
   auto* command =
       cli.add("recording", "Write a run of a job as CSV", [options](const TaskContext&) { return run(*options); });

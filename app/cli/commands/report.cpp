@@ -9,7 +9,7 @@
 #include "core/report/find_figure.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace report_command {
 
 struct Options {
   std::string job;
@@ -47,9 +47,10 @@ Result<CommandOutput> run(const Options& options) {
   return output;
 }
 
-}  // namespace
+}  // namespace report_command
 
 void add_report(Cli& cli) {
+  using namespace report_command;
   auto options = std::make_shared<Options>();
   auto* command =
       cli.add("report", "Write the report of a job", [options](const TaskContext&) { return run(*options); });

@@ -8,7 +8,7 @@
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace simulate_command {
 
 struct SimulateArguments {
   std::string machine;
@@ -44,9 +44,10 @@ Result<CommandOutput> run_simulate(const SimulateArguments& arguments, const Tas
   return output;
 }
 
-}  // namespace
+}  // namespace simulate_command
 
 void add_simulate(Cli& cli) {
+  using namespace simulate_command;
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = cli.add("simulate", "Simulate a run from a machine description",
                               [arguments](const TaskContext& context) { return run_simulate(*arguments, context); });

@@ -7,7 +7,7 @@
 #include "core/controller/table_words.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace table_command {
 
 struct Options {
   std::string model;
@@ -42,9 +42,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext&) {
   return output;
 }
 
-}  // namespace
+}  // namespace table_command
 
 void add_table(Cli& cli) {
+  using namespace table_command;
   auto options = std::make_shared<Options>();
   CLI::App* command = cli.add("table", "Make the controller's table from a model and axis tables",
                               [options](const TaskContext& context) { return run(*options, context); });

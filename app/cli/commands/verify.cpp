@@ -10,7 +10,7 @@
 #include "core/flow/steps/verify_step.h"
 
 namespace zerodrift::cli {
-namespace {
+namespace verify_command {
 
 struct Options {
   std::string profile;
@@ -61,9 +61,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   return output;
 }
 
-}  // namespace
+}  // namespace verify_command
 
 void add_verify(Cli& cli) {
+  using namespace verify_command;
   auto options = std::make_shared<Options>();
   auto* command = cli.add("verify", "Run with the compensation on and measure what is left",
                           [options](const TaskContext& context) { return run(*options, context); });
