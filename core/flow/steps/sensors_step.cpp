@@ -18,8 +18,8 @@ namespace {
 
 constexpr auto judged_by = analysis::Method::ridge;  // what a controller's table is fitted with
 constexpr int longest_budget = 12;
-/// More leave little less on what was seen (0.05 um rms of 0.5), cost a cable each and fill the controller: the engineer
-/// may still take all.
+/// More leave little less on what was seen (0.05 um rms of 0.5), cost a cable each and fill the controller: the
+/// engineer may still take all.
 constexpr std::size_t most_sensors = 8;
 
 using Names = std::vector<std::string>;

@@ -13,7 +13,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double part_threshold_um = 2.0;  // a part error above this is worth a correction
+constexpr double part_threshold_um = 2.0;  // a part error above this is worth a correction and another verification
+constexpr double axis_threshold_um = 1.0;  // once the table is written again: what is worth correcting in each axis
 
 std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(const recording::Recording& run,
                                                                               const compensation::Table& table) {
@@ -41,7 +42,7 @@ std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(co
 void propose_correction(const recording::Recording& run, const compensation::Table& table, double limit_um,
                         json& body) {
   compensation::ResidualOptions options;
-  options.threshold_um = std::min(limit_um, part_threshold_um);
+  options.threshold_um = std::min(limit_um, axis_threshold_um);
   body["kappa"] = json::object();
   body["correction"] = json::array();
   body["corrected_table"] = nullptr;
@@ -51,8 +52,10 @@ void propose_correction(const recording::Recording& run, const compensation::Tab
     return;
   }
   bool any = false;
+  bool needed = false;
   for (const auto& axis : correction->axes) {
     any = any || axis.kind != compensation::CorrectionKind::none;
+    needed = needed || axis.largest_before_um > std::min(limit_um, part_threshold_um);
     body["kappa"][axis.axis] = axis.kappa;
     body["correction"].push_back({{"axis", axis.axis},
                                   {"kappa", axis.kappa},
@@ -61,7 +64,7 @@ void propose_correction(const recording::Recording& run, const compensation::Tab
                                   {"largest_after_um", axis.largest_after_um},
                                   {"reason", axis.reason}});
   }
-  if (any) body["corrected_table"] = compensation::to_json(correction->table);
+  if (any && needed) body["corrected_table"] = compensation::to_json(correction->table);
 }
 
 void add_figures(const recording::Recording& before, const recording::Recording& after, double limit_um, json& body) {
