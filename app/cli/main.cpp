@@ -16,6 +16,7 @@
 
 #include "app/cli/command.h"
 #include "app/text/error_text.h"
+#include "core/base/resources.h"
 
 namespace {
 
@@ -84,6 +85,7 @@ std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  zerodrift::set_program_name(argc > 0 ? argv[0] : nullptr);
   const auto application = make_application(argc, argv);
   CLI::App app("Zerodrift takes the thermal drift out of a CNC machine", "zerodrift-cli");
   app.set_version_flag("--version", ZERODRIFT_VERSION);

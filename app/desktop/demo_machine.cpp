@@ -3,10 +3,13 @@
 #include <QCoreApplication>
 #include <QDir>
 
+#include "app/desktop/child_process.h"
+
 namespace zerodrift::desktop {
 
 DemoMachine::DemoMachine(QObject* parent) : QObject(parent) {
   m_process.setProcessChannelMode(QProcess::MergedChannels);
+  end_with_parent(m_process);
   connect(&m_process, &QProcess::readyReadStandardOutput, this, &DemoMachine::readLines);
   connect(&m_process, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
     if (error == QProcess::FailedToStart) Q_EMIT failed(m_process.errorString());
@@ -35,8 +38,8 @@ void DemoMachine::start(const DemoOptions& options) {
                            QStringLiteral("--profile"),     profilePath(),
                            QStringLiteral("--truth"),       truthPath()};
   if (!options.conceal.isEmpty()) arguments << QStringLiteral("--conceal") << options.conceal;
-  const QString program = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
-  m_process.start(program, arguments);
+  const QString beside = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
+  m_process.start(options.program.isEmpty() ? beside : options.program, arguments);
 }
 
 void DemoMachine::stop() {

@@ -12,6 +12,7 @@ struct DemoOptions {
   double speedup = 240.0;
   int seed = 1;
   QString conceal;  // effect id or "random"; empty: nothing is hidden
+  QString program;  // empty: zerodrift-machine beside this program
 };
 
 class DemoMachine : public QObject {

@@ -9,7 +9,9 @@
 #include <memory>
 
 #include "app/desktop/application.h"
+#include "app/desktop/quit_signals.h"
 #include "app/desktop/tour.h"
+#include "core/base/resources.h"
 #include "ui/shell/theme.h"
 
 namespace {
@@ -49,6 +51,7 @@ void declare(CLI::App& app, Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  zerodrift::set_program_name(argc > 0 ? argv[0] : nullptr);
   CLI::App app("Zerodrift takes the thermal drift out of a CNC machine", "zerodrift");
   Arguments arguments;
   declare(app, arguments);
@@ -60,6 +63,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGPIPE, SIG_IGN);
   QApplication application(argc, argv);
+  zerodrift::desktop::quit_on_signals(application);
   QApplication::setOrganizationName(QStringLiteral("Zerodrift"));
   QApplication::setApplicationName(QStringLiteral("Zerodrift"));
   QApplication::setApplicationVersion(QStringLiteral(ZERODRIFT_VERSION));
@@ -74,7 +78,7 @@ int main(int argc, char** argv) {
                                ? QSettings().value(QStringLiteral("language"), QStringLiteral("en")).toString()
                                : QString::fromStdString(arguments.language);
   if (language != QStringLiteral("en")) desktop.setLanguage(language);
-  const DemoOptions demo{arguments.speedup, arguments.seed, {}};
+  const DemoOptions demo{arguments.speedup, arguments.seed, {}, {}};
 
   std::unique_ptr<zerodrift::desktop::Tour> tour;
   if (!arguments.tour.empty()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/desktop/child_process.h"
 #include "core/base/hash.h"
 #include "core/base/json.h"
 #include "core/diagnosis/diagnosis.h"
@@ -36,6 +37,7 @@ double pooled(const std::map<std::string, double>& rms) {
 Status write_trial_case(const QString& program, const QString& folder, int seed, const TaskContext& context) {
   context.progress(0.05, "the virtual machine hides an effect");
   QProcess machine;
+  end_with_parent(machine);
   machine.start(program, {QStringLiteral("--write-case"), folder, QStringLiteral("--conceal"), QStringLiteral("random"),
                           QStringLiteral("--seed"), QString::number(seed)});
   if (machine.waitForFinished(case_timeout_ms) && machine.exitCode() == 0) return {};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/base/task_context.h"
 #include "core/commissioning/job.h"
 #include "core/recording/recording.h"
 

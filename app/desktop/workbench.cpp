@@ -118,6 +118,22 @@ const std::vector<std::shared_ptr<vision::Camera>>& Workbench::cameras() {
   return m_cameras;
 }
 
+report::Labels Workbench::labels() const {
+  report::Labels labels;
+  if (m_profile) {
+    for (const auto& sensor : m_profile->sensors) labels[sensor.channel] = sensor.label;
+  }
+  return labels;
+}
+
+QString Workbench::inWords(const std::string& text) const {
+  return QString::fromStdString(report::readable(text, labels()));
+}
+
+QString Workbench::channelInWords(const std::string& channel) const {
+  return QString::fromStdString(report::channel_in_words(channel, labels()));
+}
+
 void Workbench::tellSample(const acquisition::MachineSample& sample) {
   auto look = m_look ? std::make_shared<MachineLook>(*m_look) : std::make_shared<MachineLook>();
   look->sample = sample;

@@ -12,6 +12,7 @@
 #include "app/tasks/task_runner.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
+#include "core/report/wording.h"
 #include "core/vision/camera.h"
 
 namespace zerodrift::desktop {
@@ -58,6 +59,10 @@ class Workbench : public QObject {
   /// A step reads the machine itself: the sample it got serves the lamps.
   void tellSample(const acquisition::MachineSample& sample);
 
+  /// A sentence or a channel of core as people read it: units, places of the sensors (core/report/wording.h).
+  QString inWords(const std::string& text) const;
+  QString channelInWords(const std::string& channel) const;
+
   // Work: one task at a time; the monitor is paused meanwhile.
   TaskRunner& tasks() { return m_tasks; }
 
@@ -72,6 +77,7 @@ class Workbench : public QObject {
   void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);
 
  private:
+  report::Labels labels() const;
   Status useJob(Result<commissioning::Job> job);
 
   std::unique_ptr<commissioning::Job> m_job;

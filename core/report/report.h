@@ -32,6 +32,8 @@ struct Figure {
 struct Text {
   std::string text;
   bool warning = false;
+  Verdict verdict = Verdict::doubtful;  // of a warning
+  Trace trace{};                        // of a warning: where it comes from
 };
 
 struct Figures {

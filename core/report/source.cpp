@@ -1,5 +1,6 @@
 #include "core/report/source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,8 +20,13 @@ Result<Source> Source::load(const commissioning::Job& job, Words words) {
     if (const auto series = body.find("series"); series != body.end() && series->is_number_integer()) {
       ZD_TRY(source.m_runs[kind], job.read_series(series->get<commissioning::SeriesId>()));
     }
-    source.m_artefacts[kind] = {latest->id, latest->created_utc, latest->content_hash, latest->made_by,
-                                std::move(body)};
+    source.m_artefacts[kind] = {latest->id,      latest->created_utc, latest->content_hash,
+                                latest->made_by, latest->inputs,      std::move(body)};
+  }
+  if (const LoadedArtefact* machine = source.find("machine")) {
+    for (const auto& sensor : machine->body.value("health", json::array())) {
+      source.m_labels[text_of(sensor, "channel")] = sensor.value("label", "");
+    }
   }
   ZD_TRY(source.m_audit, job.audit_trail());
   source.m_audit_is_whole = job.verify_audit().has_value();
@@ -40,6 +46,14 @@ const recording::Recording* Source::run_of(const std::string& kind) const {
 Trace Source::trace(const std::string& kind, std::string detail) const {
   const LoadedArtefact* artefact = find(kind);
   return {kind, artefact == nullptr ? 0 : artefact->id, std::move(detail)};
+}
+
+double longest_hole_s(const recording::Recording* run) {
+  double hole_s = 0.0;
+  for (std::size_t r = 1; run != nullptr && r < run->rows(); ++r) {
+    hole_s = std::max(hole_s, run->time_s[r] - run->time_s[r - 1]);
+  }
+  return hole_s;
 }
 
 std::string shown(double value, int digits) {
@@ -70,12 +84,21 @@ std::vector<std::string> directions_of(const json& body, const std::string& key)
   return directions;
 }
 
+/// For legends: "T14", "X", "Room".
+static std::string short_name(const std::string& channel) {
+  const auto kind = recording::kind_of(channel);
+  const std::string tag = channel.substr(0, channel.find('_'));
+  if (kind == recording::ChannelKind::temperature) return tag;
+  if (kind == recording::ChannelKind::error && tag.size() == 2 && tag[0] == 'd') return tag.substr(1);
+  return channel_in_words(channel, {});
+}
+
 std::vector<Curve> curves_of(const recording::Recording& run, const std::vector<std::string>& channels, bool points) {
   std::vector<Curve> curves;
   for (const auto& name : channels) {
     const auto* channel = run.find(name);
     if (channel == nullptr) continue;
-    Curve curve{name, {}, {}, points};
+    Curve curve{short_name(name), {}, {}, points};
     for (std::size_t r = 0; r < run.rows(); ++r) {
       if (std::isnan(channel->values[r])) continue;
       curve.x.push_back((run.time_s[r] - run.time_s.front()) / 3600.0);

@@ -11,6 +11,7 @@
 #include "core/commissioning/job.h"
 #include "core/recording/recording.h"
 #include "core/report/report.h"
+#include "core/report/wording.h"
 
 namespace zerodrift::report {
 
@@ -19,6 +20,7 @@ struct LoadedArtefact {
   std::string created_utc;
   std::string content_hash;
   std::string made_by;
+  std::vector<commissioning::InputRef> inputs;
   nlohmann::json body;
 };
 
@@ -33,6 +35,10 @@ class Source {
   Trace trace(const std::string& kind, std::string detail) const;
   std::string say(const char* text) const { return m_words ? m_words(text) : std::string(text); }
 
+  /// A sentence of core with units and channels as people read them, see core/report/wording.h.
+  std::string in_words(const std::string& text) const { return readable(text, m_labels); }
+  std::string channel_in_words(const std::string& channel) const { return report::channel_in_words(channel, m_labels); }
+
   const commissioning::JobHeader& header() const { return m_header; }
   const std::vector<commissioning::AuditEntry>& audit() const { return m_audit; }
   bool audit_is_whole() const { return m_audit_is_whole; }
@@ -40,6 +46,7 @@ class Source {
 
  private:
   Words m_words;
+  Labels m_labels;
   commissioning::JobHeader m_header;
   std::map<std::string, LoadedArtefact> m_artefacts;
   std::map<std::string, recording::Recording> m_runs;
@@ -47,6 +54,8 @@ class Source {
   bool m_audit_is_whole = true;
 };
 
+/// Longest time between two rows; 0 without a run.
+double longest_hole_s(const recording::Recording* run);
 /// "12.3"; a dash when it is not a number.
 std::string shown(double value, int digits);
 /// body[key] as a number, NaN when it is not there.

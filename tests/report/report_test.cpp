@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/report/build.h"
+#include "core/report/comparison.h"
 #include "core/report/find_figure.h"
 
 namespace zerodrift::report {
@@ -69,7 +71,7 @@ TEST_F(ReportTest, FiguresAreTheJobs) {
   const auto after = find_figure(*report, "peak_after_Z_um");
   ASSERT_TRUE(after.has_value());
   EXPECT_EQ(after->value, "2.0");
-  EXPECT_EQ(after->unit, "um");
+  EXPECT_EQ(after->unit, "µm");
   EXPECT_EQ(after->verdict, Verdict::good);
   EXPECT_EQ(after->trace.artefact, "verification");
   EXPECT_EQ(after->trace.id, m_job->latest("verification").value()->id);
@@ -84,6 +86,94 @@ TEST_F(ReportTest, TooMuchLeftIsBadInWordsAndColour) {
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(find_figure(*report, "peak_after_Z_um")->verdict, Verdict::bad);
   EXPECT_TRUE(std::get<Text>(report->sections.front().blocks.front()).warning);
+}
+
+/// What was red on a page is in the report, in words, and counted on its first page.
+TEST_F(ReportTest, WhatWasDoubtfulIsListed) {
+  const auto put = [&](const char* kind, const nlohmann::json& body) {
+    ASSERT_TRUE(m_job->put(NewArtefact::of(kind, body)).has_value());
+  };
+  put("machine", {{"spread_K", 1.43},
+                  {"round_trip_ms", 4.0},
+                  {"problems", {"sensor T3_C (Column) is dead"}},
+                  {"health", {{{"channel", "T3_C"}, {"label", "Column"}}}}});
+  put("warmup", {{"series", record(0.6)}, {"rows", 300}, {"lost_samples", 160}, {"refused", 2}, {"measurements", 31}});
+  put("sensors",
+      {{"condition_number", {{"chosen", 912.0}}}, {"price", {{"held_out_rms_um", 2.4}, {"all_rms_um", 1.6}}}});
+  put("model", {{"figures", {{{"channel", "dZ_um"}, {"peak_held_out_um", 7.2}}}}});
+  put("verification", {{"series", record(0.02)},
+                       {"peak_error_before_um", {{"Y", 4.2}, {"Z", 59.4}}},
+                       {"peak_error_after_um", {{"Y", 4.5}, {"Z", 2.0}}},
+                       {"removed_percent", {{"Y", -6.9}, {"Z", 96.6}}},
+                       {"end_error_before_um", {{"Y", 1.0}, {"Z", 59.0}}},
+                       {"end_error_after_um", {{"Y", 0.9}, {"Z", 1.9}}},
+                       {"limit_um", 5.0},
+                       {"verdict", "passed"}});
+  const auto report = build_report(*m_job);
+  ASSERT_TRUE(report.has_value()) << describe(report.error());
+  std::vector<Text> doubts;
+  std::string first_page;
+  for (const auto& section : report->sections) {
+    for (const auto& block : section.blocks) {
+      const auto* text = std::get_if<Text>(&block);
+      if (text == nullptr || !text->warning) continue;
+      if (section.id == "doubts") doubts.push_back(*text);
+      if (section.id == "summary") first_page += text->text;
+    }
+  }
+  const auto said = [&](const char* artefact, const char* words) {
+    return std::any_of(doubts.begin(), doubts.end(), [&](const Text& doubt) {
+      return doubt.trace.artefact == artefact && doubt.text.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said("machine", "1.43 K"));
+  EXPECT_TRUE(said("machine", "T3 Column"));
+  EXPECT_TRUE(said("warmup", "160 of 460 samples"));
+  EXPECT_TRUE(said("warmup", "2 of 31 measurements"));
+  EXPECT_TRUE(said("sensors", "912"));
+  EXPECT_TRUE(said("sensors", "50 % lost"));
+  EXPECT_TRUE(said("model", "7.2 µm"));
+  EXPECT_TRUE(said("verification", "Y became worse"));
+  EXPECT_FALSE(said("verification", "Z became worse"));
+  EXPECT_EQ(doubts.front().verdict, Verdict::bad);
+  EXPECT_NE(first_page.find(std::to_string(doubts.size()) + " points"), std::string::npos) << first_page;
+  // A direction that lost is never shown as good, nor as something removed.
+  EXPECT_EQ(find_figure(*report, "peak_after_Y_um")->verdict, Verdict::doubtful);
+  EXPECT_EQ(find_figure(*report, "peak_after_Z_um")->verdict, Verdict::good);
+  const auto worse = find_figure(*report, "removed_Y_percent");
+  ASSERT_TRUE(worse.has_value());
+  EXPECT_EQ(worse->label, "Made worse, Y");
+  EXPECT_EQ(worse->value, "6.9");
+  EXPECT_EQ(worse->verdict, Verdict::doubtful);
+}
+
+TEST_F(ReportTest, RunsAreComparedAsFarAsBothGo) {
+  recording::Recording before;
+  recording::Recording after;
+  for (int i = 0; i <= 100; ++i) {
+    before.time_s.push_back(1000.0 + 60.0 * i);  // a run begins at any clock
+    before.ensure("dX_um").values.push_back(0.5 * i);
+    if (i > 60) continue;
+    after.time_s.push_back(60.0 * i);
+    after.ensure("dX_um").values.push_back(i < 50 ? -3.0 : 40.0);
+  }
+  const auto compared = compare_runs(before, after);
+  EXPECT_DOUBLE_EQ(compared.span_s, 3600.0);
+  ASSERT_EQ(compared.axes.size(), 1u);
+  EXPECT_DOUBLE_EQ(compared.axes[0].before_um, 30.0);  // not 50, which it reached later
+  EXPECT_DOUBLE_EQ(compared.axes[0].after_um, 40.0);
+  EXPECT_TRUE(compared.axes[0].worse());
+  EXPECT_TRUE(compared.axes[0].worse_at_the_end());
+  EXPECT_NEAR(compared.axes[0].end_before_um, 28.5, 1e-9);
+  EXPECT_NEAR(compared.axes[0].removed_percent, -33.3, 0.1);
+}
+
+TEST(Wording, IdentifiersBecomeWords) {
+  const Labels labels = {{"T14_C", "Spindle nose"}};
+  EXPECT_EQ(readable("T14_C rose by 3 um/K from 21.5 C; dY_um: 2 um", labels),
+            "T14 Spindle nose rose by 3 µm/K from 21.5 °C; Error in Y: 2 µm");
+  EXPECT_EQ(readable("T15_C, maximum, C1, Column", labels), "T15, maximum, C1, Column");
+  EXPECT_EQ(channel_in_words("ambient_C", labels), "Room");
 }
 
 }  // namespace zerodrift::report

@@ -120,6 +120,28 @@ void PagesTest::calibrationNeedsConfirmation() {
   QVERIFY(!page.primaryAction().enabled);
   page.findChild<QCheckBox*>("areaClear")->setChecked(true);
   QVERIFY(page.primaryAction().enabled);
+  // It serves once, and not for other moves than those that were shown.
+  QVERIFY(page.takeConsent());
+  QVERIFY(!page.takeConsent());
+  auto* clear = page.findChild<QCheckBox*>("areaClear");
+  const auto forgets = [&](auto change) {
+    clear->setChecked(true);
+    change(state);
+    page.setState(state);
+    return !clear->isChecked();
+  };
+  QVERIFY(forgets([](CalibrateState& s) { s.camera = 1; }));
+  QVERIFY(forgets([](CalibrateState& s) { s.moveCamera = "Side"; }));
+  QVERIFY(forgets([](CalibrateState& s) { s.moveAxes = QStringList{"Y", "Z"}; }));
+  QVERIFY(forgets([](CalibrateState& s) { s.span_mm = 4.0; }));
+  QVERIFY(forgets([](CalibrateState& s) { s.running = true; }));
+  QVERIFY(forgets([](CalibrateState& s) { s.running = false; }));
+  QVERIFY(!forgets([](CalibrateState&) {}));
+  clear->setChecked(false);
+  state.solved = state.accepted = true;
+  page.setState(state);
+  QVERIFY(!page.secondaryActions().first().enabled);  // measuring again moves the axes, too
+  state.accepted = false;
   state.solved = true;
   state.rms_um = 5.0;
   page.setState(state);

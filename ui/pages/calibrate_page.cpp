@@ -1,6 +1,7 @@
 #include "ui/pages/calibrate_page.h"
 
 #include <cmath>
+#include <tuple>
 
 #include "ui/plots/xy_plot.h"
 #include "ui/widgets/card.h"
@@ -112,15 +113,39 @@ QWidget* CalibratePage::makeMoves() {
   m_moveCard = new Card(this);
   m_clear = new QCheckBox(m_moveCard);
   m_clear->setObjectName("areaClear");
+  m_moveNote = new WrapLabel(m_moveCard);
+  m_moveNote->setProperty("role", "caption");
   m_moveCard->body()->addWidget(m_clear);
+  m_moveCard->body()->addWidget(m_moveNote);
   connect(m_clear, &QCheckBox::toggled, this, [this] { refresh(); });
   return m_moveCard;
+}
+
+bool CalibratePage::takeConsent() {
+  const bool given = m_clear->isEnabled() && m_clear->isChecked();
+  m_clear->setChecked(false);
+  return given;
+}
+
+void CalibratePage::hideEvent(QHideEvent* event) {
+  // Who looks elsewhere does not see whether the area is still clear.
+  m_clear->setChecked(false);
+  Page::hideEvent(event);
 }
 
 void CalibratePage::setState(const CalibrateState& state) {
   // A finished measurement shows its residuals by itself, once.
   if (state.solved && !m_state.solved) m_planView->setCurrentIndex(1);
   if (!state.solved && m_state.solved) m_planView->setCurrentIndex(0);
+  // What was agreed to is these moves at this moment, and no others.
+  const auto moves = [](const CalibrateState& s) {
+    return std::tie(s.moveCamera, s.moveNumber, s.moveAxes, s.movePosition, s.span_mm, s.running, s.waiting, s.solved,
+                    s.camera, s.blocked);
+  };
+  if (moves(state) != moves(m_state)) {
+    const QSignalBlocker quiet(m_clear);
+    m_clear->setChecked(false);
+  }
   m_state = state;
   refresh();
 }
@@ -148,6 +173,8 @@ QString CalibratePage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   if (!m_state.templateTaken)
     return tr("Point the camera at the target, set focus and light, then draw the target's region.");
+  if (m_state.waiting)
+    return tr("Camera %1 comes next: confirm that its axes may move, then measure.").arg(m_state.moveCamera);
   if (m_state.running) return tr("The axes go from position to position. Keep hands and doors away.");
   if (m_state.accepted) return tr("This camera is calibrated. Measure again when it was touched.");
   if (m_state.solved) return tr("Judge the residuals: they must be small and without pattern. Then accept.");
@@ -165,15 +192,17 @@ PageAction CalibratePage::primary() const {
             tr("The residual is above the limit. Measure again, slower or with better light.")};
   }
   if (m_state.accepted) return {"primary", tr("Go on"), true, {}};
-  return {"primary", tr("Measure positions"), m_clear->isChecked() && !m_state.running,
-          m_state.running ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")};
+  const bool moving = m_state.running && !m_state.waiting;
+  return {"primary", tr("Measure positions"), m_clear->isChecked() && !moving,
+          moving ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")};
 }
 
 QVector<PageAction> CalibratePage::secondary() const {
   if (!m_state.blocked.isEmpty() || !m_state.templateTaken) return {};
   // Every measurement begins with a new template at rest.
   if (!m_state.solved) return {};
-  return {{"repeat", tr("Measure again"), !m_state.running, tr("The positions are being measured.")}};
+  return {{"repeat", tr("Measure again"), m_clear->isChecked() && !m_state.running,
+           m_state.running ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")}};
 }
 
 QVector<Figure> CalibratePage::figures() const {
@@ -307,10 +336,20 @@ void CalibratePage::renderQuality() {
 
 void CalibratePage::renderMoves() {
   m_moveCard->setTitle(tr("Moves"));
-  m_clear->setText(tr("%1 and %2 may move by ±%3 mm; the area is clear.")
-                       .arg(m_state.axisRight, m_state.axisUp)
-                       .arg(m_state.span_mm / 2.0, 0, 'f', 1));
-  m_clear->setEnabled(!m_state.running);
+  m_moveCard->setSubtitle(
+      m_state.moveOf > 1 ? tr("camera %1, %2 of %3").arg(m_state.moveCamera).arg(m_state.moveNumber).arg(m_state.moveOf)
+                         : QString());
+  const QString axes = m_state.moveAxes.isEmpty() ? tr("%1 and %2").arg(m_state.axisRight, m_state.axisUp)
+                                                  : m_state.moveAxes.join(tr(" and "));
+  m_clear->setText(tr("%1 may move by ±%2 mm; the area is clear.").arg(axes).arg(m_state.span_mm / 2.0, 0, 'f', 1));
+  m_clear->setEnabled(!m_state.running || m_state.waiting);
+  QStringList notes;
+  if (!m_state.movePosition.isEmpty() && !m_state.running) {
+    notes << tr("First all axes go to the measuring position: %1.").arg(m_state.movePosition);
+  }
+  if (m_state.moveOf > 1) notes << tr("Each camera's moves are confirmed by themselves.");
+  m_moveNote->setText(notes.join(QLatin1Char(' ')));
+  m_moveNote->setVisible(!notes.isEmpty());
 }
 
 }  // namespace zerodrift::ui

@@ -45,6 +45,13 @@ struct CalibrateState {
   bool templateTaken = false;
   bool referenceFound = false;
   bool running = false;
+  bool waiting = false;  // running, and a person has to agree before the axes move again
+  /// The moves that come next: which camera they are for, its place in the sequence, what moves and where it starts.
+  QString moveCamera{};
+  int moveNumber = 1;
+  int moveOf = 1;
+  QStringList moveAxes{};
+  QString movePosition{};  // "X 0, Y 0, Z 300 mm": all axes go there first
   bool solved = false;
   bool accepted = false;
   QVector<CalibrationPoint> points{};
@@ -81,6 +88,8 @@ class CalibratePage : public Page {
   const CalibrateState& state() const { return m_state; }
   void setFrame(const QImage& image, const CameraMarks& marks);
   void setQuality(const ImageQuality& quality);
+  /// Whether a person has agreed to the next sequence of moves. It serves one sequence: asking takes it back.
+  bool takeConsent();
 
   QString title() const override;
   QString sentence() const override;
@@ -88,6 +97,7 @@ class CalibratePage : public Page {
   PageAction primary() const override;
   /// "repeat".
   QVector<PageAction> secondary() const override;
+  bool steersWork() const override { return m_state.waiting; }
 
  Q_SIGNALS:
   void cameraChosen(int index);
@@ -95,6 +105,7 @@ class CalibratePage : public Page {
 
  protected:
   void render() override;
+  void hideEvent(QHideEvent* event) override;
 
  private:
   Card* makeImageCard();
@@ -123,6 +134,7 @@ class CalibratePage : public Page {
   XyPlot* m_residuals;
   QLabel* m_planNote;
   QCheckBox* m_clear;
+  QLabel* m_moveNote;
 };
 
 }  // namespace zerodrift::ui

@@ -103,11 +103,6 @@ PageAction FitPage::primary() const {
   return {"primary", tr("Use this model"), ready, m_state.blocked.isEmpty() ? tr("Choose a method.") : m_state.blocked};
 }
 
-QVector<PageAction> FitPage::secondary() const {
-  if (!m_state.blocked.isEmpty()) return {};
-  return {{"addRecording", tr("Add a recording")}};
-}
-
 QVector<Figure> FitPage::figures() const {
   Figure peak =
       figureAtMost(tr("Attainable peak error"), m_state.attainablePeak_um, 1, "µm", m_state.attainableLimit_um);

@@ -77,8 +77,6 @@ class FitPage : public Page {
   QString title() const override;
   QString sentence() const override;
   PageAction primary() const override;
-  /// "addRecording": another run to fit or to test with.
-  QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
   void methodChosen(const QString& methodId);

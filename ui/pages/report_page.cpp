@@ -151,6 +151,8 @@ void ReportPage::renderHead() {
     m_fieldNames[i]->setText(names[i]);
     if (!m_fields[i]->hasFocus()) m_fields[i]->setText(values[i]);
   }
+  m_fields[4]->setPlaceholderText(tr("those that were followed, if any"));
+  m_fields[4]->setToolTip(tr("For example ISO 230-3:2020. Only what was run by the standard may be named here."));
 }
 
 void ReportPage::renderSections() {
@@ -176,8 +178,9 @@ void ReportPage::renderSections() {
   m_sections->clear();
   for (const ReportSection& section : m_state.sections) {
     auto* item = new QListWidgetItem(
-        section.note.isEmpty() ? section.title : section.title + QStringLiteral("  -  ") + section.note, m_sections);
-    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+        section.note.isEmpty() ? section.title : section.title + QStringLiteral("  –  ") + section.note, m_sections);
+    item->setFlags(section.always ? Qt::ItemIsSelectable
+                                  : Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     item->setCheckState(section.included ? Qt::Checked : Qt::Unchecked);
     item->setData(Qt::UserRole, section.id);
     item->setSizeHint({100, 28});

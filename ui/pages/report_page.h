@@ -25,7 +25,8 @@ struct ReportSection {
   QString id{};
   QString title{};
   bool included = true;
-  QString note{};  // why it is empty
+  QString note{};  // why it is empty or cannot be left out
+  bool always = false;
 };
 
 /// A figure that a reader would ask about, and the page where it can be looked into.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/text/error_text.h"
+#include "core/report/limits.h"
 #include "core/vision/calibration.h"
 #include "core/vision/image_quality.h"
 #include "ui/pages/calibrate_page.h"
@@ -45,11 +46,11 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
     if (m_page->state().accepted) {
       Q_EMIT nextRequested();
     } else {
-      start({});
+      confirmed();
     }
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
-    if (action == QStringLiteral("repeat")) start({});
+    if (action == QStringLiteral("repeat")) confirmed();
   });
   connect(page, &ui::CalibratePage::regionDrawn, this, &CalibratePresenter::useRegion);
 }
@@ -103,13 +104,49 @@ void CalibratePresenter::leave() {
   m_pictures.stop();
 }
 
+Status CalibratePresenter::waitForConsent(Live& live, const std::string& camera, const TaskContext& context) {
+  std::unique_lock lock(live.mutex);
+  live.waiting = camera;
+  const bool given = live.agreement.wait(lock, context.stop, [&] { return live.agreed == camera; });
+  live.waiting.clear();
+  live.agreed.clear();
+  if (!given) return fail(ErrorCode::cancelled);
+  return {};
+}
+
+std::string CalibratePresenter::waitingFor() const {
+  const std::scoped_lock lock(m_live->mutex);
+  return m_running ? m_live->waiting : std::string();
+}
+
+void CalibratePresenter::confirmed() {
+  const std::string camera = m_page->state().moveCamera.toStdString();
+  if (!m_page->takeConsent()) return;
+  if (!m_running) {
+    {
+      const std::scoped_lock lock(m_live->mutex);
+      m_live->agreed = camera;
+    }
+    start({});
+    return;
+  }
+  {
+    const std::scoped_lock lock(m_live->mutex);
+    if (m_live->waiting != camera) return;
+    m_live->agreed = camera;
+  }
+  m_live->agreement.notify_all();
+}
+
 void CalibratePresenter::start(std::function<void(bool good)> done) {
   const auto profile = bench().profile();
   const auto* job = bench().job();
   if (!profile || job == nullptr || m_running) return;
   m_running = true;
+  m_shownFor.clear();
   {
     const std::scoped_lock lock(m_live->mutex);
+    m_live->waiting.clear();
     m_live->camera.clear();
     m_live->seen.clear();
     m_live->done = m_live->of = 0;
@@ -117,7 +154,7 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
   refresh();
   runStep(
       tr("Calibrating"),
-      [profile = *profile, job, live = m_live, regions = m_regions,
+      [profile = *profile, job, live = m_live, regions = m_regions, asking = m_asking,
        span_mm = m_page->state().span_mm](const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile));
         flow::CalibrateOptions options;
@@ -131,10 +168,19 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
           live->of = now.of;
           live->seen.push_back(*now.location);
         };
+        if (asking) {
+          options.may_move = [live](const std::string& camera, const TaskContext& now) {
+            return waitForConsent(*live, camera, now);
+          };
+        }
         return flow::calibrate(*job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {
         m_running = false;
+        {
+          const std::scoped_lock lock(m_live->mutex);
+          m_live->agreed.clear();
+        }
         if (good) m_regions.clear();  // they are in the calibration now
         refresh();
         if (done) done(good);
@@ -170,7 +216,8 @@ void CalibratePresenter::fillResult(ui::CalibrateState& state, const json& camer
   state.umPerPxSigma = calibration->sigma()(0, 0);
   state.rotation_deg = calibration->rotation_deg;
   state.rms_um = calibration->rms_um;
-  state.rmsLimit_um = 2.0;
+  state.rmsLimit_um = report::limits::calibration_rms_um;
+  state.uncertaintyLimit_um = report::limits::calibration_uncertainty_um;
   // What the calibration adds to an error of 100 um.
   state.uncertainty_um = 100.0 / calibration->scale_um_per_px * state.umPerPxSigma;
   state.points.clear();
@@ -205,6 +252,33 @@ void CalibratePresenter::fillPlan(ui::CalibrateState& state) {
   state.span_mm = std::max(state.span_mm, 2.0 * drift_margin * std::max(state.driftRight_mm, state.driftUp_mm));
 }
 
+/// Which moves come next: those of the camera that waits for a word, else those of the first one.
+void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
+  const auto& profile = bench().profile();
+  const std::string waiting = waitingFor();
+  state.waiting = !waiting.empty();
+  state.moveOf = static_cast<int>(profile->cameras.size());
+  if (profile->cameras.empty()) return;
+  int next = 0;
+  for (int i = 0; i < state.moveOf; ++i) {
+    if (profile->cameras[static_cast<std::size_t>(i)].id == waiting) next = i;
+  }
+  const auto& camera = profile->cameras[static_cast<std::size_t>(next)];
+  state.moveCamera = QString::fromStdString(camera.id);
+  state.moveNumber = next + 1;
+  for (const auto& axis : camera.axes) state.moveAxes << QString::fromStdString(axis);
+  QStringList position;
+  for (const auto& [axis, place_mm] : profile->measure_position_mm) {
+    position << QStringLiteral("%1 %2").arg(QString::fromStdString(axis)).arg(place_mm, 0, 'f', 1);
+  }
+  if (!position.isEmpty()) state.movePosition = tr("%1 (mm, deg)").arg(position.join(QStringLiteral(", ")));
+  if (!state.waiting || m_shownFor == waiting) return;
+  // Once: whoever is asked sees the camera that is meant.
+  m_shownFor = waiting;
+  m_camera = next;
+  state.camera = next;
+}
+
 void CalibratePresenter::refresh() {
   ui::CalibrateState state;
   const auto& profile = bench().profile();
@@ -219,6 +293,8 @@ void CalibratePresenter::refresh() {
   for (const auto& camera : profile->cameras) state.cameras << QString::fromStdString(camera.id);
   state.camera = m_camera;
   state.running = m_running;
+  fillMoves(state);
+  if (state.waiting) m_page->setProgress(tr("Waiting for your word: camera %1").arg(state.moveCamera), -1.0);
   state.span_mm = profile->calibration_span_mm;
   if (m_camera < static_cast<int>(profile->cameras.size())) {
     const auto& camera = profile->cameras[static_cast<std::size_t>(m_camera)];
@@ -279,6 +355,7 @@ void CalibratePresenter::showPicture() {
 }
 
 void CalibratePresenter::tour(std::function<void(bool good)> done) {
+  m_asking = false;
   start(std::move(done));
 }
 

@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QTimer>
 #include <array>
+#include <condition_variable>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -36,9 +37,19 @@ class CalibratePresenter : public Presenter {
     int done = 0;
     int of = 0;
     std::vector<vision::Location> seen;
+    // Consent is for one sequence of moves: the worker waits for the camera's name and takes it away.
+    std::condition_variable_any agreement;
+    std::string waiting;  // camera whose moves need a person's word
+    std::string agreed;
   };
 
+  /// Blocks the worker until a person has agreed to the moves of this camera.
+  static Status waitForConsent(Live& live, const std::string& camera, const TaskContext& context);
+  /// Starts the measurement, or lets it go on with the next camera; nothing without consent.
+  void confirmed();
   void start(std::function<void(bool good)> done);
+  std::string waitingFor() const;
+  void fillMoves(ui::CalibrateState& state);
   void showPicture();
   void fillPlan(ui::CalibrateState& state);
   void fillPoints(ui::CalibrateState& state) const;
@@ -53,6 +64,8 @@ class CalibratePresenter : public Presenter {
   std::map<std::string, std::array<int, 4>> m_regions;  // drawn since the last calibration, by camera
   int m_camera = 0;
   bool m_running = false;
+  bool m_asking = true;    // in the tour nobody is there to be asked
+  std::string m_shownFor;  // camera whose moves were put before the person
   std::shared_ptr<Live> m_live = std::make_shared<Live>();
 };
 

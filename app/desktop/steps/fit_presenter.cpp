@@ -7,6 +7,7 @@
 #include "core/analysis/predict.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
+#include "core/report/limits.h"
 #include "ui/pages/fit_page.h"
 
 namespace zerodrift::desktop {
@@ -41,6 +42,37 @@ ui::FitSeries series_of(const recording::Recording& run, const recording::Record
     series.temperature_C.append(temperature == nullptr ? std::nan("") : temperature->values[r]);
   }
   return series;
+}
+
+/// Every method that was tried on the same run and sensors: choosing one takes none of the others away. The figures are
+/// those of its latest trial; `proposed` becomes what the fit takes when nobody asks for a method.
+QVector<ui::MethodRow> methods_of(Workbench& bench, const commissioning::Artefact& latest, QString& proposed) {
+  QVector<ui::MethodRow> rows;
+  const auto history = bench.job()->history(latest.kind);
+  if (!history) return rows;
+  for (const auto& artefact : *history) {
+    if (artefact.input_hash != latest.input_hash) continue;
+    const auto model = flow::model_of(artefact);
+    if (!model) continue;
+    if (model->asked == analysis::Method::automatic || proposed.isEmpty()) proposed = method_name(model->method);
+    for (const auto& candidate : model->candidates) {
+      ui::MethodRow row;
+      row.id = method_name(candidate.method);
+      row.name = bench.inWords(candidate.label);
+      row.unseen_um = candidate.held_out_rms_um;
+      row.peak_um = candidate.held_out_peak_um;
+      row.onController = candidate.runs_on_controller;
+      if (candidate.chosen) row.why = bench.inWords(model->reason);
+      const auto same = std::find_if(rows.begin(), rows.end(), [&](const ui::MethodRow& r) { return r.id == row.id; });
+      if (same == rows.end()) {
+        rows.append(row);
+      } else {
+        if (row.why.isEmpty()) row.why = same->why;
+        *same = row;
+      }
+    }
+  }
+  return rows;
 }
 
 /// One cycle: where the end of the run was left out, the curve is that of the fit that did not see it.
@@ -80,7 +112,6 @@ FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(benc
       run("auto", {});
     }
   });
-  page->allow(QStringLiteral("addRecording"), false, tr("The model is fitted to the warm-up run of this job."));
 }
 
 void FitPresenter::enter() {
@@ -103,7 +134,6 @@ void FitPresenter::fill(ui::FitState& state) {
   const auto warmup = flow::need(*bench().job(), "fit", "warmup");
   if (!model || !warmup) return;
   state.method = method_name(model->method);
-  state.proposed = state.method;
   double peak = 0.0;
   double rms = 0.0;
   double band = 0.0;
@@ -119,24 +149,18 @@ void FitPresenter::fill(ui::FitState& state) {
   }
   range = model->quality.error_range_um;
   state.attainablePeak_um = peak;
+  state.attainableLimit_um = report::limits::attainable_peak_um;
+  state.removedTarget_percent = report::limits::removed_percent;
+  state.coverageTarget_percent = report::limits::coverage_percent;
   state.attainableRms_um = rms;
   if (stated) {  // one cycle allows no statement
     state.attainable90_um = band;
     state.coverage_percent = 100.0 * coverage;
   }
   if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
-  for (const auto& sensor : model->sensors)
-    state.sensors << QString::fromStdString(sensor).remove(QStringLiteral("_C"));
-  for (const auto& candidate : model->candidates) {
-    ui::MethodRow row;
-    row.id = method_name(candidate.method);
-    row.name = QString::fromStdString(candidate.label);
-    row.unseen_um = candidate.held_out_rms_um;
-    row.peak_um = candidate.held_out_peak_um;
-    row.onController = candidate.runs_on_controller;
-    if (candidate.chosen) row.why = QString::fromStdString(model->reason);
-    state.methods.append(row);
-  }
+  for (const auto& sensor : model->sensors) state.sensors << bench().channelInWords(sensor);
+  state.proposed.clear();
+  state.methods = methods_of(bench(), **artefact, state.proposed);
   double low = 1e9;
   double high = -1e9;
   for (std::size_t i = 0; i < model->domain.channels.size(); ++i) {
@@ -150,8 +174,8 @@ void FitPresenter::fill(ui::FitState& state) {
     }
   }
   if (high > low) state.validity = tr("%1 to %2 °C").arg(low, 0, 'f', 0).arg(high, 0, 'f', 0);
-  for (const auto& advice : model->quality.advice) state.advice << QString::fromStdString(advice);
-  for (const auto& finding : model->findings) state.advice << QString::fromStdString(analysis::describe(finding));
+  for (const auto& advice : model->quality.advice) state.advice << bench().inWords(advice);
+  for (const auto& finding : model->findings) state.advice << bench().inWords(analysis::describe(finding));
   const auto run = flow::run_of(*bench().job(), *warmup);
   if (!run) return;
   const auto prediction = analysis::predict(*model, *run);

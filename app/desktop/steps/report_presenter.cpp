@@ -25,6 +25,7 @@ namespace {
 constexpr int preview_width_px = 1100;
 constexpr int rest_ms = 60;
 const std::string standards_mark = "Standards: ";
+const std::string doubts_section = "doubts";  // always part of the report
 
 /// The page on which a figure from this kind of artefact can be looked into.
 QString page_of(const std::string& kind) {
@@ -35,25 +36,17 @@ QString page_of(const std::string& kind) {
   return QString::fromStdString(kind);
 }
 
+/// The report's own list: what the page shows first is what the paper says.
 QVector<ui::DoubtfulFigure> doubts_of(const report::Report& report) {
   QVector<ui::DoubtfulFigure> doubts;
   for (const auto& section : report.sections) {
+    if (section.id != doubts_section) continue;
     for (const auto& block : section.blocks) {
-      if (const auto* figures = std::get_if<report::Figures>(&block)) {
-        for (const auto& figure : figures->figures) {
-          if (figure.verdict != report::Verdict::doubtful && figure.verdict != report::Verdict::bad) continue;
-          doubts.append({QString::fromStdString(
-                             fmt::format("{}: {} {} {}", figure.label, figure.value, figure.unit, figure.limit)),
-                         figure.verdict == report::Verdict::bad ? ui::Judgement::bad : ui::Judgement::warn,
-                         page_of(figure.trace.artefact)});
-        }
-      } else if (const auto* text = std::get_if<report::Text>(&block); text != nullptr && text->warning) {
-        const QString words = QString::fromStdString(text->text);
-        // The section of doubts names the artefact before the colon.
-        const QString kind = words.section(QLatin1Char(':'), 0, 0);
-        doubts.append(
-            {words, ui::Judgement::warn, page_of(kind.contains(QLatin1Char(' ')) ? section.id : kind.toStdString())});
-      }
+      const auto* text = std::get_if<report::Text>(&block);
+      if (text == nullptr || !text->warning) continue;
+      const bool bad = text->verdict == report::Verdict::bad;
+      doubts.append({QString::fromStdString(text->text), bad ? ui::Judgement::bad : ui::Judgement::warn,
+                     page_of(text->trace.artefact)});
     }
   }
   return doubts;
@@ -91,7 +84,7 @@ ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Prese
   connect(&m_redraw, &QTimer::timeout, this, &ReportPresenter::drawPreview);
   connect(page, &ui::ReportPage::headEdited, this, &ReportPresenter::setHead);
   connect(page, &ui::ReportPage::sectionToggled, this, [this](const QString& section, bool included) {
-    if (included) {
+    if (included || section.toStdString() == doubts_section) {
       m_left.remove(section);
     } else {
       m_left.insert(section);
@@ -220,10 +213,20 @@ bool ReportPresenter::save(const QStringList& paths) {
 
 void ReportPresenter::saveBundle() {
   if (bench().job() == nullptr) return;
+  const QFileInfo proposed(defaultPath(QStringLiteral("pdf")));
   const QString folder = QFileDialog::getExistingDirectory(
-      m_page, tr("Folder for the technical bundle"), QFileInfo(defaultPath(QStringLiteral("pdf"))).absolutePath());
+      m_page, tr("Where to put the folder of the technical bundle"), proposed.absolutePath());
   if (folder.isEmpty()) return;
-  const QDir place(folder);
+  // A folder of its own, named after the job: nothing is mixed with what lies there, nothing is written over.
+  const QString stem = proposed.completeBaseName() + tr("-bundle");
+  QString own = stem;
+  for (int number = 2; QDir(folder).exists(own); ++number) own = QStringLiteral("%1-%2").arg(stem).arg(number);
+  const QDir place(QDir(folder).filePath(own));
+  if (!QDir(folder).mkdir(own)) {
+    show({ErrorCode::file_not_writable,
+          {{"file", place.path().toStdString()}, {"detail", "no folder can be made there"}}});
+    return;
+  }
   const auto file = [&](const char* name) { return place.filePath(QString::fromLatin1(name)); };
   if (!save({file("report.pdf"), file("report.html"), file("figures.csv")})) return;
   const auto write = [&]() -> Status {
@@ -234,13 +237,21 @@ void ReportPresenter::saveBundle() {
     ZD_CHECK(write_body(bench().body("upload"), "table", file("table.json")));
     return write_body(bench().body("physics"), "diagnosis", file("diagnosis.json"));
   };
-  if (const Status written = write(); !written) show(written.error());
+  if (const Status written = write(); !written) {
+    show(written.error());
+    return;
+  }
+  bench().log(LogKind::good, tr("Technical bundle: %1").arg(place.path()));
+  m_savedTo = QDir::toNativeSeparators(place.path());
+  refresh();
 }
 
 void ReportPresenter::fillSections(ui::ReportState& state) const {
   for (const auto& section : m_report.sections) {
     const QString id = QString::fromStdString(section.id);
-    state.sections.append({id, QString::fromStdString(section.title), !m_left.contains(id), {}});
+    const bool always = section.id == doubts_section;
+    state.sections.append({id, QString::fromStdString(section.title), !m_left.contains(id),
+                           always ? tr("always part of the report") : QString(), always});
   }
   state.doubtful = doubts_of(m_report);
 }
@@ -256,7 +267,6 @@ void ReportPresenter::refresh() {
     return;
   }
   state.head = head_of(job->header().value_or(commissioning::JobHeader{}));
-  if (state.head.standards.isEmpty()) state.head.standards = QStringLiteral("ISO 230-3:2020, ISO 230-2:2014");
   state.languages = {QStringLiteral("English")};
   fillSections(state);
   state.pages = m_pages;

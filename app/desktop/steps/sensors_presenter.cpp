@@ -5,6 +5,7 @@
 
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/sensors_step.h"
+#include "core/report/limits.h"
 #include "ui/pages/sensors_page.h"
 
 namespace zerodrift::desktop {
@@ -142,6 +143,9 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   const json condition = body.value("condition_number", json::object());
   state.condition = number(condition, "chosen");
   state.error_um = number(price, "held_out_rms_um");
+  state.errorLimit_um = report::limits::unseen_error_um;
+  state.lostLimit_percent = report::limits::lost_against_all_percent;
+  state.conditionLimit = report::limits::condition_number;
   const double all_um = number(price, "all_rms_um");
   if (all_um > 0.0) state.lost_percent = 100.0 * (state.error_um / all_um - 1.0);
   for (const auto& point : body.value("budget", json::array())) {

@@ -134,6 +134,14 @@ Result<vision::ErrorView> view_of(const commissioning::Job& job, const commissio
   return view;
 }
 
+/// The person's word first, then the machine's: while one waited, the other may have switched the compensation on.
+Status may_move(Devices& devices, const std::string& camera, const CalibrateOptions& options,
+                const TaskContext& context) {
+  if (options.may_move) ZD_CHECK(options.may_move(camera, context));
+  ZD_TRY(const bool compensating, devices.machine->compensation_on());
+  return compensation::allow_model_measurement(compensating);
+}
+
 }  // namespace
 
 Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,
@@ -148,10 +156,12 @@ Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devi
     body["source"] = "probes";
     return commissioning::NewArtefact::of("calibration", body, {machine->id});
   }
+  if (!devices.cameras.empty()) ZD_CHECK(may_move(devices, devices.cameras.front().profile.id, options, context));
   ZD_CHECK(devices.machine->command(0.0, false, false));
   ZD_TRY(const std::vector<vision::GrayImage> templates, take_templates(devices, context));
   for (std::size_t i = 0; i < devices.cameras.size(); ++i) {
     const auto& device = devices.cameras[i];
+    if (i > 0) ZD_CHECK(may_move(devices, device.profile.id, options, context));
     ZD_TRY(auto made, calibrate_camera(devices, device, templates[i], options, context));
     if (!device.profile.reference_roi_px) body["reference_target"] = false;
     body["cameras"].push_back(std::move(made.body));

@@ -32,6 +32,9 @@ struct CalibrateOptions {
   std::map<std::string, std::array<int, 4>> regions;  // of the target, by camera; absent: the profile's
   double span_mm = 0.0;                               // of the positions; 0: the profile's
   std::function<void(const CalibrationProgress&)> watcher;
+  /// Asked before each sequence of moves, with the camera it is for; it may wait for a person. An error ends the step
+  /// with nothing moved any more. Absent: whoever starts the step has agreed to all of them (command line).
+  std::function<Status(const std::string& camera, const TaskContext&)> may_move;
 };
 
 /// Moves the machine. Refused while it is compensating: the moves would be falsified.

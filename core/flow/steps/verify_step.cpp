@@ -6,6 +6,7 @@
 
 #include "core/compensation/residual.h"
 #include "core/flow/steps/inputs.h"
+#include "core/report/comparison.h"
 
 namespace zerodrift::flow {
 
@@ -13,8 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double part_threshold_um = 2.0;  // a part error above this is worth a correction and another verification
 constexpr double axis_threshold_um = 1.0;  // once the table is written again: what is worth correcting in each axis
+const std::string no_correction = "no correction: ";
 
 std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(const recording::Recording& run,
                                                                               const compensation::Table& table) {
@@ -39,23 +40,24 @@ std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(co
 
 /// kappa and the corrected table, when the residual calls for one; a correction that cannot be made is no failure of
 /// the verification, its reason is kept.
-void propose_correction(const recording::Recording& run, const compensation::Table& table, double limit_um,
+void propose_correction(const recording::Recording& run, const compensation::Table& table, double threshold_um,
                         json& body) {
   compensation::ResidualOptions options;
-  options.threshold_um = std::min(limit_um, axis_threshold_um);
+  options.threshold_um = std::min(threshold_um, axis_threshold_um);
+  body["threshold_um"] = threshold_um;
   body["kappa"] = json::object();
   body["correction"] = json::array();
   body["corrected_table"] = nullptr;
   const auto correction = compensation::correct_residual(table, residuals_of(run, table), options);
   if (!correction) {
-    body["problems"].push_back("no correction: " + describe(correction.error()));
+    body["problems"].push_back(no_correction + describe(correction.error()));
     return;
   }
   bool any = false;
   bool needed = false;
   for (const auto& axis : correction->axes) {
     any = any || axis.kind != compensation::CorrectionKind::none;
-    needed = needed || axis.largest_before_um > std::min(limit_um, part_threshold_um);
+    needed = needed || axis.largest_before_um > threshold_um;
     body["kappa"][axis.axis] = axis.kappa;
     body["correction"].push_back({{"axis", axis.axis},
                                   {"kappa", axis.kappa},
@@ -68,18 +70,20 @@ void propose_correction(const recording::Recording& run, const compensation::Tab
 }
 
 void add_figures(const recording::Recording& before, const recording::Recording& after, double limit_um, json& body) {
-  const auto sizes_before = error_sizes(before);
   bool passed = true;
   for (const auto& [direction, size] : error_sizes(after)) {
     body["peak_error_after_um"][direction] = size.peak_um;
     body["rms_error_after_um"][direction] = size.rms_um;
     passed = passed && size.peak_um <= limit_um;
-    const auto at = sizes_before.find(direction);
-    if (at == sizes_before.end()) continue;
-    body["peak_error_before_um"][direction] = at->second.peak_um;
-    if (at->second.peak_um > 0) {
-      body["removed_percent"][direction] = 100.0 * (1.0 - size.peak_um / at->second.peak_um);
-    }
+  }
+  const auto compared = report::compare_runs(before, after);
+  body["compared_s"] = compared.span_s;
+  for (const auto& axis : compared.axes) {
+    body["peak_error_before_um"][axis.axis] = axis.before_um;
+    body["rms_error_before_um"][axis.axis] = axis.before_rms_um;
+    body["end_error_before_um"][axis.axis] = axis.end_before_um;
+    body["end_error_after_um"][axis.axis] = axis.end_after_um;
+    if (axis.before_um > 0) body["removed_percent"][axis.axis] = axis.removed_percent;
   }
   body["limit_um"] = limit_um;
   body["verdict"] = passed && body.contains("peak_error_after_um") ? "passed" : "failed";
@@ -121,8 +125,28 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   json body = run.body();
   body["machine_time_s"] = {start.machine_time_s, start.machine_time_s + run.summary.duration_s};
   add_figures(before, after, options.limit_um, body);
-  propose_correction(after, table, options.limit_um, body);
+  propose_correction(after, table, std::min(options.limit_um, options.threshold_um), body);
   return commissioning::NewArtefact::of("verification", body, {warmup.id, calibration.id, upload.id});
+}
+
+Result<commissioning::NewArtefact> judge_again(const commissioning::Job& job, double threshold_um) {
+  ZD_TRY(const auto artefact, job.latest("verification"));
+  if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "verify"}, {"needs", "verification"}});
+  ZD_TRY(json body, artefact->document());
+  ZD_TRY(const auto run, run_of(job, {artefact->id, body}));
+  ZD_TRY(const auto residuals, verification_residuals(job));
+  auto& problems = body["problems"];
+  if (problems.is_array()) {
+    json kept = json::array();
+    for (const auto& problem : problems) {
+      if (!problem.get<std::string>().starts_with(no_correction)) kept.push_back(problem);
+    }
+    problems = std::move(kept);
+  }
+  propose_correction(run, residuals.table, threshold_um, body);
+  std::vector<commissioning::ArtefactId> inputs;
+  for (const auto& input : artefact->inputs) inputs.push_back(input.id);
+  return commissioning::NewArtefact::of("verification", body, std::move(inputs));
 }
 
 Result<VerificationResiduals> verification_residuals(const commissioning::Job& job) {

@@ -2,8 +2,10 @@
 // Step "verify" (C1, C2): a second run with the compensation on, measured against the zero of the warm-up run, so that
 // what is measured is what is left. Proposes a correction of the coefficients when too much is left. Makes the artefact
 // "verification":
-//   {...as warm-up..., "peak_error_before_um": {"X", ...}, "peak_error_after_um", "rms_error_after_um",
-//    "removed_percent", "limit_um", "verdict": "passed"|"failed", "kappa": {...}, "correction": [...],
+//   {...as warm-up..., "peak_error_after_um": {"X", ...}, "rms_error_after_um" of the whole run,
+//    "compared_s", "peak_error_before_um", "rms_error_before_um", "removed_percent", "end_error_before_um",
+//    "end_error_after_um" over the same time since each run's start, as long as both went,
+//    "limit_um", "threshold_um", "verdict": "passed"|"failed", "kappa": {...}, "correction": [...],
 //    "corrected_table": {...} | null, "machine_time_s": [from, to]}
 
 #include <map>
@@ -21,8 +23,9 @@
 namespace zerodrift::flow {
 
 struct VerifyOptions {
-  RunOptions run;         // an empty plan: verification_plan of the warm-up's
-  double limit_um = 5.0;  // largest error that may be left, each direction
+  RunOptions run;             // an empty plan: verification_plan of the warm-up's
+  double limit_um = 5.0;      // largest error that may be left, each direction
+  double threshold_um = 2.0;  // a part error above this is worth a correction
 };
 
 /// The warm-up's speeds in another order with a rest between, three quarters as long.
@@ -30,6 +33,9 @@ acquisition::Plan verification_plan(const acquisition::Plan& warmup);
 
 Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devices, const VerifyOptions& options,
                                           const TaskContext& context);
+
+/// The latest verification judged by another threshold of part errors: the same run and figures, its own correction.
+Result<commissioning::NewArtefact> judge_again(const commissioning::Job& job, double threshold_um);
 
 /// What was left in the latest verification, by axis, with the temperatures of each measurement.
 struct VerificationResiduals {

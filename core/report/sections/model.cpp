@@ -8,7 +8,7 @@ std::optional<Section> model_section(const Source& source) {
   const LoadedArtefact* model = source.find("model");
   if (model == nullptr) return std::nullopt;
   Section section{"model", source.say("Compensation model"), {}};
-  section.blocks.emplace_back(Text{text_of(model->body, "summary"), false});
+  section.blocks.emplace_back(Text{source.in_words(text_of(model->body, "summary")), false});
   Figures figures;
   for (const auto& error : model->body.value("figures", nlohmann::json::array())) {
     const std::string channel = text_of(error, "channel");
@@ -17,7 +17,7 @@ std::optional<Section> model_section(const Source& source) {
       figure.id = fmt::format("{}_{}", id, channel);
       figure.label = source.say(label) + " " + channel.substr(1, 1);
       figure.value = shown(number_of(error, key), 2);
-      figure.unit = "um";
+      figure.unit = "µm";
       figure.trace = source.trace("model", std::string(key) + " of " + channel);
       figures.figures.push_back(std::move(figure));
     };
@@ -29,11 +29,11 @@ std::optional<Section> model_section(const Source& source) {
   Table table;
   table.id = "coefficients";
   table.title = source.say("Coefficients of the table: error = offset + sum of coefficient x (T - reference)");
-  table.header = {source.say("direction"), source.say("sensor"), source.say("um/K"), source.say("reference, C")};
+  table.header = {source.say("direction"), source.say("sensor"), source.say("µm/K"), source.say("reference, °C")};
   table.trace = source.trace("model", "terms");
   for (const auto& row : model->body.value("table", nlohmann::json::array())) {
-    table.rows.push_back({text_of(row, "axis"), text_of(row, "sensor"), shown(number_of(row, "um_per_K"), 3),
-                          shown(number_of(row, "reference_C"), 2)});
+    table.rows.push_back({text_of(row, "axis"), source.channel_in_words(text_of(row, "sensor")),
+                          shown(number_of(row, "um_per_K"), 3), shown(number_of(row, "reference_C"), 2)});
   }
   section.blocks.emplace_back(std::move(table));
   return section;

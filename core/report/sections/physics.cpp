@@ -25,8 +25,9 @@ Table rmse_table(const Source& source, const nlohmann::json& body) {
                   source.say("with what was found"), source.say("noise of the sensor")};
   for (const auto& [channel, value] : before.items()) {
     if (!value.is_number()) continue;
-    table.rows.push_back({channel, shown(value.get<double>(), 2), shown(number_of(refitted, channel), 2),
-                          shown(number_of(after, channel), 2), shown(number_of(noise, channel), 2)});
+    table.rows.push_back({source.channel_in_words(channel), shown(value.get<double>(), 2),
+                          shown(number_of(refitted, channel), 2), shown(number_of(after, channel), 2),
+                          shown(number_of(noise, channel), 2)});
   }
   return table;
 }
@@ -35,7 +36,7 @@ Table rmse_table(const Source& source, const nlohmann::json& body) {
 std::string in_words(const nlohmann::json& stored, const std::string& english, const Source& source) {
   const std::string text = diagnosis::said(diagnosis::sentence_from_json(stored),
                                            [&](const std::string& words) { return source.say(words.c_str()); });
-  return text.empty() ? english : text;
+  return source.in_words(text.empty() ? english : text);
 }
 
 /// The sentences of an object that keeps them as "said" and in English as "sentences".
@@ -82,9 +83,9 @@ Plot plot_of(const nlohmann::json& one, const recording::Recording* run, const S
   Plot plot;
   const std::string channel = text_of(one, "channel");
   plot.id = "simulation_" + channel;
-  plot.title = source.say("Recorded and simulated:") + " " + channel;
+  plot.title = source.say("Recorded and simulated:") + " " + source.channel_in_words(channel);
   plot.x_label = source.say("hours");
-  plot.y_label = text_of(one, "unit");
+  plot.y_label = text_of(one, "unit") == "C" ? "°C" : source.in_words(text_of(one, "unit"));
   if (run != nullptr) {
     plot.curves = curves_of(*run, {channel}, false);
     for (auto& curve : plot.curves) curve.name = source.say("recorded");

@@ -18,8 +18,8 @@ void add_calibration(const Source& source, Section& section) {
   table.id = "cameras";
   table.title = source.say("Camera calibration");
   table.header = {source.say("camera"),           source.say("sees"),
-                  source.say("um per px"),        source.say("rotation, deg"),
-                  source.say("rms residual, um"), source.say("positions")};
+                  source.say("µm per px"),        source.say("rotation, °"),
+                  source.say("rms residual, µm"), source.say("positions")};
   table.trace = source.trace("calibration", "cameras");
   for (const auto& camera : calibration->body.value("cameras", nlohmann::json::array())) {
     std::string axes;
@@ -33,7 +33,7 @@ void add_calibration(const Source& source, Section& section) {
   section.blocks.emplace_back(
       reference ? Text{source.say("A fixed reference target in each view removes the camera's own drift."), false}
                 : Text{source.say("There was no fixed reference target: drift of the camera or its holder (about "
-                                  "2 um per K for 100 mm of aluminium) is part of the figures."),
+                                  "2 µm per K for 100 mm of aluminium) is part of the figures."),
                        true});
 }
 
@@ -43,11 +43,12 @@ void add_health(const Source& source, Section& section) {
   Table table;
   table.id = "sensors";
   table.title = source.say("Temperature sensors at rest");
-  table.header = {source.say("sensor"), source.say("place"), source.say("value, C"), source.say("noise, K"),
+  table.header = {source.say("sensor"), source.say("place"), source.say("value, °C"), source.say("noise, K"),
                   source.say("state")};
   table.trace = source.trace("machine", "health");
   for (const auto& sensor : machine->body.value("health", nlohmann::json::array())) {
-    table.rows.push_back({text_of(sensor, "channel"), text_of(sensor, "label"), shown(number_of(sensor, "value_C"), 2),
+    table.rows.push_back({text_of(sensor, "channel").substr(0, text_of(sensor, "channel").find('_')),
+                          text_of(sensor, "label"), shown(number_of(sensor, "value_C"), 2),
                           shown(number_of(sensor, "noise_K"), 2), text_of(sensor, "state")});
   }
   if (!table.rows.empty()) section.blocks.emplace_back(std::move(table));

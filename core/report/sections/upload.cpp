@@ -17,7 +17,7 @@ std::optional<Section> upload_section(const Source& source) {
   add("table_crc", "Checksum, read back", text_of(body, "crc32"), "");
   add("table_registers", "Registers written", text_of(body, "registers"), "");
   add("largest_change_um", "Largest change against the old table", shown(number_of(body, "largest_change_um"), 1),
-      "um");
+      "µm");
   section.blocks.emplace_back(std::move(figures));
   Table difference;
   difference.id = "table_difference";
@@ -25,7 +25,8 @@ std::optional<Section> upload_section(const Source& source) {
   difference.header = {source.say("entry"), source.say("old"), source.say("new")};
   difference.trace = source.trace("upload", "difference");
   for (const auto& row : body.value("difference", nlohmann::json::array())) {
-    difference.rows.push_back({text_of(row, "what"), text_of(row, "old"), text_of(row, "new")});
+    difference.rows.push_back({source.in_words(text_of(row, "what")), source.in_words(text_of(row, "old")),
+                               source.in_words(text_of(row, "new"))});
   }
   if (!difference.rows.empty()) section.blocks.emplace_back(std::move(difference));
   Table states;
@@ -34,7 +35,8 @@ std::optional<Section> upload_section(const Source& source) {
   states.header = {source.say("state"), source.say("at, s"), source.say("result")};
   states.trace = source.trace("upload", "states");
   for (const auto& row : body.value("states", nlohmann::json::array())) {
-    states.rows.push_back({text_of(row, "state"), shown(number_of(row, "at_s"), 2), text_of(row, "detail")});
+    states.rows.push_back(
+        {text_of(row, "state"), shown(number_of(row, "at_s"), 2), source.in_words(text_of(row, "detail"))});
   }
   if (!states.rows.empty()) section.blocks.emplace_back(std::move(states));
   return section;

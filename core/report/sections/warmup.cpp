@@ -27,7 +27,7 @@ Figure range_figure(const Source& source, const std::string& channel, double val
   figure.id = fmt::format("{}_{}_um", id, direction);
   figure.label = source.say(label) + " " + direction;
   figure.value = shown(value, 1);
-  figure.unit = "um";
+  figure.unit = "µm";
   figure.trace = source.trace("warmup", channel);
   return figure;
 }
@@ -59,9 +59,9 @@ std::optional<Section> warmup_section(const Source& source) {
         range_figure(source, channel, range_um(*run, channel, 1e12), "range_total", "Range over the run,"));
   }
   section.blocks.emplace_back(std::move(figures));
-  section.blocks.emplace_back(plot_of(source, *run, errors, "errors", "Errors at the nose", "um", false));
+  section.blocks.emplace_back(plot_of(source, *run, errors, "errors", "Errors at the nose", "µm", false));
   section.blocks.emplace_back(plot_of(source, *run, run->names(recording::ChannelKind::temperature), "temperatures",
-                                      "Temperatures", "C", false));
+                                      "Temperatures", "°C", false));
   section.blocks.emplace_back(plot_of(source, *run, {"spindle_rpm"}, "speed", "Spindle speed", "rpm", false));
   return section;
 }

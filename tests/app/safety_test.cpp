@@ -1,0 +1,153 @@
+// What must never go by itself: axes that move without a person's word, a virtual machine that outlives its window.
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QDir>
+#include <QFile>
+#include <QProcess>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "app/desktop/application.h"
+#include "core/flow/devices.h"
+#include "ui/pages/calibrate_page.h"
+
+using zerodrift::desktop::Application;
+using zerodrift::desktop::DemoOptions;
+using zerodrift::ui::CalibratePage;
+
+namespace {
+
+const QString programs = QStringLiteral(ZERODRIFT_BIN_DIR);
+
+struct Process {
+  qint64 parent = 0;
+  char state = 0;
+  QByteArray name;
+};
+
+/// From /proc/PID/stat: "PID (name) state parent ..."; without a state when there is no such process.
+Process process_of(qint64 pid) {
+  QFile file(QStringLiteral("/proc/%1/stat").arg(pid));
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  const QByteArray line = file.readAll();
+  const auto close = line.lastIndexOf(')');
+  const auto fields = line.mid(close + 2).split(' ');
+  return {fields.value(1).toLongLong(), fields.value(0).isEmpty() ? '\0' : fields.value(0).at(0),
+          line.mid(line.indexOf('(') + 1, close - line.indexOf('(') - 1)};
+}
+
+qint64 child_of(qint64 parent) {
+  for (const QString& entry : QDir(QStringLiteral("/proc")).entryList(QDir::Dirs)) {
+    const Process process = process_of(entry.toLongLong());
+    if (process.parent == parent && process.name.startsWith("zerodrift-mach")) return entry.toLongLong();
+  }
+  return 0;
+}
+
+bool lives(qint64 pid) {
+  const char state = process_of(pid).state;
+  return state != 0 && state != 'Z' && state != 'X';
+}
+
+}  // namespace
+
+class SafetyTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() {
+    QVERIFY(m_folder.isValid());
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
+    QSettings::setDefaultFormat(QSettings::NativeFormat);
+    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
+  }
+
+  /// One consent, one sequence of moves: the next camera asks again, and so does measuring again.
+  void consentIsForOneSequence() {
+    Application application(*m_theme);
+    application.show();
+    DemoOptions demo;
+    demo.program = programs + QStringLiteral("/zerodrift-machine");
+    application.startDemo(demo, m_folder.filePath(QStringLiteral("consent.zdj")));
+    bool started = false;
+    application.presenter(QStringLiteral("machine"))->tour([&](bool good) { started = good; });
+    QTRY_VERIFY_WITH_TIMEOUT(started, 60000);
+    auto& bench = application.bench();
+    QTRY_VERIFY(!bench.tasks().running());
+
+    application.openPage(QStringLiteral("calibrate"));
+    auto* page = qobject_cast<CalibratePage*>(application.presenter(QStringLiteral("calibrate"))->page());
+    auto* clear = page->findChild<QCheckBox*>(QStringLiteral("areaClear"));
+    QCOMPARE(page->state().moveOf, 2);
+    Q_EMIT page->primaryTriggered();
+    QVERIFY(!bench.tasks().running());
+
+    const QString first = page->state().moveCamera;
+    clear->setChecked(true);
+    QVERIFY(page->primaryAction().enabled);
+    Q_EMIT page->primaryTriggered();
+    QVERIFY(bench.tasks().running());
+    QVERIFY(!clear->isChecked());
+    QTRY_VERIFY_WITH_TIMEOUT(page->state().waiting, 180000);
+    QVERIFY(page->state().moveCamera != first);
+    QVERIFY(!clear->isChecked());
+    QVERIFY(!page->primaryAction().enabled);
+
+    // Until the second word is given the axes stand, also when the button is pressed all the same.
+    auto devices = zerodrift::flow::Devices::open(*bench.profile(), false);
+    QVERIFY(devices.has_value());
+    const auto before = devices->machine->read();
+    QVERIFY(before.has_value());
+    Q_EMIT page->primaryTriggered();
+    QTest::qWait(1500);
+    const auto after = devices->machine->read();
+    QVERIFY(after.has_value());
+    QCOMPARE(after->axes == before->axes, true);
+    QVERIFY(page->state().waiting);
+
+    clear->setChecked(true);
+    Q_EMIT page->primaryTriggered();
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.tasks().running(), 180000);
+    QVERIFY2(bench.has("calibration"), qPrintable(page->problem().sentence));
+    QVERIFY(!clear->isChecked());
+    Q_EMIT page->secondaryTriggered(QStringLiteral("repeat"));
+    QVERIFY(!bench.tasks().running());
+  }
+
+  void virtualMachineEndsWithTheWindow_data() {
+    QTest::addColumn<bool>("hard");
+    QTest::newRow("SIGTERM") << false;
+    QTest::newRow("SIGKILL") << true;
+  }
+
+  void virtualMachineEndsWithTheWindow() {
+    QFETCH(const bool, hard);
+    QProcess window;
+    auto environment = QProcessEnvironment::systemEnvironment();
+    environment.insert(QStringLiteral("HOME"), m_folder.path());
+    environment.insert(QStringLiteral("XDG_CONFIG_HOME"), m_folder.path());
+    environment.insert(QStringLiteral("QT_QPA_PLATFORM"), QStringLiteral("offscreen"));
+    window.setProcessEnvironment(environment);
+    window.start(programs + QStringLiteral("/zerodrift"), {QStringLiteral("--demo")});
+    QVERIFY(window.waitForStarted());
+    qint64 machine = 0;
+    QTRY_VERIFY_WITH_TIMEOUT((machine = child_of(window.processId())) != 0, 30000);
+    if (hard) {
+      window.kill();
+    } else {
+      window.terminate();
+    }
+    QVERIFY(window.waitForFinished(20000));
+    if (!hard) QCOMPARE(window.exitCode(), 128 + 15);
+    QTRY_VERIFY_WITH_TIMEOUT(!lives(machine), 10000);
+  }
+
+ private:
+  QTemporaryDir m_folder;
+  std::unique_ptr<zerodrift::ui::Theme> m_theme;
+};
+
+QTEST_MAIN(SafetyTest)
+#include "safety_test.moc"
