@@ -85,6 +85,8 @@ void RunFeed::begin() {
   }
   m_now = {};
   m_speeds = {};
+  m_longestHole_s = 0.0;
+  m_lastRow_s = -1.0;
   m_largest_um = 0.0;
   m_largestAxis.clear();
   m_received = false;
@@ -102,6 +104,9 @@ void RunFeed::showRecording(const recording::Recording& run) {
   m_view->clear();
   setChannels();
   m_largest_um = 0.0;
+  m_longestHole_s = 0.0;
+  m_lastRow_s = -1.0;
+  for (const double time_s : run.time_s) noteRow(time_s);
   for (const auto& channel : run.channels) {
     QVector<double> times;
     QVector<double> values;
@@ -128,6 +133,11 @@ void RunFeed::showRecording(const recording::Recording& run) {
     values.emplace_back(channel.values.begin(), channel.values.end());
   }
   appendCompensation(names, QVector<double>(run.time_s.begin(), run.time_s.end()), values);
+}
+
+void RunFeed::noteRow(double time_s) {
+  if (m_lastRow_s >= 0.0) m_longestHole_s = std::max(m_longestHole_s, time_s - m_lastRow_s);
+  m_lastRow_s = time_s;
 }
 
 void RunFeed::noteErrors(const std::string& channel, double value) {
@@ -253,6 +263,7 @@ void RunFeed::appendRows(const std::vector<RunUpdate>& updates) {
       values.resize(names.size());
     }
     times.append(update.time_s);
+    noteRow(update.time_s);
     for (std::size_t c = 0; c < names.size() && c < update.row.size(); ++c) {
       values[c].append(update.row[c]);
       noteErrors(names[c], update.row[c]);

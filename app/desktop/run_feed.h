@@ -51,6 +51,8 @@ class RunFeed : public QObject {
   const acquisition::RunUpdate& now() const { return m_now; }
   double largestError_um() const { return m_largest_um; }
   QString largestErrorAxis() const { return m_largestAxis; }
+  /// Longest machine time between two rows.
+  double longestHole_s() const { return m_longestHole_s; }
   bool receiving() const { return m_received; }
 
  Q_SIGNALS:
@@ -69,6 +71,7 @@ class RunFeed : public QObject {
   void setChannels();
   void appendRows(const std::vector<acquisition::RunUpdate>& updates);
   void showPicture();
+  void noteRow(double time_s);
   void noteErrors(const std::string& channel, double value);
   void appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,
                           const std::vector<QVector<double>>& values);
@@ -81,6 +84,8 @@ class RunFeed : public QObject {
   acquisition::RunUpdate m_now;
   recording::Recording m_speeds;  // time, speed, coolant: for the bands
   double m_largest_um = 0.0;
+  double m_longestHole_s = 0.0;
+  double m_lastRow_s = -1.0;
   QString m_largestAxis;
   bool m_received = false;
   bool m_compensated = false;

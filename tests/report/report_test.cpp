@@ -150,12 +150,14 @@ TEST_F(ReportTest, WhatWasDoubtfulIsListed) {
 TEST_F(ReportTest, RunsAreComparedAsFarAsBothGo) {
   recording::Recording before;
   recording::Recording after;
+  before.ensure("dX_um");
+  after.ensure("dX_um");
   for (int i = 0; i <= 100; ++i) {
     before.time_s.push_back(1000.0 + 60.0 * i);  // a run begins at any clock
-    before.ensure("dX_um").values.push_back(0.5 * i);
+    before.channels.front().values.push_back(0.5 * i);
     if (i > 60) continue;
     after.time_s.push_back(60.0 * i);
-    after.ensure("dX_um").values.push_back(i < 50 ? -3.0 : 40.0);
+    after.channels.front().values.push_back(i < 50 ? -3.0 : 40.0);
   }
   const auto compared = compare_runs(before, after);
   EXPECT_DOUBLE_EQ(compared.span_s, 3600.0);

@@ -16,7 +16,9 @@
 #include "ui/pages/upload_page.h"
 #include "ui/pages/verify_page.h"
 #include "ui/pages/warmup_page.h"
+#include "ui/plots/plot_widget.h"
 #include "ui/shell/main_window.h"
+#include "ui/shell/theme.h"
 #include "ui/widgets/channel_table.h"
 #include "ui/widgets/empty_state.h"
 #include "ui/widgets/figure_card.h"
@@ -43,6 +45,8 @@ class PagesTest : public QObject {
   void blindTrialIsOpenedLast();
   void axisRefusesATableThatTurnsBack();
   void everyPageSurvivesNewLanguageAndNothing();
+  void plotsFollowTheTheme_data();
+  void plotsFollowTheTheme();
 };
 
 template <class P>
@@ -287,6 +291,38 @@ void PagesTest::everyPageSurvivesNewLanguageAndNothing() {
   ReportPage().setState({});
   AxisPage().setState({});
   MachinePage().setState({});
+}
+
+void PagesTest::plotsFollowTheTheme_data() {
+  QTest::addColumn<bool>("hidden");
+  QTest::newRow("open page") << false;
+  QTest::newRow("page opened later") << true;
+}
+
+/// A page that stays open, and one that is opened again, has no light plot in the dark window.
+void PagesTest::plotsFollowTheTheme() {
+  QFETCH(const bool, hidden);
+  Theme theme(*qApp);
+  MainWindow window;
+  samples::fillWindow(window);
+  window.show();
+  for (const auto& scene : samples::scenes()) {
+    theme.setMode(ThemeMode::light);
+    samples::play(window, scene);
+    QTest::qWait(60);
+    const QString page = window.currentPage()->id();
+    if (hidden) window.setCurrentPage(page == "machine" ? "fit" : "machine");
+    theme.setMode(ThemeMode::dark);
+    if (hidden) window.setCurrentPage(page);
+    QTest::qWait(90);
+    for (auto* plot : window.currentPage()->findChildren<PlotWidget*>()) {
+      if (!plot->isVisible()) continue;
+      const QColor corner = plot->grab().toImage().pixelColor(plot->width() - 3, 3);
+      const QString where = scene.page + '-' + scene.name + ' ' + plot->metaObject()->className() + ' ' + corner.name();
+      QVERIFY2(corner.lightness() < 90, qPrintable(where));
+    }
+  }
+  theme.setMode(ThemeMode::light);
 }
 
 QTEST_MAIN(PagesTest)

@@ -49,6 +49,7 @@ struct PageAction {
   QString text{};  // empty: not shown
   bool enabled = true;
   QString reason{};  // why it is off
+  QString tip{};     // what it does, when its name does not say it all
 };
 
 class Page : public QWidget {

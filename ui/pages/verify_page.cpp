@@ -18,6 +18,8 @@ VerifyPage::VerifyPage(QWidget* parent) : Page("verify", parent) {
   m_run = new RunView(this);
   m_views = new QStackedWidget(this);
   m_views->addWidget(m_run);
+  m_result = new VerifyResult(this);
+  m_views->addWidget(m_result);
   m_views->addWidget(makeCorrection());
   auto* column = new QVBoxLayout;
   column->setSpacing(8);
@@ -73,6 +75,8 @@ QWidget* VerifyPage::makeCorrection() {
 }
 
 void VerifyPage::setState(const VerifyState& state) {
+  // A finished run shows its result by itself, once.
+  if (state.phase == VerifyPhase::finished && m_state.phase != VerifyPhase::finished) m_view->setCurrentIndex(1);
   m_state = state;
   refresh();
 }
@@ -124,7 +128,8 @@ QVector<PageAction> VerifyPage::secondary() const {
       return {};
     case VerifyPhase::running:
     case VerifyPhase::paused:
-      return {{"abort", tr("Abort")}, {"finish", tr("Finish")}};
+      return {{"abort", tr("Abort"), true, {}, tr("Stops the machine and drops this verification. Asks first.")},
+              {"finish", tr("Finish"), true, {}, tr("Ends the run here and keeps what was measured. Asks first.")}};
     case VerifyPhase::finished:
       if (m_state.correctionProposed) return {{"again", tr("Verify again")}, {"skip", tr("Leave as it is")}};
       return {{"again", tr("Verify again")}};
@@ -133,16 +138,69 @@ QVector<PageAction> VerifyPage::secondary() const {
 }
 
 QVector<Figure> VerifyPage::figures() const {
+  const bool finished = m_state.phase == VerifyPhase::finished;
   Figure before = figureOf(tr("Peak without"), m_state.peakBefore_um, 1, "µm");
-  if (!std::isnan(m_state.rmsBefore_um)) before.limit = tr("rms %1 µm").arg(m_state.rmsBefore_um, 0, 'f', 1);
+  if (!m_state.beforeAxis.isEmpty()) before.limit = tr("in %1").arg(m_state.beforeAxis);
+  before.tip = tr("Largest error of the warm-up run, over the minutes that the verification lasted.");
   Figure after = figureAtMost(tr("Peak with"), m_state.peakAfter_um, 1, "µm", m_state.peakLimit_um);
+  if (!m_state.afterAxis.isEmpty()) after.limit = tr("in %1, %2").arg(m_state.afterAxis, after.limit);
   Figure rms = figureOf(tr("rms with"), m_state.rmsAfter_um, 2, "µm");
   Figure removed = figureAtLeast(tr("Removed"), m_state.removed_percent, 0, "%", m_state.removedTarget_percent);
+  QStringList worse;
+  for (const AxisResult& axis : m_state.results) {
+    if (axis.worse() || axis.worseAtTheEnd()) worse.append(axis.axis);
+  }
+  if (!worse.isEmpty()) {
+    removed.judgement = Judgement::bad;
+    removed.word = tr("%1 worse").arg(worse.join(QStringLiteral(", ")));
+  }
+  if (finished) {
+    Figure promised = figureOf(tr("Fit promised"), m_state.promised_um, 1, "µm");
+    promised.tip = tr("Largest error that the fit left on stretches of the warm-up run it had not seen.");
+    if (m_state.peakAfter_um > 1.25 * m_state.promised_um) {
+      promised.judgement = Judgement::warn;
+      promised.word = tr("not reached");
+    } else if (!std::isnan(m_state.promised_um)) {
+      promised.judgement = Judgement::ok;
+      promised.word = tr("held");
+    }
+    return {before, after, rms, removed, promised};
+  }
   Figure frame = figureAtMost(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s", 120.0);
   if (frame.judgement == Judgement::ok) frame.word = tr("measuring");
-  if (m_state.phase == VerifyPhase::finished) frame = figureOf(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s");
-  if (!std::isnan(m_state.timeLeft_s)) frame.limit = tr("%1 left").arg(durationText(m_state.timeLeft_s));
+  frame.tip = tr("Machine time since the camera last measured the error.");
+  if (!std::isnan(m_state.timeLeft_s)) {
+    frame.limit =
+        tr("%1 left").arg(m_state.wallTimeLeft.isEmpty() ? durationText(m_state.timeLeft_s) : m_state.wallTimeLeft);
+  }
   return {before, after, rms, removed, frame};
+}
+
+/// What the figures alone do not say.
+QStringList VerifyPage::words() const {
+  QStringList lines;
+  for (const AxisResult& axis : m_state.results) {
+    if (axis.worse()) {
+      lines << tr("%1 became worse: up to %2 µm without, %3 µm with the compensation.")
+                   .arg(axis.axis)
+                   .arg(axis.before_um, 0, 'f', 1)
+                   .arg(axis.after_um, 0, 'f', 1);
+    } else if (axis.worseAtTheEnd()) {
+      lines << tr("At the end %1 is worse than without: %2 µm instead of %3 µm.")
+                   .arg(axis.axis)
+                   .arg(axis.endAfter_um, 0, 'f', 1)
+                   .arg(axis.endBefore_um, 0, 'f', 1);
+    }
+  }
+  if (m_state.peakAfter_um > 1.25 * m_state.promised_um) {
+    lines << tr("The fit promised %1 µm, measured are %2 µm. The promise is of stretches of the warm-up run that were "
+                "left out, as means of some minutes each; this run goes through other speeds in another order, and "
+                "every single measurement counts with its noise.")
+                 .arg(m_state.promised_um, 0, 'f', 1)
+                 .arg(m_state.peakAfter_um, 0, 'f', 1);
+  }
+  lines << tr("A peak grows with the length of a run, so both runs are compared as far as the shorter one goes.");
+  return lines;
 }
 
 void VerifyPage::render() {
@@ -152,8 +210,11 @@ void VerifyPage::render() {
   }
   showContent();
   setFigures(figures());
-  m_view->setItems({tr("Live"), m_state.correctionProposed ? tr("Correction proposed") : tr("Correction")});
+  m_view->setItems({m_state.phase == VerifyPhase::finished ? tr("Run") : tr("Live"), tr("Result"),
+                    m_state.correctionProposed ? tr("Correction proposed") : tr("Correction")});
   m_run->retranslate();
+  m_result->setResults(m_state.results, std::isnan(m_state.compared_s) ? 0.0 : m_state.compared_s, m_state.peakLimit_um,
+                       words());
   renderCorrection();
 }
 

@@ -5,6 +5,7 @@
 
 #include "ui/pages/page.h"
 #include "ui/pages/run_view.h"
+#include "ui/pages/verify_result.h"
 
 class QDoubleSpinBox;
 class QLabel;
@@ -45,12 +46,18 @@ struct VerifyState {
   double peakBefore_um = std::numeric_limits<double>::quiet_NaN();
   double peakAfter_um = std::numeric_limits<double>::quiet_NaN();
   double peakLimit_um = 5.0;
+  QString beforeAxis{};  // of peakBefore_um
+  QString afterAxis{};
+  QVector<AxisResult> results{};
+  double compared_s = std::numeric_limits<double>::quiet_NaN();
+  double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most
   double rmsBefore_um = std::numeric_limits<double>::quiet_NaN();
   double rmsAfter_um = std::numeric_limits<double>::quiet_NaN();
   double removed_percent = std::numeric_limits<double>::quiet_NaN();
   double removedTarget_percent = 85.0;
   double lastGoodFrame_s = std::numeric_limits<double>::quiet_NaN();
   double timeLeft_s = std::numeric_limits<double>::quiet_NaN();
+  QString wallTimeLeft{};     // when the machine's time is not the wall's
   double threshold_um = 3.0;  // part error above which a correction is proposed
   QVector<AxisCorrection> corrections{};
   bool correctionProposed = false;
@@ -65,7 +72,7 @@ class VerifyPage : public Page {
   void setState(const VerifyState& state);
   const VerifyState& state() const { return m_state; }
   RunView* run() const { return m_run; }
-  /// 0 live, 1 correction.
+  /// 0 the run, 1 result, 2 correction.
   void showView(int index);
 
   QString title() const override;
@@ -88,11 +95,13 @@ class VerifyPage : public Page {
   void renderCorrection();
   void renderResiduals();
   QVector<Figure> figures() const;
+  QStringList words() const;
 
   VerifyState m_state;
   ToggleSegment* m_view;
   QStackedWidget* m_views;
   RunView* m_run;
+  VerifyResult* m_result;
   Card* m_tableCard;
   Card* m_plotCard;
   DataTable* m_table;

@@ -178,15 +178,19 @@ PageAction WarmupPage::primary() const {
 
 QVector<PageAction> WarmupPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
+  const PageAction abort = {"abort", tr("Abort"), true, {}, tr("Stops the machine and drops this run. Asks first.")};
+  const PageAction finish = {
+      "finish", tr("Finish"), true, {}, tr("Ends the run here and goes on with what was recorded. Asks first.")};
   switch (m_state.phase) {
     case RunPhase::planning:
       return {{"load", tr("Load plan")}, {"save", tr("Save plan")}};
     case RunPhase::running:
-      return {{"note", tr("Add note")}, {"abort", tr("Abort")}, {"finish", tr("Finish")}};
+      return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")}, abort, finish};
     case RunPhase::paused:
-      return {{"abort", tr("Abort")}, {"finish", tr("Finish")}};
+      return {abort, finish};
     case RunPhase::interrupted:
-      return {{"again", tr("New run")}, {"finish", tr("Finish")}};
+      return {{"again", tr("New run"), true, {}, tr("Plans a new run; the interrupted one stays in the job unused")},
+              finish};
     case RunPhase::finished:
       return {{"again", tr("New run")}, {"export", tr("Save as CSV")}};
   }
@@ -204,12 +208,16 @@ QVector<Figure> WarmupPage::planFigures() const {
   count.tip = tr("How often the error is measured. A model needs at least 20.");
   Figure time = figureOf(tr("Total time"), NAN, 0, {});
   time.value = length > 0.0 ? durationText(length) : QString();
+  time.limit = m_state.wallTimeTotal;
+  time.tip = tr("Time of the machine. A virtual machine goes through it faster than the clock on the wall.");
   Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
   return {time, count, largest, disk};
 }
 
 QVector<Figure> WarmupPage::runFigures() const {
   Figure left = figureOf(tr("Time left"), NAN, 0, {}, tr("of %1").arg(durationText(planLength_s())));
+  if (!m_state.wallTimeLeft.isEmpty()) left.limit = m_state.wallTimeLeft;
+  left.tip = tr("Time of the machine. All curves and periods are in it; the bar above counts the time on the wall.");
   if (m_state.phase == RunPhase::finished) {
     left = figureOf(tr("Recorded"), NAN, 0, {});
     left.value = durationText(m_state.elapsed_s);
@@ -225,13 +233,33 @@ QVector<Figure> WarmupPage::runFigures() const {
     figure->word = m_state.steady ? tr("steady") : tr("still moving");
     figure->tip = m_state.steadyCriterion;
   }
-  Figure lost =
-      figureOf(tr("Samples lost"), static_cast<double>(m_state.samplesLost), 0, tr("of %1").arg(m_state.samples));
-  const double share =
-      static_cast<double>(m_state.samplesLost) / std::max<double>(1.0, static_cast<double>(m_state.samples));
-  lost.judgement = m_state.samplesLost == 0 ? Judgement::ok : share < 0.01 ? Judgement::warn : Judgement::bad;
-  lost.word = m_state.samplesLost == 0 ? tr("none") : share < 0.01 ? tr("few") : tr("too many");
-  return {left, largest, slope, heat, lost, figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5)};
+  return {left, largest, slope, heat, lostFigure(), figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5)};
+}
+
+/// A lost sample is judged by what it costs: temperatures change over minutes.
+Figure WarmupPage::lostFigure() const {
+  const auto all = m_state.samples + m_state.samplesLost;
+  Figure lost = figureOf(tr("Samples lost"), static_cast<double>(m_state.samplesLost), 0, tr("of %1").arg(all));
+  const QString hole = durationText(m_state.longestHole_s);
+  if (m_state.samplesLost == 0) {
+    lost.judgement = Judgement::ok;
+    lost.word = tr("none");
+    lost.tip = tr("Every sample of the plan was stored.");
+  } else if (m_state.longestHole_s <= m_state.harmlessHole_s) {
+    lost.judgement = Judgement::warn;
+    lost.word = tr("harmless");
+    lost.tip = tr("The longest time without a sample was %1 of machine time. Temperatures change over minutes: the "
+                  "model is the same without them. It stays in the report.")
+                   .arg(hole);
+  } else {
+    const bool bad = m_state.longestHole_s > m_state.worstHole_s;
+    lost.judgement = bad ? Judgement::bad : Judgement::warn;
+    lost.word = bad ? tr("a part is missing") : tr("gap of %1").arg(hole);
+    lost.tip = tr("Nothing is known about %1 of machine time. The model does not hold what happened then; a new run is "
+                  "better if the errors moved meanwhile.")
+                   .arg(hole);
+  }
+  return lost;
 }
 
 void WarmupPage::render() {

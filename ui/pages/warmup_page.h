@@ -49,8 +49,13 @@ struct WarmupState {
   double slope_K_per_h = std::numeric_limits<double>::quiet_NaN();
   bool steady = false;
   QString steadyCriterion{};  // "under 1 µm/h and 0.5 K/h for 20 min"
+  QString wallTimeLeft{};     // when the machine's time is not the wall's: "1 min on the wall"
+  QString wallTimeTotal{};
   qint64 samplesLost = 0;
   qint64 samples = 0;
+  double longestHole_s = 0.0;  // machine time without a sample
+  double harmlessHole_s = 120.0;
+  double worstHole_s = 600.0;
   double diskFree_GB = std::numeric_limits<double>::quiet_NaN();
   bool compensationOn = false;
 };
@@ -91,6 +96,7 @@ class WarmupPage : public Page {
   void planTouched();
   QVector<Figure> planFigures() const;
   QVector<Figure> runFigures() const;
+  Figure lostFigure() const;
   double planLength_s() const;
 
   WarmupState m_state;

@@ -284,7 +284,8 @@ void PlotWidget::replot() {
   m_queued = true;
   QTimer::singleShot(33, this, [this] {
     m_queued = false;
-    m_plot->replot(QCustomPlot::rpQueuedReplot);
+    // Without a size there is nothing to paint on; the first size brings a replot of its own.
+    if (m_plot->width() > 1 && m_plot->height() > 1) m_plot->replot(QCustomPlot::rpQueuedReplot);
   });
 }
 

@@ -193,7 +193,8 @@ void MainWindow::showHead() {
   for (int i = 0; i < wanted.size(); ++i) {
     buttonAt(i)->setText(wanted[i].text);
     buttonAt(i)->setEnabled(wanted[i].enabled);
-    buttonAt(i)->setToolTip(wanted[i].enabled ? QString() : wanted[i].reason);
+    buttonAt(i)->setToolTip(wanted[i].enabled ? wanted[i].tip : wanted[i].reason);
+    buttonAt(i)->setAccessibleDescription(buttonAt(i)->toolTip());
   }
 
   const PageAction primary = now->primaryAction();

@@ -1,11 +1,12 @@
 #include "app/desktop/steps/verify_presenter.h"
 
-#include <QInputDialog>
 #include <QSettings>
 #include <algorithm>
 #include <cmath>
 
 #include "core/flow/flow.h"
+#include "core/flow/steps/inputs.h"
+#include "core/report/comparison.h"
 #include "ui/pages/verify_page.h"
 
 namespace zerodrift::desktop {
@@ -15,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double usual_limit_um = 5.0;
+constexpr int threshold_rest_ms = 600;
 
 /// Largest number of an object {"X": ..., "Y": ...}; NaN when there is none.
 double largest(const json& body, const char* key) {
@@ -40,36 +41,47 @@ double largest_of(const QVector<double>& values) {
   return peak;
 }
 
+/// What was measured of a channel up to a time since the run's start.
+void measured_until(const recording::Recording& run, const std::string& channel, double until_s,
+                    QVector<double>& time_s, QVector<double>& values) {
+  const auto* found = run.find(channel);
+  for (std::size_t r = 0; found != nullptr && r < run.rows(); ++r) {
+    const double at_s = run.time_s[r] - run.time_s.front();
+    if (at_s > until_s || std::isnan(found->values[r])) continue;
+    time_s.append(at_s);
+    values.append(found->values[r]);
+  }
+}
+
 }  // namespace
 
 VerifyPresenter::VerifyPresenter(Workbench& bench, ui::VerifyPage* page)
-    : Presenter(bench, page),
+    : RunPresenter(bench, page, page->run()),
       m_page(page),
-      m_feed(new RunFeed(bench, page->run(), this)),
-      m_threshold_um(QSettings().value(QStringLiteral("verification/limit_um"), usual_limit_um).toDouble()) {
-  m_feed->setCompensated(true);
+      m_threshold_um(QSettings()
+                         .value(QStringLiteral("verification/threshold_um"), flow::VerifyOptions().threshold_um)
+                         .toDouble()) {
+  feed().setCompensated(true);
+  m_judging.setSingleShot(true);
+  m_judging.setInterval(threshold_rest_ms);
+  connect(&m_judging, &QTimer::timeout, this, &VerifyPresenter::judgeAgain);
   connect(page, &ui::VerifyPage::thresholdChanged, this, [this](double threshold_um) {
     m_threshold_um = threshold_um;
-    m_computed = 0;
-    QSettings().setValue(QStringLiteral("verification/limit_um"), threshold_um);
-    refresh();
+    QSettings().setValue(QStringLiteral("verification/threshold_um"), threshold_um);
+    m_judging.start();
   });
   connect(page, &ui::VerifyPage::noteRequested, this, [this](double) { secondary(QStringLiteral("note")); });
   connect(page, &ui::Page::primaryTriggered, this, &VerifyPresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, &VerifyPresenter::secondary);
-  connect(m_feed, &RunFeed::updated, this, [this] {
-    if (m_feed->now().measured) m_measured_s = m_feed->now().time_s;
+  connect(&feed(), &RunFeed::updated, this, [this] {
+    if (feed().now().measured) m_measured_s = feed().now().time_s;
     refresh();
   });
 }
 
 void VerifyPresenter::primary() {
-  if (m_running) {
-    if (m_feed->paused()) {
-      m_feed->resume();
-    } else {
-      m_feed->pause();
-    }
+  if (running()) {
+    pauseOrResume();
     refresh();
   } else if (m_page->state().phase != ui::VerifyPhase::finished) {
     start({});
@@ -81,50 +93,36 @@ void VerifyPresenter::primary() {
 }
 
 void VerifyPresenter::secondary(const QString& action) {
-  if (action == QStringLiteral("finish")) m_feed->finish();
-  if (action == QStringLiteral("abort")) m_feed->abort();
   if (action == QStringLiteral("again")) m_again = true;
   if (action == QStringLiteral("skip")) m_skipped = true;
-  if (action == QStringLiteral("note")) {
-    const QString text = QInputDialog::getText(m_page, tr("Note"), tr("What happened?"));
-    if (!text.isEmpty()) m_feed->note(text);
-  }
+  steer(action);
   refresh();
 }
 
 void VerifyPresenter::start(std::function<void(bool good)> done) {
-  const auto profile = bench().profile();
-  auto* job = bench().job();
-  if (!profile || job == nullptr || m_running) {
-    if (!profile) show(Error{ErrorCode::step_blocked, {{"step", "verify"}, {"needs", "a connected machine"}}});
-    if (done) done(false);
-    return;
-  }
-  m_running = true;
-  m_again = false;
+  if (running()) return;
   m_skipped = false;
   m_measured_s = -1.0;
   m_page->showView(0);
-  m_feed->begin();
-  flow::VerifyOptions options;
-  options.limit_um = m_threshold_um;
-  options.run.observer = m_feed->observer();
-  options.run.control = m_feed->control();
-  options.run.cameras = m_feed->cameras();
-  refresh();
-  runStep(
-      tr("Verification run"),
-      [profile = *profile, job, options](const TaskContext& context) -> Result<commissioning::NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile));
-        return flow::verify(*job, devices, options, context);
+  record(
+      tr("Verification run"), {},
+      [threshold_um = m_threshold_um](commissioning::Job& job, flow::Devices& devices, const flow::RunOptions& run,
+                                      const TaskContext& context) {
+        flow::VerifyOptions options;
+        options.threshold_um = threshold_um;
+        options.run = run;
+        return flow::verify(job, devices, options, context);
       },
-      [this, done = std::move(done)](bool good) {
-        m_feed->stop();
-        m_running = false;
-        m_shown = 0;
-        refresh();
-        if (done) done(good);
-      });
+      std::move(done));
+}
+
+void VerifyPresenter::judgeAgain() {
+  const auto* job = bench().job();
+  if (job == nullptr || running() || !bench().has("verification")) return;
+  if (bench().tasks().running()) return m_judging.start();
+  const double threshold_um = m_threshold_um;
+  runStep(tr("Judging the residual"),
+          [job, threshold_um](const TaskContext&) { return flow::judge_again(*job, threshold_um); });
 }
 
 void VerifyPresenter::applyCorrection(std::function<void(bool good)> done) {
@@ -137,30 +135,74 @@ void VerifyPresenter::applyCorrection(std::function<void(bool good)> done) {
 }
 
 void VerifyPresenter::fillRun(ui::VerifyState& state) {
-  const auto& now = m_feed->now();
-  state.phase = m_feed->paused() ? ui::VerifyPhase::paused : ui::VerifyPhase::running;
-  if (!m_feed->receiving()) return;
+  const auto& now = feed().now();
+  state.phase = feed().paused() ? ui::VerifyPhase::paused : ui::VerifyPhase::running;
+  if (!feed().receiving()) return;
   state.timeLeft_s = now.seconds_left;
-  state.peakAfter_um = m_feed->largestError_um();
+  state.wallTimeLeft = wallTime(now.seconds_left);
+  state.peakAfter_um = feed().largestError_um();
+  state.afterAxis = feed().largestErrorAxis();
   if (m_measured_s >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - m_measured_s);
 }
 
-void VerifyPresenter::showKept(const json& body) {
-  const auto series = body.at("series").get<long long>();
-  if (series == m_shown) return;
-  if (const auto run = bench().job()->read_series(series)) {
-    m_shown = series;
-    m_feed->showRecording(*run);
+/// Both runs over the same minutes; computed here so that jobs of any age are shown alike.
+void VerifyPresenter::compare(const json& body) {
+  m_axes.clear();
+  const auto warmup = flow::need(*bench().job(), "verify", "warmup");
+  if (!warmup) return;
+  const auto before = flow::run_of(*bench().job(), *warmup);
+  const auto after = bench().job()->read_series(body.at("series").get<long long>());
+  if (!before || !after) return;
+  const auto compared = report::compare_runs(*before, *after);
+  m_compared_s = compared.span_s;
+  for (const auto& axis : compared.axes) {
+    ui::AxisResult row;
+    row.axis = QString::fromStdString(axis.axis);
+    row.before_um = axis.before_um;
+    row.after_um = axis.after_um;
+    row.removed_percent = axis.removed_percent;
+    row.endBefore_um = axis.end_before_um;
+    row.endAfter_um = axis.end_after_um;
+    const std::string channel = "d" + axis.axis + "_um";
+    measured_until(*before, channel, compared.span_s, row.beforeTime_s, row.before);
+    measured_until(*after, channel, compared.span_s, row.afterTime_s, row.after);
+    m_axes.append(row);
   }
+}
+
+void VerifyPresenter::fillAxes(ui::VerifyState& state, const json& body) {
+  const auto artefact = bench().job()->latest("verification");
+  if (!artefact || !*artefact) return;
+  if (m_axesOf != (*artefact)->id) compare(body);
+  m_axesOf = (*artefact)->id;
+  state.results = m_axes;
+  state.compared_s = m_compared_s;
+  double before_um = std::nan("");
+  double after_um = std::nan("");
+  for (const auto& axis : m_axes) {
+    if (!(axis.before_um <= before_um)) state.beforeAxis = axis.axis, before_um = axis.before_um;
+    if (!(axis.after_um <= after_um)) state.afterAxis = axis.axis, after_um = axis.after_um;
+  }
+  state.peakBefore_um = before_um;
 }
 
 void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   state.phase = ui::VerifyPhase::finished;
   showKept(body);
-  state.peakBefore_um = largest(body, "peak_error_before_um");
   state.peakAfter_um = largest(body, "peak_error_after_um");
   state.rmsAfter_um = largest(body, "rms_error_after_um");
+  state.peakLimit_um = body.value("limit_um", flow::VerifyOptions().limit_um);
+  fillAxes(state, body);
   if (state.peakBefore_um > 0) state.removed_percent = 100.0 * (1.0 - state.peakAfter_um / state.peakBefore_um);
+  const json model = bench().body("model");
+  if (model.is_object()) {
+    for (const auto& figure : model.value("figures", json::array())) {
+      const auto peak = figure.find("peak_held_out_um");
+      if (peak != figure.end() && peak->is_number()) {
+        state.promised_um = std::fmax(state.promised_um, peak->get<double>());
+      }
+    }
+  }
   fillCorrection(state);
 }
 
@@ -181,6 +223,11 @@ void VerifyPresenter::compute(long long verification) {
 void VerifyPresenter::fillCorrection(ui::VerifyState& state) {
   const auto artefact = bench().job()->latest("verification");
   if (!artefact || !*artefact) return;
+  // The threshold that the job was judged by, unless another one is being set.
+  if (const json body = bench().body("verification"); !m_judging.isActive() && body.contains("threshold_um")) {
+    m_threshold_um = body["threshold_um"].get<double>();
+    state.threshold_um = m_threshold_um;
+  }
   compute((*artefact)->id);
   if (!m_correction) return;
   for (const auto& axis : m_correction->axes) {
@@ -189,7 +236,7 @@ void VerifyPresenter::fillCorrection(ui::VerifyState& state) {
     ui::AxisCorrection row;
     row.axis = QString::fromStdString(axis.axis);
     row.kappa = axis.kappa;
-    row.evidence = QString::fromStdString(axis.reason);
+    row.evidence = bench().inWords(axis.reason);
     row.proposed = axis.kind != CorrectionKind::none;
     const auto& times = m_residuals.time_s.at(axis.axis);
     row.time_s = QVector<double>(times.begin(), times.end());
@@ -216,12 +263,12 @@ void VerifyPresenter::refresh() {
     return;
   }
   state.threshold_um = m_threshold_um;
-  state.peakLimit_um = m_threshold_um;
+  state.peakLimit_um = flow::VerifyOptions().limit_um;
   state.compensationOn = bench().compensationOn();
   const auto warmup = bench().body("warmup");
   if (warmup.is_object()) state.peakBefore_um = largest(warmup, "peak_um");
   const json body = bench().body("verification");
-  if (m_running) {
+  if (running()) {
     fillRun(state);
   } else if (body.is_object() && !m_again) {
     fillResult(state, body);

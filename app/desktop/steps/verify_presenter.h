@@ -1,18 +1,15 @@
 #pragma once
 // The verify page: the compensated run live, figures before and after, the correction and its upload.
 
-#include "app/desktop/presenter.h"
-#include "app/desktop/run_feed.h"
-#include "core/flow/steps/verify_step.h"
+#include <QTimer>
 
-namespace zerodrift::ui {
-class VerifyPage;
-struct VerifyState;
-}  // namespace zerodrift::ui
+#include "app/desktop/run_presenter.h"
+#include "core/flow/steps/verify_step.h"
+#include "ui/pages/verify_page.h"
 
 namespace zerodrift::desktop {
 
-class VerifyPresenter : public Presenter {
+class VerifyPresenter : public RunPresenter {
   Q_OBJECT
 
  public:
@@ -32,20 +29,23 @@ class VerifyPresenter : public Presenter {
   void fillRun(ui::VerifyState& state);
   void fillResult(ui::VerifyState& state, const nlohmann::json& body);
   void fillCorrection(ui::VerifyState& state);
-  void showKept(const nlohmann::json& body);
+  void compare(const nlohmann::json& body);
+  void fillAxes(ui::VerifyState& state, const nlohmann::json& body);
   void compute(long long verification);
+  /// The correction of the kept run by the threshold that is set now, into the job: page and report say the same.
+  void judgeAgain();
 
   ui::VerifyPage* m_page;
-  RunFeed* m_feed;
-  double m_threshold_um;
-  bool m_running = false;
-  bool m_again = false;
+  QTimer m_judging;       // the threshold rests before it is used
+  double m_threshold_um;  // of a part error, above which a correction is proposed
   bool m_skipped = false;
-  long long m_shown = 0;     // series drawn now
   long long m_computed = 0;  // verification the correction is of
   double m_measured_s = -1.0;
   flow::VerificationResiduals m_residuals;
   std::optional<compensation::Correction> m_correction;
+  QVector<ui::AxisResult> m_axes;  // of the verification m_axesOf
+  long long m_axesOf = 0;
+  double m_compared_s = 0.0;
 };
 
 }  // namespace zerodrift::desktop

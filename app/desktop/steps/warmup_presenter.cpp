@@ -3,7 +3,6 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QInputDialog>
 #include <QStorageInfo>
 #include <cmath>
 
@@ -11,6 +10,7 @@
 #include "core/base/json.h"
 #include "core/flow/steps/warmup_step.h"
 #include "core/recording/csv.h"
+#include "core/report/limits.h"
 #include "ui/pages/warmup_page.h"
 
 namespace zerodrift::desktop {
@@ -31,7 +31,7 @@ QVector<ui::PlanStepRow> rows_of(const acquisition::Plan& plan) {
 }  // namespace
 
 WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
-    : Presenter(bench, page), m_page(page), m_feed(new RunFeed(bench, page->run(), this)) {
+    : RunPresenter(bench, page, page->run()), m_page(page) {
   m_presets = acquisition::preset_plans();
   if (!m_presets.empty()) m_plan = m_presets.front();
   connect(page, &ui::WarmupPage::presetChosen, this, [this](int index) {
@@ -55,7 +55,7 @@ WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
   connect(page, &ui::WarmupPage::noteRequested, this, [this](double) { secondary(QStringLiteral("note")); });
   connect(page, &ui::Page::primaryTriggered, this, &WarmupPresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, &WarmupPresenter::secondary);
-  connect(m_feed, &RunFeed::updated, this, &WarmupPresenter::refresh);
+  connect(&feed(), &RunFeed::updated, this, &WarmupPresenter::refresh);
 }
 
 void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
@@ -66,14 +66,14 @@ void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
 }
 
 void WarmupPresenter::propose(const acquisition::Plan& plan) {
-  if (m_running) return;
+  if (running()) return;
   m_again = true;
   m_preset = -1;
   setPlan(plan);
 }
 
 void WarmupPresenter::undo() {
-  if (m_running || m_undo.empty()) return;
+  if (running() || m_undo.empty()) return;
   m_plan = m_undo.back();
   m_undo.pop_back();
   refresh();
@@ -82,19 +82,17 @@ void WarmupPresenter::undo() {
 void WarmupPresenter::primary() {
   if (m_page->state().phase == ui::RunPhase::finished) {
     Q_EMIT nextRequested();
-  } else if (!m_running) {
-    start({});
-  } else if (m_feed->paused()) {
-    m_feed->resume();
+  } else if (running()) {
+    pauseOrResume();
   } else {
-    m_feed->pause();
+    start({});
   }
   refresh();
 }
 
 void WarmupPresenter::secondary(const QString& action) {
-  if (action == QStringLiteral("finish")) m_feed->finish();
-  if (action == QStringLiteral("abort")) m_feed->abort();
+  if (action == QStringLiteral("finish") && !running()) return finishInterrupted();
+  if (steer(action)) return;
   if (action == QStringLiteral("load")) loadPlan();
   if (action == QStringLiteral("save")) savePlan();
   if (action == QStringLiteral("export")) exportRun();
@@ -102,10 +100,18 @@ void WarmupPresenter::secondary(const QString& action) {
     m_again = true;
     refresh();
   }
-  if (action == QStringLiteral("note")) {
-    const QString text = QInputDialog::getText(m_page, tr("Note"), tr("What happened?"));
-    if (!text.isEmpty()) m_feed->note(text);
+}
+
+/// An interrupted run is taken up only to be ended as it should: spindle off, series closed, what there is kept.
+void WarmupPresenter::finishInterrupted() {
+  if (m_page->state().phase != ui::RunPhase::interrupted ||
+      !mayEnd(tr("Finish the interrupted run?"), tr("What was recorded until the interruption is kept and used."),
+              tr("Finish"))) {
+    return;
   }
+  connect(
+      &feed(), &RunFeed::updated, this, [this] { feed().finish(); }, Qt::SingleShotConnection);
+  start({});
 }
 
 void WarmupPresenter::loadPlan() {
@@ -141,59 +147,36 @@ void WarmupPresenter::savePlan() {
 }
 
 void WarmupPresenter::start(std::function<void(bool good)> done) {
-  const auto profile = bench().profile();
-  auto* job = bench().job();
-  if (!profile || job == nullptr || m_running) return;
-  m_running = true;
-  m_again = false;
-  m_feed->begin();
-  flow::RunOptions options;
-  options.plan = m_plan;
-  for (const auto& [axis, position] : profile->measure_position_mm) {
-    options.plan.measure_position_mm.try_emplace(axis, position);
+  acquisition::Plan plan = m_plan;
+  if (const auto& profile = bench().profile()) {
+    for (const auto& [axis, position] : profile->measure_position_mm) {
+      plan.measure_position_mm.try_emplace(axis, position);
+    }
   }
-  options.observer = m_feed->observer();
-  options.control = m_feed->control();
-  options.cameras = m_feed->cameras();
-  refresh();
-  runStep(
-      tr("Warm-up run"),
-      [profile = *profile, job, options](const TaskContext& context) -> Result<commissioning::NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile));
-        return flow::record_warmup(*job, devices, options, context);
+  record(
+      tr("Warm-up run"), plan,
+      [](commissioning::Job& job, flow::Devices& devices, const flow::RunOptions& options, const TaskContext& context) {
+        return flow::record_warmup(job, devices, options, context);
       },
-      [this, done = std::move(done)](bool good) {
-        m_feed->stop();
-        m_running = false;
-        m_shown = 0;
-        refresh();
-        if (done) done(good);
-      });
+      std::move(done));
 }
 
 void WarmupPresenter::fillRun(ui::WarmupState& state) {
-  const auto& now = m_feed->now();
-  state.phase = m_feed->paused() ? ui::RunPhase::paused : ui::RunPhase::running;
+  const auto& now = feed().now();
+  state.phase = feed().paused() ? ui::RunPhase::paused : ui::RunPhase::running;
   state.elapsed_s = now.time_s;
-  if (m_feed->receiving()) state.timeLeft_s = now.seconds_left;
-  state.largestError_um = m_feed->largestError_um();
-  state.largestErrorAxis = m_feed->largestErrorAxis();
+  if (feed().receiving()) {
+    state.timeLeft_s = now.seconds_left;
+    state.wallTimeLeft = wallTime(now.seconds_left);
+  }
+  state.largestError_um = feed().largestError_um();
+  state.largestErrorAxis = feed().largestErrorAxis();
   state.slope_um_per_h = now.trend.slope_um_per_h.value_or(std::nan(""));
   state.slope_K_per_h = now.trend.slope_K_per_h.value_or(std::nan(""));
   state.steady = now.trend.steady;
   state.samplesLost = now.lost_samples;
   state.samples = now.rows;
-}
-
-void WarmupPresenter::showKept() {
-  const json body = bench().body("warmup");
-  if (!body.is_object()) return;
-  const auto series = body.at("series").get<long long>();
-  if (series == m_shown) return;
-  if (const auto run = bench().job()->read_series(series)) {
-    m_shown = series;
-    m_feed->showRecording(*run);
-  }
+  state.longestHole_s = feed().longestHole_s();
 }
 
 void WarmupPresenter::refresh() {
@@ -207,6 +190,9 @@ void WarmupPresenter::refresh() {
   for (const auto& preset : m_presets) state.presets << QString::fromStdString(preset.name);
   state.preset = m_preset;
   state.plan = rows_of(m_plan);
+  state.harmlessHole_s = report::limits::harmless_hole_s;
+  state.worstHole_s = report::limits::worst_hole_s;
+  state.wallTimeTotal = wallTime(m_plan.duration_s());
   state.samplePeriod_s = m_plan.sample_period_s;
   state.measurePeriod_s = m_plan.measure_period_s;
   state.compensationOn = bench().compensationOn();
@@ -215,17 +201,18 @@ void WarmupPresenter::refresh() {
           QStorageInfo(QFileInfo(QString::fromStdString(job->path().string())).path()).bytesAvailable()) /
       1e9;
   const json body = bench().body("warmup");
-  if (m_running) {
+  if (running()) {
     fillRun(state);
   } else if (body.is_object() && !m_again) {
     state.phase = ui::RunPhase::finished;
-    showKept();
+    showKept(body);
     state.elapsed_s = body.value("duration_s", 0.0);
     state.timeLeft_s = 0.0;
-    state.largestError_um = m_feed->largestError_um();
-    state.largestErrorAxis = m_feed->largestErrorAxis();
+    state.largestError_um = feed().largestError_um();
+    state.largestErrorAxis = feed().largestErrorAxis();
     state.samplesLost = body.value("lost_samples", 0LL);
     state.samples = body.value("rows", 0LL);
+    state.longestHole_s = feed().longestHole_s();
   } else if (const auto interrupted = acquisition::interrupted_run(*job, "warm-up"); interrupted && *interrupted) {
     state.phase = ui::RunPhase::interrupted;
     state.elapsed_s = (*interrupted)->run.last_time_s;

@@ -3,8 +3,7 @@
 
 #include <QUndoStack>
 
-#include "app/desktop/presenter.h"
-#include "app/desktop/run_feed.h"
+#include "app/desktop/run_presenter.h"
 #include "core/acquisition/plan.h"
 
 namespace zerodrift::ui {
@@ -14,7 +13,7 @@ struct WarmupState;
 
 namespace zerodrift::desktop {
 
-class WarmupPresenter : public Presenter {
+class WarmupPresenter : public RunPresenter {
   Q_OBJECT
 
  public:
@@ -31,20 +30,16 @@ class WarmupPresenter : public Presenter {
   void secondary(const QString& action);
   void start(std::function<void(bool good)> done);
   void fillRun(ui::WarmupState& state);
-  void showKept();
+  void finishInterrupted();
   void loadPlan();
   void savePlan();
   void exportRun();
 
   ui::WarmupPage* m_page;
-  RunFeed* m_feed;
   std::vector<acquisition::Plan> m_presets;
   acquisition::Plan m_plan;
   std::vector<acquisition::Plan> m_undo;
   int m_preset = 0;
-  bool m_running = false;
-  bool m_again = false;   // plan a new run although one is there
-  long long m_shown = 0;  // series drawn now
 };
 
 }  // namespace zerodrift::desktop

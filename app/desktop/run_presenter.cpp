@@ -1,0 +1,108 @@
+#include "app/desktop/run_presenter.h"
+
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <nlohmann/json.hpp>
+
+#include "ui/pages/run_view.h"
+#include "ui/widgets/progress_strip.h"
+
+namespace zerodrift::desktop {
+
+RunPresenter::RunPresenter(Workbench& bench, ui::Page* page, ui::RunView* view)
+    : Presenter(bench, page), m_feed(new RunFeed(bench, view, this)) {}
+
+void RunPresenter::record(const QString& name, const acquisition::Plan& plan, Step step,
+                          std::function<void(bool good)> done) {
+  const auto profile = bench().profile();
+  auto* job = bench().job();
+  if (!profile || job == nullptr || m_running) {
+    if (!profile)
+      show(Error{ErrorCode::step_blocked, {{"step", id().toStdString()}, {"needs", "a connected machine"}}});
+    if (done) done(false);
+    return;
+  }
+  m_running = true;
+  m_again = false;
+  m_feed->begin();
+  flow::RunOptions options;
+  options.plan = plan;
+  options.observer = m_feed->observer();
+  options.control = m_feed->control();
+  options.cameras = m_feed->cameras();
+  refresh();
+  runStep(
+      name,
+      [profile = *profile, job, options,
+       step = std::move(step)](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+        ZD_TRY(auto devices, flow::Devices::open(profile));
+        return step(*job, devices, options, context);
+      },
+      [this, done = std::move(done)](bool good) {
+        m_feed->stop();
+        m_running = false;
+        m_shown = 0;
+        refresh();
+        if (done) done(good);
+      });
+}
+
+void RunPresenter::pauseOrResume() {
+  if (m_feed->paused()) {
+    m_feed->resume();
+  } else {
+    m_feed->pause();
+  }
+}
+
+bool RunPresenter::mayEnd(const QString& heading, const QString& text, const QString& yes) const {
+  QMessageBox box(QMessageBox::NoIcon, heading, text, QMessageBox::Cancel, page());
+  auto* agree = box.addButton(yes, QMessageBox::AcceptRole);
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == agree;
+}
+
+bool RunPresenter::steer(const QString& action) {
+  if (action == QStringLiteral("finish")) {
+    if (m_running && mayEnd(tr("Finish the run?"),
+                            tr("The run ends here and what was recorded is kept and used. The spindle, the path and "
+                               "the coolant stop."),
+                            tr("Finish"))) {
+      m_feed->finish();
+    }
+    return true;
+  }
+  if (action == QStringLiteral("abort")) {
+    if (m_running && mayEnd(tr("Abort the run?"),
+                            tr("The machine stops and this run is not used. Its samples stay in the job, but the step "
+                               "counts as not done. To keep the run, finish it instead."),
+                            tr("Abort"))) {
+      m_feed->abort();
+    }
+    return true;
+  }
+  if (action != QStringLiteral("note")) return false;
+  const QString text = QInputDialog::getText(page(), tr("Note"), tr("What happened?"));
+  if (!text.isEmpty()) m_feed->note(text);
+  return true;
+}
+
+void RunPresenter::showKept(const nlohmann::json& body) {
+  if (!body.is_object()) return;
+  const auto series = body.at("series").get<long long>();
+  if (series == m_shown) return;
+  if (const auto run = bench().job()->read_series(series)) {
+    m_shown = series;
+    m_feed->showRecording(*run);
+  }
+}
+
+QString RunPresenter::wallTime(double machine_s) const {
+  const auto& profile = const_cast<RunPresenter*>(this)->bench().profile();
+  if (!profile || profile->time_factor <= 1.0 || !(machine_s >= 0.0)) return {};
+  return tr("%1 on the wall").arg(ui::durationText(machine_s / profile->time_factor));
+}
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,44 @@
+#pragma once
+// What warm-up and verification share: a run on the machine that is started, watched, paused, ended after a question,
+// and shown again from the job.
+
+#include "app/desktop/presenter.h"
+#include "app/desktop/run_feed.h"
+#include "core/flow/devices.h"
+#include "core/flow/steps/warmup_step.h"
+
+namespace zerodrift::desktop {
+
+class RunPresenter : public Presenter {
+  Q_OBJECT
+
+ public:
+  RunPresenter(Workbench& bench, ui::Page* page, ui::RunView* view);
+
+ protected:
+  using Step = std::function<Result<commissioning::NewArtefact>(commissioning::Job&, flow::Devices&,
+                                                                const flow::RunOptions&, const TaskContext&)>;
+
+  RunFeed& feed() { return *m_feed; }
+  bool running() const { return m_running; }
+  /// Opens the machine and records by this step; the feed sees every sample.
+  void record(const QString& name, const acquisition::Plan& plan, Step step, std::function<void(bool good)> done);
+  void pauseOrResume();
+  /// "finish", "abort" and "note"; true when it was one of them. The first two are asked for.
+  bool steer(const QString& action);
+  /// Draws the run that this artefact names, once.
+  void showKept(const nlohmann::json& body);
+  /// Asks whether a run may be ended; yes without asking in a tour.
+  bool mayEnd(const QString& heading, const QString& text, const QString& yes) const;
+  /// How far the run goes, in machine time and, when that differs, in time on the wall.
+  QString wallTime(double machine_s) const;
+
+  bool m_again = false;  // a new run although one is kept
+
+ private:
+  RunFeed* m_feed;
+  bool m_running = false;
+  long long m_shown = 0;  // series drawn now
+};
+
+}  // namespace zerodrift::desktop
