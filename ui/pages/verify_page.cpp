@@ -269,6 +269,8 @@ void VerifyPage::renderResiduals() {
   style.tag = tr("%1, measured").arg(axis.axis);
   style.color = colors().bad;
   m_plot->setPart("1now", axis.time_s, axis.residual_um, style);
+  m_plot->removePart("2then");
+  if (axis.corrected_um.isEmpty()) return;
   style.tag = tr("%1, with correction").arg(axis.axis);
   style.color = colors().ok;
   style.width = 2.0;

@@ -31,6 +31,7 @@ struct AxisCorrection {
   QString axis{};
   double kappa = 1.0;  // correction coefficient of the model's temperatures
   double kappaSigma = 0.0;
+  double offset_um = 0.0;
   QString evidence{};                                               // "31 measurements, t = 12.4"
   double peakBefore_um = std::numeric_limits<double>::quiet_NaN();  // residual as measured
   double peakAfter_um = std::numeric_limits<double>::quiet_NaN();   // with the correction, predicted

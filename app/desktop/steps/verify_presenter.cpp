@@ -11,7 +11,6 @@
 
 namespace zerodrift::desktop {
 
-using compensation::CorrectionKind;
 using nlohmann::json;
 
 namespace {
@@ -31,14 +30,6 @@ double error_or_nan(const compensation::Table& table, const std::string& axis,
                     const compensation::ResidualSample& sample) {
   return compensation::error_um(table, axis, sample.position_mm, compensation::Approach::up, sample.temperatures)
       .value_or(std::nan(""));
-}
-
-double largest_of(const QVector<double>& values) {
-  double peak = 0.0;
-  for (const double value : values) {
-    if (std::isfinite(value)) peak = std::max(peak, std::abs(value));
-  }
-  return peak;
 }
 
 /// What was measured of a channel up to a time since the run's start.
@@ -126,8 +117,8 @@ void VerifyPresenter::judgeAgain() {
 }
 
 void VerifyPresenter::applyCorrection(std::function<void(bool good)> done) {
-  if (!m_correction) return;
-  Q_EMIT correctionWanted(m_correction->table, [this, done = std::move(done)](bool good) {
+  if (!m_corrected) return;
+  Q_EMIT correctionWanted(*m_corrected, [this, done = std::move(done)](bool good) {
     if (good) m_again = true;  // what was corrected is proved again
     refresh();
     if (done) done(good);
@@ -206,52 +197,53 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   fillCorrection(state);
 }
 
-void VerifyPresenter::compute(long long verification) {
-  if (verification == m_computed) return;
-  m_computed = verification;
-  m_correction.reset();
-  auto residuals = flow::verification_residuals(*bench().job());
-  if (!residuals) return;
-  m_residuals = std::move(*residuals);
-  compensation::ResidualOptions options;
-  options.threshold_um = m_threshold_um;
-  if (auto correction = compensation::correct_residual(m_residuals.table, m_residuals.samples, options)) {
-    m_correction = std::move(*correction);
-  }
+void VerifyPresenter::compute(const commissioning::Artefact& verification) {
+  if (verification.id == m_computed) return;
+  m_computed = verification.id;
+  m_corrected.reset();
+  m_residuals = {};
+  if (auto residuals = flow::verification_residuals(*bench().job())) m_residuals = std::move(*residuals);
+  if (auto corrected = flow::corrected_table(verification)) m_corrected = std::move(*corrected);
 }
 
+/// The correction is the job's, so that page and report say the same.
 void VerifyPresenter::fillCorrection(ui::VerifyState& state) {
   const auto artefact = bench().job()->latest("verification");
   if (!artefact || !*artefact) return;
+  const json body = bench().body("verification");
   // The threshold that the job was judged by, unless another one is being set.
-  if (const json body = bench().body("verification"); !m_judging.isActive() && body.contains("threshold_um")) {
-    m_threshold_um = body["threshold_um"].get<double>();
-    state.threshold_um = m_threshold_um;
-  }
-  compute((*artefact)->id);
-  if (!m_correction) return;
-  for (const auto& axis : m_correction->axes) {
-    const auto samples = m_residuals.samples.find(axis.axis);
-    if (samples == m_residuals.samples.end()) continue;
+  if (!m_judging.isActive() && body.contains("threshold_um")) m_threshold_um = body["threshold_um"].get<double>();
+  state.threshold_um = m_threshold_um;
+  compute(**artefact);
+  for (const auto& axis : body.value("correction", json::array())) {
+    const std::string name = axis.value("axis", "");
     ui::AxisCorrection row;
-    row.axis = QString::fromStdString(axis.axis);
-    row.kappa = axis.kappa;
-    row.evidence = bench().inWords(axis.reason);
-    row.proposed = axis.kind != CorrectionKind::none;
-    const auto& times = m_residuals.time_s.at(axis.axis);
-    row.time_s = QVector<double>(times.begin(), times.end());
-    for (const auto& sample : samples->second) {
-      row.residual_um.append(sample.residual_um);
-      // What the table says more than before is compensated more than before.
-      row.corrected_um.append(sample.residual_um - error_or_nan(m_correction->table, axis.axis, sample) +
-                              error_or_nan(m_residuals.table, axis.axis, sample));
-    }
-    row.peakBefore_um = largest_of(row.residual_um);
-    row.peakAfter_um = largest_of(row.corrected_um);
+    row.axis = QString::fromStdString(name);
+    row.kappa = axis.value("kappa", 1.0);
+    row.offset_um = axis.value("offset_um", 0.0);
+    row.evidence = bench().inWords(axis.value("reason", ""));
+    row.proposed = m_corrected && (row.kappa != 1.0 || row.offset_um != 0.0);
+    row.peakBefore_um = axis.value("largest_before_um", std::nan(""));
+    row.peakAfter_um = row.proposed ? axis.value("largest_after_um", std::nan("")) : row.peakBefore_um;
+    fillCurves(name, row);
     state.corrections.append(row);
     state.correctionProposed = state.correctionProposed || row.proposed;
   }
   state.correctionProposed = state.correctionProposed && !m_skipped;
+}
+
+void VerifyPresenter::fillCurves(const std::string& axis, ui::AxisCorrection& row) const {
+  const auto samples = m_residuals.samples.find(axis);
+  if (samples == m_residuals.samples.end()) return;
+  const auto& times = m_residuals.time_s.at(axis);
+  row.time_s = QVector<double>(times.begin(), times.end());
+  for (const auto& sample : samples->second) {
+    row.residual_um.append(sample.residual_um);
+    if (!row.proposed) continue;
+    // What the table says more than before is compensated more than before.
+    row.corrected_um.append(sample.residual_um - error_or_nan(*m_corrected, axis, sample) +
+                            error_or_nan(m_residuals.table, axis, sample));
+  }
 }
 
 void VerifyPresenter::refresh() {

@@ -31,7 +31,8 @@ class VerifyPresenter : public RunPresenter {
   void fillCorrection(ui::VerifyState& state);
   void compare(const nlohmann::json& body);
   void fillAxes(ui::VerifyState& state, const nlohmann::json& body);
-  void compute(long long verification);
+  void compute(const commissioning::Artefact& verification);
+  void fillCurves(const std::string& axis, ui::AxisCorrection& row) const;
   /// The correction of the kept run by the threshold that is set now, into the job: page and report say the same.
   void judgeAgain();
 
@@ -42,7 +43,7 @@ class VerifyPresenter : public RunPresenter {
   long long m_computed = 0;  // verification the correction is of
   double m_measured_s = -1.0;
   flow::VerificationResiduals m_residuals;
-  std::optional<compensation::Correction> m_correction;
+  std::optional<compensation::Table> m_corrected;
   QVector<ui::AxisResult> m_axes;  // of the verification m_axesOf
   long long m_axesOf = 0;
   double m_compared_s = 0.0;
