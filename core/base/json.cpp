@@ -18,6 +18,16 @@ std::string shown(const json& value) {
   return text;
 }
 
+/// The library's sentence without its own name and position: what was found and what was expected.
+std::string words_of(const json::exception& error) {
+  std::string text = error.what();
+  for (const std::string_view before : {std::string_view("] "), std::string_view("syntax error ")}) {
+    const std::size_t at = text.find(before);
+    if (at != std::string::npos) text = text.substr(at + before.size());
+  }
+  return text;
+}
+
 }  // namespace
 
 JsonObject::JsonObject(const json& value, std::string file, std::string path)
@@ -205,11 +215,12 @@ Result<json> parse_json(std::string_view text, const std::string& file) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t newline = before.rfind('\n');
     const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-    return fail(
-        ErrorCode::json_syntax,
-        {{"file", file}, {"line", std::to_string(line)}, {"column", std::to_string(column)}, {"detail", error.what()}});
+    return fail(ErrorCode::json_syntax, {{"file", file},
+                                         {"line", std::to_string(line)},
+                                         {"column", std::to_string(column)},
+                                         {"detail", words_of(error)}});
   } catch (const json::exception& error) {  // numbers out of range
-    return fail(ErrorCode::json_syntax, {{"file", file}, {"line", "1"}, {"column", "1"}, {"detail", error.what()}});
+    return fail(ErrorCode::json_syntax, {{"file", file}, {"line", "1"}, {"column", "1"}, {"detail", words_of(error)}});
   }
 }
 
