@@ -2,9 +2,10 @@
 
 #include <QApplication>
 #include <QCloseEvent>
-#include <QMessageBox>
+#include <QFile>
 #include <QSettings>
 
+#include "app/desktop/ask.h"
 #include "app/desktop/machine_writes.h"
 #include "app/desktop/registry.h"
 #include "app/desktop/steps/machine_presenter.h"
@@ -40,6 +41,7 @@ Application::Application(ui::Theme& theme)
       m_demo(std::make_unique<DemoMachine>()),
       m_window(std::make_unique<ui::MainWindow>()) {
   m_presenters = makePages(*m_bench, *m_window, *m_demo);
+  m_window->setLanguagesOffered(QFile::exists(QStringLiteral(":/i18n/zerodrift_zh_CN.qm")));
   wire();
   openPage(m_presenters.front()->id());
   updateSteps();
@@ -120,12 +122,10 @@ void Application::switchCompensation() {
   if (!profile || !m_bench->connected() || m_bench->tasks().running()) return;
   const bool on = !m_bench->compensationOn();
   const QString machine = QString::fromStdString(profile->name);
-  const auto answer = QMessageBox::question(
-      m_window.get(), tr("Compensation"),
-      on ? tr("Switch the compensation of %1 ON? The axes move by what the active table says.").arg(machine)
-         : tr("Switch the compensation of %1 OFF? The axes move back by what is applied now.").arg(machine),
-      QMessageBox::Yes | QMessageBox::Cancel, QMessageBox::Cancel);
-  if (answer != QMessageBox::Yes) return;
+  const QString heading = on ? tr("Switch the compensation ON?") : tr("Switch the compensation OFF?");
+  const QString text = on ? tr("The axes of %1 move by what the active table says.").arg(machine)
+                          : tr("The axes of %1 move back by what is applied now.").arg(machine);
+  if (!ask(m_window.get(), heading, text, on ? tr("Switch ON") : tr("Switch OFF"))) return;
   m_bench->tasks().start<bool>(
       tr("Switching the compensation"),
       [profile = *profile, job = m_bench->job(), on](const TaskContext&) {
@@ -262,11 +262,12 @@ void Application::updateLamps() {
     m_window->setLamp(ui::LampId::recording, tr("Nothing running"), ui::Judgement::none);
   }
   const bool camera = profile && profile->error_source == controller::ErrorSourceKind::camera;
-  m_window->setLamp(ui::LampId::camera,
-                    !profile ? tr("Camera off")
-                    : camera ? tr("%n camera(s)", nullptr, static_cast<int>(profile->cameras.size()))
-                             : tr("Probes"),
-                    profile ? ui::Judgement::ok : ui::Judgement::none);
+  m_window->setLamp(
+      ui::LampId::camera,
+      !profile ? tr("Camera off")
+      : camera ? (profile->cameras.size() == 1 ? tr("1 camera") : tr("%1 cameras").arg(profile->cameras.size()))
+               : tr("Probes"),
+      profile ? ui::Judgement::ok : ui::Judgement::none);
   const bool on = m_bench->compensationOn();
   m_window->setLamp(ui::LampId::compensation, on ? tr("Compensation ON") : tr("Compensation OFF"),
                     on ? ui::Judgement::warn : ui::Judgement::none, on);
@@ -295,11 +296,10 @@ void Application::dropped(const QStringList& paths) {
 
 void Application::mayClose(bool* allowed) {
   if (!m_bench->tasks().running()) return;
-  const auto answer = QMessageBox::question(
-      m_window.get(), tr("Close Zerodrift?"),
-      tr("%1 is running. What was recorded is kept and the run can be resumed.").arg(m_bench->tasks().name()),
-      QMessageBox::Close | QMessageBox::Cancel, QMessageBox::Cancel);
-  *allowed = answer == QMessageBox::Close;
+  *allowed =
+      ask(m_window.get(), tr("Close Zerodrift?"),
+          tr("%1 is running. What was recorded is kept and the run can be resumed.").arg(m_bench->tasks().name()),
+          tr("Close"));
 }
 
 }  // namespace zerodrift::desktop

@@ -37,7 +37,8 @@ void choosePlatform(int argc, char** argv) {
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("job", arguments.job, "Job file to open");
-  app.add_flag("--demo", arguments.demo, "Start the virtual machine tool beside the application");
+  app.add_flag("--demo", arguments.demo,
+               "Start the virtual machine tool beside the application, with a new job, past the start page");
   app.add_option("--tour", arguments.tour,
                  "Drive the whole wizard against the virtual machine; pictures into this folder");
   app.add_option("--speedup", arguments.speedup, "Speed of the virtual machine's time")->check(CLI::Range(1.0, 2000.0));

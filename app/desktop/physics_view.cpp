@@ -25,8 +25,11 @@ QString say(const char* text) {
   return QCoreApplication::translate("zerodrift::desktop::PhysicsView", text);
 }
 
+/// "T14", and for the error "dY_um" plainly "Y".
 QString short_tag(const std::string& channel) {
-  return QString::fromStdString(channel.substr(0, channel.rfind('_')));
+  const QString tag = QString::fromStdString(channel.substr(0, channel.rfind('_')));
+  const bool error = recording::kind_of(channel) == recording::ChannelKind::error && tag.startsWith(QLatin1Char('d'));
+  return error ? tag.mid(1) : tag;
 }
 
 QVector<double> values_of(const Recording& run, const std::string& channel) {
@@ -161,12 +164,13 @@ ui::HeatMapData residual_map(const physics::Machine& machine, const std::string&
   return map;
 }
 
-/// The first parameter of the sentence, which is the effect's size: "P = 36.1 ± 2.0 W".
+/// The first parameter of the sentence, which is the effect's size: "36.1 ± 2.0 W" of "P = 36.1 ± 2.0 W, ...".
 QString magnitude_of(const json& effect) {
   const auto facts = diagnosis::sentence_from_json(effect.value("said", json())).facts;
   const auto parameters = facts.find("parameters");
-  return parameters == facts.end() ? QString()
-                                   : QString::fromStdString(parameters->second.substr(0, parameters->second.find(',')));
+  if (parameters == facts.end()) return {};
+  const QString first = QString::fromStdString(parameters->second.substr(0, parameters->second.find(',')));
+  return first.section(QStringLiteral(" = "), -1);  // the letter of a formula says nothing here
 }
 
 QString rivals_of(const json& diagnosis) {
@@ -194,6 +198,20 @@ std::string most_telling(const json& effect, const json& noise) {
     best = channel;
   }
   return best;
+}
+
+/// Errors are measured now and then: only what was measured makes the curves, or they would fall to pieces.
+void fill_curves(const Compared& runs, const recording::Channel& simulated, bool adopted, ui::SimulatedChannel& out) {
+  const auto* recorded = runs.recorded.find(simulated.name);
+  const auto* refined = adopted ? runs.refined.find(simulated.name) : nullptr;
+  const bool sparse = simulated.kind() == recording::ChannelKind::error;
+  for (std::size_t r = 0; r < runs.recorded.rows() && r < simulated.values.size(); ++r) {
+    if (sparse && !std::isfinite(recorded->values[r])) continue;
+    out.time_s.append(runs.recorded.time_s[r]);
+    out.recorded.append(recorded->values[r]);
+    out.simulated.append(simulated.values[r]);
+    if (refined != nullptr && r < refined->values.size()) out.refined.append(refined->values[r]);
+  }
 }
 
 }  // namespace
@@ -307,10 +325,8 @@ QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller
     channel.id = QString::fromStdString(simulated.name);
     channel.tag = short_tag(simulated.name);
     channel.unit = temperature ? QStringLiteral("K") : QStringLiteral("µm");
-    channel.time_s = QVector<double>(runs.recorded.time_s.begin(), runs.recorded.time_s.end());
-    channel.recorded = values_of(runs.recorded, simulated.name);
-    channel.simulated = QVector<double>(simulated.values.begin(), simulated.values.end());
-    if (adopted) channel.refined = values_of(runs.refined, simulated.name);
+    channel.valueUnit = temperature ? QStringLiteral("°C") : QStringLiteral("µm");
+    fill_curves(runs, simulated, adopted, channel);
     channel.rmse = rms_difference(channel.recorded, channel.refined.isEmpty() ? channel.simulated : channel.refined);
     channel.noise = number_of(noise, simulated.name);
     if (std::isnan(channel.noise)) {
@@ -325,6 +341,11 @@ QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller
 
 ui::HeatMapData heat_of(const json& body, const physics::Machine& machine, const std::string& component,
                         const Compared& runs) {
+  if (body.is_object() && !body.value("adopted", json::array()).empty() && runs.refined.rows() > 0) {
+    Compared left = runs;  // what the adopted effects do not explain
+    left.simulated = runs.refined;
+    return residual_map(machine, component, left);
+  }
   const json heat = body.is_object() ? body.value("heat", json()) : json();
   if (heat.is_object() && heat.value("component", "") == component) return located_heat(heat);
   return residual_map(machine, component, runs);
@@ -351,7 +372,9 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
         card.place += QStringLiteral(", %1 mm").arg(effect["position_mm"].get<double>(), 0, 'f', 0);
       }
     } else if (effect["channel"].is_string()) {
-      card.place = short_tag(effect["channel"].get<std::string>());
+      const std::string channel = effect["channel"].get<std::string>();
+      const bool error = recording::kind_of(channel) == recording::ChannelKind::error;
+      card.place = error ? say("error in %1").arg(short_tag(channel)) : short_tag(channel);
     }
     card.confidence = effect.value("confidence", 0.0);
     card.adopted = listed("adopted", id);

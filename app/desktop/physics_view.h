@@ -24,7 +24,8 @@ Compared compared_of(const commissioning::Job& job);
 QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const nlohmann::json& body);
 QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller::Profile& profile,
                                           const nlohmann::json& body);
-/// What the search located, in W; before it recorded minus simulated at the sensors, in K, linear between them.
+/// What the search located, in W; before it, and again when effects were adopted, recorded minus simulated at the
+/// sensors, in K, linear between them.
 ui::HeatMapData heat_of(const nlohmann::json& body, const physics::Machine& machine, const std::string& component,
                         const Compared& runs);
 void fill_explanations(const nlohmann::json& body, const Compared& runs, ui::PhysicsState& state);

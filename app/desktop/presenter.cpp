@@ -32,9 +32,10 @@ QObject* Presenter::beginTask(const QString& name) {
   auto* progress = new QObject(this);
   connect(&m_bench.tasks(), &TaskRunner::progressed, progress,
           [this, name](double fraction, const QString&, double secondsLeft) {
-            m_page->setProgress(name, fraction, secondsLeft < 0 ? std::nullopt : std::optional<double>(secondsLeft));
+            m_page->setProgress(name, fraction, secondsLeft < 0 ? std::nullopt : std::optional<double>(secondsLeft),
+                                cancellable());
           });
-  m_page->setProgress(name, -1.0);
+  m_page->setProgress(name, -1.0, std::nullopt, cancellable());
   return progress;
 }
 

@@ -53,6 +53,8 @@ class Presenter : public QObject {
     show(refused);
     done(fail(refused));
   }
+  /// Whether work of this page may be stopped by Cancel.
+  virtual bool cancellable() const { return true; }
   void show(const Error& error);
   /// Calls `act` now, or when the task that runs has ended.
   void whenIdle(std::function<void()> act);

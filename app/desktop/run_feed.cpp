@@ -32,6 +32,8 @@ ui::RunChannel channel_of(const std::string& name, const QString& label) {
   ui::RunChannel channel;
   channel.id = QString::fromStdString(name);
   channel.tag = channel.id.section(QLatin1Char('_'), 0, 0);
+  if (kind == recording::ChannelKind::error && channel.tag.startsWith(QLatin1Char('d'))) channel.tag.remove(0, 1);
+  if (kind == recording::ChannelKind::ambient) channel.tag = RunFeed::tr("Room");
   channel.label = label;
   channel.unit = QString::fromUtf8(recording::unit_of(kind).data());
   if (channel.unit == QStringLiteral("C")) channel.unit = QStringLiteral("°C");
@@ -61,6 +63,7 @@ void RunFeed::setChannels() {
     const std::string letter(1, "XYZ"[axis]);
     auto channel = channel_of("d" + letter + "_um", m_compensated ? tr("Left over") : tr("Error at the nose"));
     channel.color = ui::axisColor(axis);
+    if (m_compensated) channel.tag = tr("%1 left").arg(QString::fromStdString(letter));
     errors.append(channel);
     if (!m_compensated) continue;
     channel = channel_of("without_" + letter + "_um", tr("Without the compensation"));

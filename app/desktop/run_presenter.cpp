@@ -1,10 +1,9 @@
 #include "app/desktop/run_presenter.h"
 
 #include <QInputDialog>
-#include <QMessageBox>
-#include <QPushButton>
 #include <nlohmann/json.hpp>
 
+#include "app/desktop/ask.h"
 #include "ui/pages/run_view.h"
 #include "ui/widgets/progress_strip.h"
 
@@ -56,29 +55,21 @@ void RunPresenter::pauseOrResume() {
   }
 }
 
-bool RunPresenter::mayEnd(const QString& heading, const QString& text, const QString& yes) const {
-  QMessageBox box(QMessageBox::NoIcon, heading, text, QMessageBox::Cancel, page());
-  auto* agree = box.addButton(yes, QMessageBox::AcceptRole);
-  box.setDefaultButton(QMessageBox::Cancel);
-  box.exec();
-  return box.clickedButton() == agree;
-}
-
 bool RunPresenter::steer(const QString& action) {
   if (action == QStringLiteral("finish")) {
-    if (m_running && mayEnd(tr("Finish the run?"),
-                            tr("The run ends here and what was recorded is kept and used. The spindle, the path and "
-                               "the coolant stop."),
-                            tr("Finish"))) {
+    if (m_running && ask(page(), tr("Finish the run?"),
+                         tr("The run ends here and what was recorded is kept and used. The spindle, the path and "
+                            "the coolant stop."),
+                         tr("Finish"))) {
       m_feed->finish();
     }
     return true;
   }
   if (action == QStringLiteral("abort")) {
-    if (m_running && mayEnd(tr("Abort the run?"),
-                            tr("The machine stops and this run is not used. Its samples stay in the job, but the step "
-                               "counts as not done. To keep the run, finish it instead."),
-                            tr("Abort"))) {
+    if (m_running && ask(page(), tr("Abort the run?"),
+                         tr("The machine stops and this run is not used. Its samples stay in the job, but the step "
+                            "counts as not done. To keep the run, finish it instead."),
+                         tr("Abort"))) {
       m_feed->abort();
     }
     return true;

@@ -20,6 +20,7 @@ a.trace{color:inherit;text-decoration:none}a.trace:hover{text-decoration:underli
 table{border-collapse:collapse;width:100%;font-size:12px;font-variant-numeric:tabular-nums}
 th,td{border-bottom:1px solid #d9dfe5;padding:3px 8px;text-align:left}th{color:#5f6e7c;font-weight:600}
 .warning{border-left:4px solid #c77700;padding:4px 12px;background:#fff8ec}
+.warning.worst{border-left-color:#c4314b;background:#fdf0f2}
 nav{margin:16px 0}nav a{margin-right:14px}footer{color:#5f6e7c;font-size:11px;margin-top:32px}
 svg{max-width:100%;height:auto}
 )";
@@ -48,7 +49,9 @@ std::string trace_anchor(const report::Trace& trace) {
 
 struct BlockHtml {
   std::string operator()(const report::Text& text) const {
-    return std::string(text.warning ? "<p class=\"warning\">" : "<p>") + escaped(text.text) + "</p>\n";
+    const bool worst = text.verdict == report::Verdict::bad;
+    const char* opening = !text.warning ? "<p>" : worst ? "<p class=\"warning worst\">" : "<p class=\"warning\">";
+    return opening + escaped(text.text) + "</p>\n";
   }
 
   std::string operator()(const report::Figures& figures) const {

@@ -18,6 +18,7 @@ namespace {
 constexpr double margin = 68.0;
 constexpr double foot_height = 28.0;
 constexpr double gap = 12.0;
+constexpr double card_padding = 14.0;  // left and right of a figure's text
 
 QString text_of(const std::string& text) {
   return QString::fromStdString(text);
@@ -29,6 +30,9 @@ QFont font_of(int pixels, QFont::Weight weight = QFont::Normal) {
   font.setPixelSize(pixels);
   font.setWeight(weight);
   font.setHintingPreference(QFont::PreferNoHinting);
+  // Glyphs that only a font's features can choose (a hyphen between figures, say) have no character: they would be lost
+  // when text is copied.
+  font.setStyleStrategy(QFont::PreferNoShaping);
   return font;
 }
 
@@ -71,20 +75,29 @@ class PaperWriter {
     const double indent = text.warning ? 12 : 0;
     const double height = paragraph_height(text_of(text.text), font_of(12), m_width - indent);
     room_for(height + gap);
-    if (text.warning) m_painter.fillRect(QRectF(margin, m_y, 3, height), QColor(0xC77700));
+    if (text.warning) m_painter.fillRect(QRectF(margin, m_y, 3, height), colour_of(text.verdict));
     draw_text(QRectF(margin + indent, m_y, m_width - indent, height), text_of(text.text), font_of(12));
     m_y += height + gap;
   }
 
   void operator()(const report::Figures& figures) {
-    constexpr int per_row = 4;
-    constexpr double height = 62;
-    const double width = (m_width - (per_row - 1) * gap) / per_row;
-    for (std::size_t i = 0; i < figures.figures.size(); ++i) {
-      const auto column = static_cast<int>(i % per_row);
-      if (column == 0) room_for(height + gap);
-      figure_card(QRectF(margin + column * (width + gap), m_y, width, height), figures.figures[i]);
-      if (column == per_row - 1 || i + 1 == figures.figures.size()) m_y += height + gap;
+    const auto count = figures.figures.size();
+    const std::size_t per_row = count % 4 != 0 && count % 3 == 0 ? 3 : 4;
+    const double width = (m_width - static_cast<double>(per_row - 1) * gap) / static_cast<double>(per_row);
+    for (std::size_t first = 0; first < count; first += per_row) {
+      const std::size_t end = std::min(count, first + per_row);
+      // As high as the longest of its labels needs.
+      double label = 0;
+      for (std::size_t i = first; i < end; ++i) {
+        label = std::max(label, paragraph_height(text_of(figures.figures[i].label), font_of(10), width - card_padding));
+      }
+      const double height = label + 48;
+      room_for(height + gap);
+      for (std::size_t i = first; i < end; ++i) {
+        const double left = margin + static_cast<double>(i - first) * (width + gap);
+        figure_card(QRectF(left, m_y, width, height), label, figures.figures[i]);
+      }
+      m_y += height + gap;
     }
   }
 
@@ -153,22 +166,23 @@ class PaperWriter {
     m_y += 20;
   }
 
-  void figure_card(const QRectF& place, const report::Figure& figure) {
+  void figure_card(const QRectF& place, double label_height, const report::Figure& figure) {
     m_painter.setPen(QPen(QColor(0xD9DFE5), 0.8));
     m_painter.setBrush(Qt::NoBrush);
     m_painter.drawRoundedRect(place, 4, 4);
     if (figure.verdict != report::Verdict::none) {
       m_painter.fillRect(QRectF(place.left(), place.top() + 4, 3, place.height() - 8), colour_of(figure.verdict));
     }
-    const QRectF inner = place.adjusted(10, 5, -4, -4);
-    draw_text(QRectF(inner.left(), inner.top(), inner.width(), 14), text_of(figure.label), font_of(10),
+    const QRectF inner = place.adjusted(10, 5, 10 - card_padding, -4);
+    draw_text(QRectF(inner.left(), inner.top(), inner.width(), label_height), text_of(figure.label), font_of(10),
               QColor(0x5F6E7C));
+    const double below = inner.top() + label_height;
     const QString value = text_of(figure.value);
-    draw_text(QRectF(inner.left(), inner.top() + 14, inner.width(), 24), value, font_of(18, QFont::DemiBold));
+    draw_text(QRectF(inner.left(), below, inner.width(), 24), value, font_of(18, QFont::DemiBold));
     const double used = QFontMetricsF(font_of(18, QFont::DemiBold)).horizontalAdvance(value);
-    draw_text(QRectF(inner.left() + used + 5, inner.top() + 21, inner.width() - used, 14), text_of(figure.unit),
-              font_of(11), QColor(0x5F6E7C));
-    draw_text(QRectF(inner.left(), inner.top() + 38, inner.width(), 14), text_of(figure.limit), font_of(10),
+    draw_text(QRectF(inner.left() + used + 5, below + 7, inner.width() - used, 14), text_of(figure.unit), font_of(11),
+              QColor(0x5F6E7C));
+    draw_text(QRectF(inner.left(), below + 24, inner.width(), 14), text_of(figure.limit), font_of(10),
               QColor(0x5F6E7C));
   }
 

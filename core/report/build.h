@@ -15,6 +15,7 @@ Result<Report> build_report(const commissioning::Job& job, const Words& words = 
 // One line a section, in the order of the report; each stands in sections/<section>.cpp and is left out when its
 // function gives nothing.
 std::optional<Section> summary_section(const Source& source);
+std::optional<Section> doubts_section(const Source& source);
 std::optional<Section> setup_section(const Source& source);
 std::optional<Section> warmup_section(const Source& source);
 std::optional<Section> sensors_section(const Source& source);
@@ -22,7 +23,6 @@ std::optional<Section> model_section(const Source& source);
 std::optional<Section> physics_section(const Source& source);
 std::optional<Section> upload_section(const Source& source);
 std::optional<Section> verification_section(const Source& source);
-std::optional<Section> doubts_section(const Source& source);
 std::optional<Section> provenance_section(const Source& source);
 
 }  // namespace zerodrift::report

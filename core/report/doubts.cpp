@@ -1,6 +1,7 @@
 #include "core/report/doubts.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -176,7 +177,10 @@ void about_model(const Source& source, Doubts& doubts) {
     if (advice.is_string()) doubts.add(Verdict::doubtful, "advice", "{}", source.in_words(advice.get<std::string>()));
   }
   for (const auto& finding : model.value("findings", json::array())) {
-    doubts.add(Verdict::doubtful, "findings", "{}", source.in_words(text_of(finding, "text")));
+    std::string text = source.in_words(text_of(finding, "text"));
+    if (text.empty()) continue;
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    doubts.add(Verdict::doubtful, "findings", "{}", text.ends_with('.') ? text : text + ".");
   }
 }
 

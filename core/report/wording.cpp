@@ -1,6 +1,7 @@
 #include "core/report/wording.h"
 
 #include <algorithm>
+#include <cctype>
 #include <regex>
 
 #include "core/recording/recording.h"
@@ -34,15 +35,20 @@ std::string channel_in_words(const std::string& channel, const Labels& labels) {
   return channel;
 }
 
-std::string readable(const std::string& text, const Labels& labels) {
+std::string readable(const std::string& original, const Labels& labels) {
   static const std::regex channels(R"(\b(T[0-9]+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)\b)");
   static const std::regex micrometres(R"(\bum\b)");
-  static const std::regex celsius(R"(([0-9]) C\b)");
+  // A number of its own, not the one in "T17 C table drive".
+  static const std::regex celsius(R"((^|[^A-Za-z0-9_.])([-+]?[0-9]+(\.[0-9]+)?) C\b)");
+  const std::string text = std::regex_replace(std::regex_replace(original, micrometres, "µm"), celsius, "$1$2 °C");
   std::string words;
   auto from = text.cbegin();
   for (std::sregex_iterator at(text.begin(), text.end(), channels), end; at != end; ++at) {
     words.append(from, text.cbegin() + at->position());
-    words += channel_in_words(at->str(), labels);
+    std::string name = channel_in_words(at->str(), labels);
+    const bool begins = words.empty() || words.ends_with(". ") || words.ends_with(": ");
+    if (!begins && at->str().front() != 'T') name.front() = static_cast<char>(std::tolower(name.front()));
+    words += name;
     from = text.cbegin() + at->position() + at->length();
     // Some sentences name the place already.
     const auto label = labels.find(at->str());
@@ -53,8 +59,7 @@ std::string readable(const std::string& text, const Labels& labels) {
     }
   }
   words.append(from, text.cend());
-  words = std::regex_replace(words, micrometres, "µm");
-  return std::regex_replace(words, celsius, "$1 °C");
+  return words;
 }
 
 }  // namespace zerodrift::report

@@ -12,6 +12,6 @@ using Labels = std::map<std::string, std::string>;
 /// "T14 Spindle nose", "Room", "Error in Y", "Spindle speed"; another channel is left as it is.
 std::string channel_in_words(const std::string& channel, const Labels& labels);
 /// A sentence of core with its units and channels as people read them.
-std::string readable(const std::string& text, const Labels& labels);
+std::string readable(const std::string& original, const Labels& labels);
 
 }  // namespace zerodrift::report

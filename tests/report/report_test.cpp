@@ -173,7 +173,9 @@ TEST_F(ReportTest, RunsAreComparedAsFarAsBothGo) {
 TEST(Wording, IdentifiersBecomeWords) {
   const Labels labels = {{"T14_C", "Spindle nose"}};
   EXPECT_EQ(readable("T14_C rose by 3 um/K from 21.5 C; dY_um: 2 um", labels),
-            "T14 Spindle nose rose by 3 µm/K from 21.5 °C; Error in Y: 2 µm");
+            "T14 Spindle nose rose by 3 µm/K from 21.5 °C; error in Y: 2 µm");
+  EXPECT_EQ(readable("X T17_C", {{"T17_C", "C table drive"}}), "X T17 C table drive");
+  EXPECT_EQ(readable("from -3 C to 21.5 C", labels), "from -3 °C to 21.5 °C");
   EXPECT_EQ(readable("T15_C, maximum, C1, Column", labels), "T15, maximum, C1, Column");
   EXPECT_EQ(channel_in_words("ambient_C", labels), "Room");
 }

@@ -6,6 +6,7 @@
 
 #include "tests/ui/gallery/samples.h"
 #include "ui/pages/page.h"
+#include "ui/shell/help_panel.h"
 #include "ui/shell/lamp.h"
 #include "ui/shell/log_drawer.h"
 #include "ui/shell/main_window.h"
@@ -57,6 +58,10 @@ class ShellTest : public QObject {
   void primaryButtonFollowsThePage();
   void presenterCanForbidAnAction();
   void workDisablesThePrimaryButton();
+  void progressMovesNoPage();
+  void focusDoesNotJump();
+  void helpIsThereForEveryPage();
+  void quitsByKeyboard();
   void bannerShowsProblemAndAction();
   void keyboardReachesRailActionsAndFoot();
   void paletteFindsStepsAndActions();
@@ -119,12 +124,75 @@ void ShellTest::workDisablesThePrimaryButton() {
   QSignalSpy cancelled(page, &Page::cancelRequested);
   page->setProgress("Fitting", 0.4, 12.0);
   QVERIFY(!window.primaryButton()->isEnabled());
-  auto* cancel = page->findChild<QPushButton*>("cancelWork");
+  auto* cancel = window.findChild<QPushButton*>("cancelWork");
   QVERIFY(cancel->isVisible());
   cancel->click();
   QCOMPARE(cancelled.count(), 1);
   page->clearProgress();
   QVERIFY(window.primaryButton()->isEnabled());
+}
+
+void ShellTest::progressMovesNoPage() {
+  MainWindow window;
+  samples::fillWindow(window);
+  window.resize(1280, 720);
+  window.show();
+  samples::play(window, {"calibrate", "planned"});
+  Page* page = window.currentPage();
+  page->clearProgress();
+  QTest::qWait(20);
+  QWidget* card = page->findChildren<QWidget*>("drawRegion").first();
+  const QPoint before = card->mapTo(&window, QPoint());
+  page->setProgress("Calibrating", 0.4, 12.0);
+  QTest::qWait(20);
+  QVERIFY(page->progressStrip()->isVisible());
+  QCOMPARE(card->mapTo(&window, QPoint()), before);
+  QVERIFY(window.rect().contains(page->progressStrip()->mapTo(&window, page->progressStrip()->rect().bottomRight())));
+  page->clearProgress();
+  QVERIFY(!page->progressStrip()->isVisible());
+}
+
+/// A button that goes off under the focus does not hand it to the next control.
+void ShellTest::focusDoesNotJump() {
+  MainWindow window;
+  auto* page = new PlainPage("a");
+  window.addPage(page);
+  window.addPage(new PlainPage("b"));
+  window.show();
+  QVERIFY(QTest::qWaitForWindowActive(&window));
+  window.primaryButton()->setFocus();
+  QVERIFY(window.primaryButton()->hasFocus());
+  page->setEnabledAction(false);
+  QCOMPARE(QApplication::focusWidget(), window.centralWidget());
+  page->setEnabledAction(true);
+  window.findChild<QPushButton*>("action-other")->setFocus();
+  window.setCurrentPage("b");
+  for (StepButton* step : window.rail()->steps()) QVERIFY(!step->hasFocus());
+}
+
+void ShellTest::helpIsThereForEveryPage() {
+  MainWindow window;
+  samples::fillWindow(window);
+  window.show();
+  for (StepButton* step : window.rail()->steps()) {
+    window.setCurrentPage(step->id());
+    window.toggleHelp();
+    QVERIFY2(window.isHelpVisible(), qPrintable(step->id()));
+    auto* help = window.findChild<HelpPanel*>();
+    QCOMPARE(help->pageId(), step->id());
+    QVERIFY2(help->text().size() > 300, qPrintable(step->id()));
+    window.toggleHelp();
+    QVERIFY(!window.isHelpVisible());
+  }
+}
+
+void ShellTest::quitsByKeyboard() {
+  MainWindow window;
+  window.addPage(new PlainPage("a"));
+  window.show();
+  QVERIFY(QTest::qWaitForWindowActive(&window));
+  QTest::keyClick(&window, Qt::Key_Q, Qt::ControlModifier);
+  QVERIFY(!window.isVisible());
 }
 
 void ShellTest::bannerShowsProblemAndAction() {

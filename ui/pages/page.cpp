@@ -23,7 +23,6 @@ Page::Page(QString id, QWidget* parent) : QWidget(parent), m_id(std::move(id)) {
   all->setContentsMargins(24, 20, 24, 20);
   all->setSpacing(16);
   all->addWidget(m_banner);
-  all->addWidget(m_progress);
   all->addWidget(m_stack, 1);
   connect(m_banner, &ProblemBanner::actionTriggered, this, &Page::problemActionTriggered);
   connect(m_progress, &ProgressStrip::cancelRequested, this, &Page::cancelRequested);
@@ -89,6 +88,10 @@ void Page::clearProgress() {
   if (!m_working) return;
   m_working = false;
   Q_EMIT refreshed();
+}
+
+QWidget* Page::progressStrip() const {
+  return m_progress;
 }
 
 void Page::refresh() {

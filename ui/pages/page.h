@@ -79,6 +79,8 @@ class Page : public QWidget {
                    bool cancellable = true);
   void clearProgress();
   bool isWorking() const { return m_working; }
+  /// Shows itself while the page works; the window puts it into its foot, so that no page moves for it.
+  QWidget* progressStrip() const;
 
  Q_SIGNALS:
   void primaryTriggered();

@@ -51,6 +51,10 @@ QWidget* PhysicsPage::makeWhere() {
   m_map = new HeatMap(where);
   m_map->setPositionAcross(true);
   m_drawing->setScale([this](double position_mm) { return m_map->positionToPixel(position_mm); });
+  m_region = new WrapLabel(where);
+  m_region->setProperty("role", "ok");
+  m_region->setContentsMargins(10, 0, 10, 4);
+  whereLayout->addWidget(m_region);
   whereLayout->addWidget(m_drawing);
   whereLayout->addWidget(m_map, 1);
   connect(m_map, &HeatMap::layoutChanged, m_drawing, qOverload<>(&QWidget::update));
@@ -153,7 +157,9 @@ QString PhysicsPage::sentence() const {
     case PhysicsVerdict::consistent:
       return tr("Simulation and recording agree down to the noise. Nothing needs to be added.");
     case PhysicsVerdict::missingEffect:
-      return tr("Something is missing in the simulation. Judge the explanations; adopt what convinces.");
+      return m_state.adopted
+                 ? tr("Map, curves and figures hold what was adopted. Go on, or take it out again.")
+                 : tr("Something is missing in the simulation. Judge the explanations; adopt what convinces.");
     case PhysicsVerdict::unexplained:
       return tr("Something is missing that no known effect explains. It is shown, not guessed.");
   }
@@ -169,11 +175,23 @@ PageAction PhysicsPage::primary() const {
 
 QVector<PageAction> PhysicsPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
-  const bool toOpen = m_state.trial.stage == TrialStage::answered;
-  const bool running = m_state.trial.stage == TrialStage::sealed || m_state.trial.stage == TrialStage::searching;
-  QVector<PageAction> actions = {{"trial", toOpen ? tr("Open the seal") : tr("Blind trial"), !running,
-                                  running ? tr("A blind trial is running.") : QString()},
-                                 {"region", tr("Find sensor region")}};
+  const TrialStage stage = m_state.trial.stage;
+  const bool running = stage == TrialStage::sealed || stage == TrialStage::searching;
+  QVector<PageAction> actions;
+  // Leftmost, so that no button takes its place when it comes or goes.
+  if (stage != TrialStage::none) {
+    actions.append({"open", tr("Open the seal"), stage == TrialStage::answered,
+                    running ? tr("The seal is opened when the answer is given.") : tr("The seal is open.")});
+  }
+  actions.append({"trial", tr("Blind trial"), !running && stage != TrialStage::answered,
+                  running ? tr("A blind trial is running.") : tr("Open the seal of this trial first."),
+                  tr("The virtual machine hides an effect; the program has to find it")});
+  actions.append({"region",
+                  tr("Find sensor region"),
+                  true,
+                  {},
+                  tr("Where on the component a sensor follows the "
+                     "deformation best")});
   if (m_state.verdict != PhysicsVerdict::none) actions.append({"find", tr("Search again")});
   return actions;
 }
@@ -183,12 +201,15 @@ QVector<Figure> PhysicsPage::figures() const {
                                   std::isnan(m_state.noise_K) ? 0.1 : std::ceil(20.0 * m_state.noise_K) / 10.0);
   if (agreement.judgement == Judgement::ok) agreement.word = tr("down to noise");
   if (agreement.judgement == Judgement::bad) agreement.word = tr("something missing");
+  agreement.limit = m_state.adopted ? tr("with what was adopted, %1").arg(agreement.limit) : agreement.limit;
   Figure noise = figureOf(tr("Noise of the sensors"), m_state.noise_K, 2, "K");
   Figure heat = figureOf(tr("Missing heat"), m_state.missing_W, 0, "W");
+  if (m_state.adopted && !heat.value.isEmpty()) heat.word = tr("explained by what was adopted");
   const auto adopted = std::count_if(m_state.explanations.begin(), m_state.explanations.end(),
                                      [](const Explanation& e) { return e.adopted; });
-  Figure held = figureOf(tr("After, on unseen data"), m_state.held_K, 2, "K",
-                         tr("%n adopted", nullptr, static_cast<int>(adopted)));
+  Figure held = figureOf(tr("On unseen data"), m_state.held_K, 2, "K",
+                         adopted > 0 ? tr("with %n adopted", nullptr, static_cast<int>(adopted)) : tr("none adopted"));
+  held.tip = tr("The same difference on data that was not used for the search.");
   return {agreement, noise, heat, held};
 }
 
@@ -209,7 +230,9 @@ void PhysicsPage::render() {
     m_component->setVisible(names.size() > 1 && m_views->currentIndex() == 0);
   }
   const bool residual = m_state.missingHeat.unit == QStringLiteral("K");  // before the search: what the sensors saw
-  const QStringList titles = {residual ? tr("Recorded minus simulated") : tr("Missing heat"),
+  const QStringList titles = {m_state.adopted ? tr("What is left")
+                              : residual      ? tr("Recorded minus simulated")
+                                              : tr("Missing heat"),
                               tr("Simulation and recording"), tr("Blind trial")};
   m_mapCard->setTitle(titles.value(m_views->currentIndex()));
   m_mapCard->setSubtitle(m_views->currentIndex() == 0 ? (residual ? tr("K, over position in mm and time")
@@ -222,6 +245,8 @@ void PhysicsPage::render() {
 }
 
 void PhysicsPage::renderMap() {
+  m_region->setText(m_state.region);
+  m_region->setVisible(!m_state.region.isEmpty());
   m_map->setPlaceholder(tr("Drawn when the search is done"));
   if (m_state.component < m_state.components.size()) {
     const DrawnComponent& component = m_state.components[m_state.component];
@@ -287,7 +312,11 @@ void PhysicsPage::renderChannel() {
   m_channelPlot->setData("recorded", found->time_s, found->recorded);
   m_channelPlot->setData("simulated", found->time_s, found->simulated);
   m_channelPlot->setData("refined", found->time_s, found->refined);
-  m_channelLegend->setItems({{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}, {tr("refined"), c.ok}});
+  QVector<LegendItem> legend = {{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}};
+  if (!found->refined.isEmpty()) legend.append({tr("with what was adopted"), c.ok});
+  m_channelLegend->setItems(legend);
+  m_channelPlot->setAxisLabels({}, found->valueUnit);
+  m_residualPlot->setAxisLabels({}, tr("difference / %1").arg(found->unit));
   const auto difference = [&](const QVector<double>& model) {
     QVector<double> d;
     for (int i = 0; i < model.size() && i < found->recorded.size(); ++i) d.append(found->recorded[i] - model[i]);

@@ -29,7 +29,8 @@ class ToggleSegment;
 struct SimulatedChannel {
   QString id{};
   QString tag{};
-  QString unit{};
+  QString unit{};       // of differences
+  QString valueUnit{};  // of the values
   QVector<double> time_s{};
   QVector<double> recorded{};
   QVector<double> simulated{};
@@ -115,7 +116,9 @@ struct PhysicsState {
   double rmse_K = std::numeric_limits<double>::quiet_NaN();
   double noise_K = std::numeric_limits<double>::quiet_NaN();
   double missing_W = std::numeric_limits<double>::quiet_NaN();
-  double held_K = std::numeric_limits<double>::quiet_NaN();  // on data not used for the fit
+  double held_K = std::numeric_limits<double>::quiet_NaN();  // on data not used for the search, as rmse_K
+  bool adopted = false;                                      // figures, map and curves are with what was found
+  QString region{};                                          // where a sensor belongs, in a sentence; empty: not asked
 };
 
 class PhysicsPage : public Page {
@@ -132,7 +135,7 @@ class PhysicsPage : public Page {
   QString sentence() const override;
   /// Find what is missing; afterwards Go on.
   PageAction primary() const override;
-  /// "find" again, "region", "trial" (starts one, or opens the seal of the one that was answered).
+  /// "open" the seal of an answered trial, "trial", "region", "find" again.
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
@@ -176,6 +179,7 @@ class PhysicsPage : public Page {
   LivePlot* m_trialPlot;
   LegendRow* m_trialLegend;
   QVector<QLabel*> m_trialSteps;
+  QLabel* m_region;
   QLabel* m_verdict;
   QScrollArea* m_scroll;
   QVBoxLayout* m_explanationLayout;

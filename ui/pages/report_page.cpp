@@ -194,7 +194,7 @@ void ReportPage::renderSections() {
 
 void ReportPage::renderPreview() {
   m_previewCard->setTitle(tr("Preview"));
-  m_previewCard->setSubtitle(tr("%n page(s)", nullptr, static_cast<int>(m_state.pages.size())));
+  m_previewCard->setSubtitle(m_state.pages.size() == 1 ? tr("1 page") : tr("%1 pages").arg(m_state.pages.size()));
   m_noPreview->setText(tr("The preview is being made."));
   m_noPreview->setVisible(m_state.pages.isEmpty());
   auto* layout = m_scroll->widget()->layout();

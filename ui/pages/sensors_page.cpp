@@ -84,8 +84,12 @@ Card* SensorsPage::makeChoice() {
   m_tableCard->tools()->addWidget(m_sum);
   m_table = new DataTable(m_tableCard);
   m_table->setRowHeight(22);
-  m_tableCard->body()->addWidget(m_table);
-  m_tableCard->setFixedWidth(548);
+  m_tableCard->body()->addWidget(m_table, 1);
+  m_priceNote = new WrapLabel(m_tableCard);
+  m_priceNote->setProperty("role", "caption");
+  m_priceNote->setContentsMargins(15, 2, 15, 4);
+  m_tableCard->body()->addWidget(m_priceNote);
+  m_tableCard->setFixedWidth(578);
   return m_tableCard;
 }
 
@@ -305,7 +309,7 @@ void SensorsPage::renderTable() {
        {tr("Lag"), 64, true, tr("The error follows this sensor after so many minutes")},
        {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
        {tr("Price"), 74, true,
-        tr("Change of the error on unseen stretches when this sensor is dropped, or added; minus is better")}});
+        tr("Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better")}});
   QVector<QVector<DataCell>> rows;
   for (const SensorRow& s : m_state.sensors) {
     DataCell name;
@@ -320,9 +324,16 @@ void SensorsPage::renderTable() {
     DataCell price;
     price.text = QStringLiteral("–");
     if (!std::isnan(s.price_um)) {
-      price.text = QStringLiteral("%1%2 µm").arg(s.price_um < 0.0 ? "−" : "+").arg(std::abs(s.price_um), 0, 'f', 2);
-      price.tip = s.kept ? tr("Change of the error when it is dropped; minus: better without it")
-                         : tr("Change of the error when it is added; minus: better with it");
+      const QString size = QString::number(std::abs(s.price_um), 'f', 2);
+      const bool nothing = std::abs(s.price_um) < 0.005;
+      price.text = nothing ? tr("0.00 µm") : QStringLiteral("%1%2 µm").arg(s.price_um < 0.0 ? "−" : "+", size);
+      price.tip = nothing  ? tr("Keeping it or not makes no difference")
+                  : s.kept ? (s.price_um > 0.0 ? tr("Without it the error grows by %1 µm: keep it")
+                                               : tr("Without it the error shrinks by %1 µm: leave it out"))
+                                 .arg(size)
+                  : s.price_um < 0.0 ? tr("With it the error shrinks by %1 µm: worth keeping").arg(size)
+                                     : tr("With it the error grows by %1 µm: leave it out").arg(size);
+      price.strong = !nothing && s.price_um < 0.0;
     }
     DataCell vif = numberCell(s.vif, 1);
     if (s.vif >= 100.0) vif.text = QStringLiteral("> 99");
@@ -330,6 +341,9 @@ void SensorsPage::renderTable() {
                  lag, vif, price});
   }
   m_table->setRows(rows);
+  m_priceNote->setText(
+      tr("Price: what a click on the tick does to the error on unseen stretches. Plus: it grows, leave the tick as "
+         "it is. Minus (bold): it shrinks."));
 }
 
 }  // namespace zerodrift::ui

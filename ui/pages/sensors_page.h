@@ -109,6 +109,7 @@ class SensorsPage : public Page {
   QSpinBox* m_clusters;
   ToggleSegment* m_sum;
   DataTable* m_table;
+  QLabel* m_priceNote;
   bool m_filling = false;
 };
 

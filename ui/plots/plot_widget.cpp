@@ -163,7 +163,7 @@ void PlotWidget::setSpans(const QVector<Span>& spans) {
     m_spanItems.append(box);
     if (span.label.isEmpty()) continue;
     auto* text = new QCPItemText(m_plot);
-    text->setLayer("spans");
+    text->setLayer("axes");  // above the grid, whose lines would strike it out
     text->setClipToAxisRect(true);
     text->position->setTypeX(QCPItemPosition::ptPlotCoords);
     text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);

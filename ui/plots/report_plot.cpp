@@ -22,6 +22,7 @@ QFont paperFont(int pixels) {
   QFont font(QStringLiteral("Inter"));
   font.setFamilies({QStringLiteral("Inter"), QStringLiteral("Noto Sans CJK SC"), QStringLiteral("DejaVu Sans")});
   font.setPixelSize(pixels);
+  font.setStyleStrategy(QFont::PreferNoShaping);  // so that numbers keep their signs when they are copied
   return font;
 }
 

@@ -1,6 +1,7 @@
 #include "ui/shell/main_window.h"
 
 #include "ui/pages/page.h"
+#include "ui/shell/help_panel.h"
 #include "ui/shell/lamp.h"
 #include "ui/shell/log_drawer.h"
 
@@ -33,15 +34,16 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   // No control starts with the focus: a ring around the first one would look like a choice.
   centre->setFocusPolicy(Qt::ClickFocus);
   centre->setFocus();
+  m_help = new HelpPanel(centre);
+  m_help->hide();
   m_palette = new CommandPalette(centre);
 
   connect(m_rail, &StepRail::stepRequested, this, &MainWindow::stepRequested);
   connect(m_rail, &StepRail::jobClicked, this, &MainWindow::jobRequested);
   connect(m_rail, &StepRail::languageClicked, this, &MainWindow::languageRequested);
   connect(m_rail, &StepRail::themeClicked, this, &MainWindow::themeRequested);
-  connect(m_rail, &StepRail::helpClicked, this, [this] {
-    if (currentPage() != nullptr) Q_EMIT helpRequested(currentPage()->id());
-  });
+  connect(m_rail, &StepRail::helpClicked, this, &MainWindow::toggleHelp);
+  connect(m_help, &HelpPanel::closeRequested, this, &MainWindow::toggleHelp);
   connect(m_log, &LogDrawer::closeRequested, this, [this] { setLogVisible(false); });
   connect(m_palette, &CommandPalette::chosen, this, &MainWindow::runCommand);
   makeShortcuts();
@@ -92,6 +94,9 @@ QWidget* MainWindow::makeFoot() {
     connect(lamp, &Lamp::clicked, this, [this, i] { Q_EMIT lampClicked(static_cast<LampId>(i)); });
   }
   all->addStretch(1);
+  // Progress stands here, where nothing has to make room for it.
+  m_progress = new QHBoxLayout;
+  all->addLayout(m_progress);
   m_back = new QPushButton(foot);
   m_back->setObjectName("back");
   m_primary = new QPushButton(foot);
@@ -118,9 +123,8 @@ void MainWindow::makeShortcuts() {
   on(QKeySequence("Ctrl+L"), [this] { setLogVisible(!m_log->isVisible()); });
   on(QKeySequence("Ctrl+K"), [this] { openPalette(); });
   on(QKeySequence("Ctrl+Z"), [this] { Q_EMIT undoRequested(); });
-  on(QKeySequence("F1"), [this] {
-    if (currentPage() != nullptr) Q_EMIT helpRequested(currentPage()->id());
-  });
+  on(QKeySequence("F1"), [this] { toggleHelp(); });
+  on(QKeySequence("Ctrl+Q"), [this] { close(); });
   on(QKeySequence("Ctrl+Return"), [this] { m_primary->click(); });
   on(QKeySequence("Alt+Left"), [this] { m_back->click(); });
 }
@@ -134,6 +138,7 @@ void MainWindow::addPage(Page* page, bool branch) {
   m_stack->addWidget(scroll);
   m_pages.append(page);
   m_rail->addStep(page->id(), page->title(), branch);
+  m_progress->addWidget(page->progressStrip());
   connect(page, &Page::refreshed, this, [this, page] {
     if (StepButton* step = m_rail->step(page->id())) step->setTitle(page->title());
     if (page == currentPage()) showHead();
@@ -154,8 +159,11 @@ Page* MainWindow::currentPage() const {
 
 void MainWindow::setCurrentPage(const QString& id) {
   for (int i = 0; i < m_pages.size(); ++i) {
-    if (m_pages[i]->id() == id) m_stack->setCurrentIndex(i);
+    if (m_pages[i]->id() != id || m_stack->currentIndex() == i) continue;
+    if (m_stack->currentWidget() != nullptr) keepFocusOff(m_stack->currentWidget());
+    m_stack->setCurrentIndex(i);
   }
+  if (m_help->isVisible() && currentPage() != nullptr) m_help->open(currentPage()->id());
   m_rail->setCurrent(currentPage() != nullptr ? currentPage()->id() : QString());
   showHead();
 }
@@ -177,6 +185,7 @@ void MainWindow::showHead() {
   for (int i = 0; same && i < wanted.size(); ++i) same = buttonAt(i)->objectName() == "action-" + wanted[i].id;
   if (!same) {
     while (QLayoutItem* item = m_actions->takeAt(0)) {
+      keepFocusOff(item->widget());
       item->widget()->hide();
       item->widget()->deleteLater();
       delete item;
@@ -191,6 +200,7 @@ void MainWindow::showHead() {
     }
   }
   for (int i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i].enabled) keepFocusOff(buttonAt(i));
     buttonAt(i)->setText(wanted[i].text);
     buttonAt(i)->setEnabled(wanted[i].enabled);
     buttonAt(i)->setToolTip(wanted[i].enabled ? wanted[i].tip : wanted[i].reason);
@@ -198,6 +208,7 @@ void MainWindow::showHead() {
   }
 
   const PageAction primary = now->primaryAction();
+  if (!primary.enabled || primary.text.isEmpty()) keepFocusOff(m_primary);
   m_primary->setVisible(!primary.text.isEmpty());
   m_primary->setText(primary.text);
   m_primary->setEnabled(primary.enabled);
@@ -210,6 +221,7 @@ void MainWindow::setStepState(const QString& id, StepState state, const QString&
 }
 
 void MainWindow::setBackEnabled(bool enabled) {
+  if (!enabled) keepFocusOff(m_back);
   m_back->setEnabled(enabled);
 }
 
@@ -234,6 +246,45 @@ void MainWindow::setLogVisible(bool visible) {
   m_log->setVisible(visible);
 }
 
+void MainWindow::setLanguagesOffered(bool offered) {
+  m_languagesOffered = offered;
+  m_rail->setLanguagesOffered(offered);
+}
+
+void MainWindow::toggleHelp() {
+  if (m_help->isVisible()) {
+    keepFocusOff(m_help);
+    m_help->hide();
+    return;
+  }
+  if (currentPage() == nullptr || !m_help->open(currentPage()->id())) return;
+  placeHelp();
+  m_help->show();
+  m_help->raise();
+}
+
+bool MainWindow::isHelpVisible() const {
+  return m_help->isVisible();
+}
+
+/// At the right, from head to foot: the primary button stays in reach.
+void MainWindow::placeHelp() {
+  constexpr int width = 440;
+  const QWidget* stack = m_stack;
+  const QPoint corner = stack->mapTo(centralWidget(), QPoint(stack->width() - width, 0));
+  m_help->setGeometry(QRect(corner, QSize(width, stack->height())));
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  if (m_help->isVisible()) QTimer::singleShot(0, this, &MainWindow::placeHelp);
+}
+
+void MainWindow::keepFocusOff(QWidget* going) {
+  QWidget* focused = focusWidget();
+  if (focused != nullptr && (focused == going || going->isAncestorOf(focused))) centralWidget()->setFocus();
+}
+
 void MainWindow::setExtraCommands(const QVector<Command>& commands) {
   m_extraCommands = commands;
 }
@@ -255,8 +306,9 @@ void MainWindow::openPalette() {
   }
   commands.append({"log", tr("Show what happened"), tr("Window"), "Ctrl+L", true});
   commands.append({"theme", tr("Switch between light and dark"), tr("Window"), {}, true});
-  commands.append({"language", tr("Change language"), tr("Window"), {}, true});
+  if (m_languagesOffered) commands.append({"language", tr("Change language"), tr("Window"), {}, true});
   commands.append({"help", tr("Help for this step"), tr("Window"), "F1", true});
+  commands.append({"quit", tr("Quit"), tr("Window"), "Ctrl+Q", true});
   commands += m_extraCommands;
   m_palette->open(commands);
 }
@@ -268,7 +320,11 @@ void MainWindow::runCommand(const QString& id) {
   if (id == "log") return setLogVisible(true);
   if (id == "theme") return Q_EMIT themeRequested();
   if (id == "language") return Q_EMIT languageRequested();
-  if (id == "help") return Q_EMIT helpRequested(currentPage()->id());
+  if (id == "help") return toggleHelp();
+  if (id == "quit") {
+    close();
+    return;
+  }
   Q_EMIT commandRequested(id);
 }
 

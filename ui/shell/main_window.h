@@ -18,6 +18,7 @@ class QStackedWidget;
 
 namespace zerodrift::ui {
 
+class HelpPanel;
 class Lamp;
 class LogDrawer;
 class Page;
@@ -48,8 +49,13 @@ class MainWindow : public QMainWindow {
   void setLamp(LampId lamp, const QString& text, Judgement judgement, bool strong = false);
   void setJob(const QString& job, const QString& engineer);
   void setLanguageName(const QString& name);
+  /// Off while there is one language only.
+  void setLanguagesOffered(bool offered);
   void appendLog(const QDateTime& time, Judgement judgement, const QString& text);
   void setLogVisible(bool visible);
+  /// Opens the help of the open page, or closes it.
+  void toggleHelp();
+  bool isHelpVisible() const;
   /// Beside steps and page actions, which the window knows itself.
   void setExtraCommands(const QVector<Command>& commands);
 
@@ -63,7 +69,6 @@ class MainWindow : public QMainWindow {
   void jobRequested();
   void languageRequested();
   void themeRequested();
-  void helpRequested(const QString& pageId);
   void undoRequested();
   void filesDropped(const QStringList& paths);
   void commandRequested(const QString& id);  // one of the extra commands
@@ -72,6 +77,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -84,6 +90,9 @@ class MainWindow : public QMainWindow {
   void runCommand(const QString& id);
   void showHead();
   void retranslate();
+  void placeHelp();
+  /// Before a control is switched off or removed: Qt would give its focus to the next one, which nobody asked for.
+  void keepFocusOff(QWidget* going);
 
   StepRail* m_rail;
   QLabel* m_title;
@@ -91,6 +100,9 @@ class MainWindow : public QMainWindow {
   QHBoxLayout* m_actions;
   QStackedWidget* m_stack;
   LogDrawer* m_log;
+  HelpPanel* m_help;
+  QHBoxLayout* m_progress;
+  bool m_languagesOffered = true;
   QVector<Lamp*> m_lamps;
   QPushButton* m_back;
   QPushButton* m_primary;

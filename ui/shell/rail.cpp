@@ -254,6 +254,10 @@ void StepRail::setLanguage(const QString& shownCode) {
   m_language->setText(shownCode);
 }
 
+void StepRail::setLanguagesOffered(bool offered) {
+  m_language->setVisible(offered);
+}
+
 void StepRail::setDark(bool dark) {
   for (QPushButton* button : {m_job, m_language, m_theme, m_help}) button->setStyleSheet(railButtonSheet());
   m_language->setIcon(lineIcon(Icon::globe, colors().railMuted));

@@ -68,6 +68,7 @@ class StepRail : public QWidget {
   void setCurrent(const QString& id);
   void setJob(const QString& job, const QString& engineer);
   void setLanguage(const QString& shownCode);
+  void setLanguagesOffered(bool offered);
   void setDark(bool dark);
   void retranslate();
 

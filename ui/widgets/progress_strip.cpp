@@ -11,9 +11,6 @@ QString durationText(double seconds) {
 }
 
 ProgressStrip::ProgressStrip(QWidget* parent) : QFrame(parent) {
-  setProperty("card", true);
-  m_phase = new QLabel(this);
-  m_phase->setProperty("role", "strong");
   m_left = new QLabel(this);
   m_left->setProperty("role", "caption");
   m_bar = new QProgressBar(this);
@@ -21,27 +18,27 @@ ProgressStrip::ProgressStrip(QWidget* parent) : QFrame(parent) {
   m_bar->setFixedHeight(6);
   m_cancel = new QPushButton(tr("Cancel"), this);
   m_cancel->setObjectName("cancelWork");
+  m_cancel->setProperty("big", true);
   connect(m_cancel, &QPushButton::clicked, this, &ProgressStrip::cancelRequested);
 
-  auto* words = new QHBoxLayout;
-  words->addWidget(m_phase);
-  words->addStretch();
-  words->addWidget(m_left);
   auto* column = new QVBoxLayout;
-  column->setSpacing(6);
-  column->addLayout(words);
+  column->setSpacing(5);
+  column->addStretch();
+  column->addWidget(m_left);
   column->addWidget(m_bar);
+  column->addStretch();
   auto* all = new QHBoxLayout(this);
-  all->setContentsMargins(16, 8, 12, 8);
-  all->setSpacing(16);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->setSpacing(10);
   all->addLayout(column, 1);
   all->addWidget(m_cancel);
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  m_bar->setFixedWidth(118);
+  setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   hide();
 }
 
 void ProgressStrip::setProgress(const QString& phase, double fraction, std::optional<double> secondsLeft) {
-  m_phase->setText(phase);
+  setToolTip(phase);
   if (fraction < 0.0) {
     m_bar->setRange(0, 0);
   } else {
@@ -51,7 +48,7 @@ void ProgressStrip::setProgress(const QString& phase, double fraction, std::opti
   QStringList words;
   if (fraction >= 0.0) words << tr("%1 %").arg(std::lround(100.0 * std::min(1.0, fraction)));
   if (secondsLeft) words << tr("%1 left").arg(durationText(*secondsLeft));
-  m_left->setText(words.join(QStringLiteral("  ·  ")));
+  m_left->setText(words.isEmpty() ? tr("working") : words.join(QStringLiteral(" · ")));
   m_bar->setAccessibleName(phase);
   show();
 }

@@ -30,7 +30,6 @@ class ProgressStrip : public QFrame {
   void changeEvent(QEvent* event) override;
 
  private:
-  QLabel* m_phase;
   QLabel* m_left;
   QProgressBar* m_bar;
   QPushButton* m_cancel;

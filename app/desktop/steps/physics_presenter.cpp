@@ -3,8 +3,10 @@
 #include <QCoreApplication>
 #include <QDir>
 #include <QRandomGenerator>
+#include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/desktop/physics_view.h"
 #include "core/flow/steps/diagnose_step.h"
@@ -48,10 +50,17 @@ void fill_search(const json& body, ui::PhysicsState& state) {
   state.noise_K = over_temperatures(rmse.value("noise", json::object()));
   const bool adopted = !body.value("adopted", json::array()).empty();
   state.rmse_K = over_temperatures(rmse.value(adopted ? "after" : "before", json::object()));
-  state.held_K = over_temperatures(rmse.value("held_out_after", json::object()));
+  state.adopted = adopted;
+  state.held_K = over_temperatures(rmse.value(adopted ? "held_out_after" : "held_out_before", json::object()));
   if (state.verdict != ui::PhysicsVerdict::consistent) {
     state.missing_W = diagnosis.value("mismatch", json::object()).value("missing_heat_W", std::nan(""));
   }
+}
+
+/// The letters of formulas, "g = -5.1 µm/K", say nothing to who does not know the formula; the unit tells what it is.
+QString without_letters(QString text) {
+  static const QRegularExpression letter(QStringLiteral("(?<![\\w])[\\p{L}][\\p{L}_]{0,2} = (?=[-+−]?\\d)"));
+  return text.remove(letter);
 }
 
 }  // namespace
@@ -75,13 +84,13 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
     }
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
-    if (action == QStringLiteral("trial")) {
-      tryBlind();
-    } else if (action == QStringLiteral("region") && this->bench().has("physics")) {
-      m_page->showView(0);
-    } else {
-      find({});
+    if (action == QStringLiteral("open")) {
+      m_page->showView(2);
+      openTrial();
     }
+    if (action == QStringLiteral("trial")) tryBlind();
+    if (action == QStringLiteral("region")) findRegion();
+    if (action == QStringLiteral("find")) find({});
   });
 }
 
@@ -92,6 +101,51 @@ void PhysicsPresenter::find(std::function<void(bool good)> done) {
   runStep(
       tr("Looking for what the simulation lacks"),
       [job](const TaskContext& context) { return flow::find_missing(*job, context); }, std::move(done));
+}
+
+/// The region is computed with the simulation; here it is brought before the eyes, on its component and in words.
+void PhysicsPresenter::findRegion() {
+  if (!bench().has("physics")) {
+    find([this](bool good) {
+      if (good) findRegion();
+    });
+    return;
+  }
+  m_regionAsked = true;
+  m_page->showView(0);
+  const json placement = bench().body("physics").value("placement", json());
+  const auto& components = m_page->state().components;
+  for (int i = 0; placement.is_object() && i < components.size(); ++i) {
+    if (components[i].regionTo_mm > components[i].regionFrom_mm) m_component = i;
+  }
+  refresh();
+}
+
+QString PhysicsPresenter::regionInWords() {
+  const json placement = bench().body("physics").value("placement", json());
+  if (!placement.is_object()) {
+    return tr("No sensor region could be found: the machine description has no rod whose deformation was simulated.");
+  }
+  const double middle_mm = 0.5 * (placement.value("from_mm", 0.0) + placement.value("to_mm", 0.0));
+  json best = json::object();
+  double nearest_mm = std::numeric_limits<double>::infinity();
+  const json along = placement.value("along", json::array());
+  for (const auto& place : along) {
+    const double distance_mm = std::abs(place.value("position_mm", 0.0) - middle_mm);
+    if (distance_mm < nearest_mm) best = place, nearest_mm = distance_mm;
+  }
+  QString words = tr("A sensor between %1 and %2 mm from the fixed end of the %3 follows the deformation best")
+                      .arg(placement.value("from_mm", 0.0), 0, 'f', 1)
+                      .arg(placement.value("to_mm", 0.0), 0, 'f', 1)
+                      .arg(QString::fromStdString(placement.value("component", "component")));
+  if (best.contains("correlation") && best["correlation"].is_number()) {
+    words += tr(" (r = %1").arg(best["correlation"].get<double>(), 0, 'f', 4);
+    if (best.contains("residual_um") && best["residual_um"].is_number()) {
+      words += tr(", %1 µm left by a straight line").arg(best["residual_um"].get<double>(), 0, 'f', 2);
+    }
+    words += QLatin1Char(')');
+  }
+  return words + QLatin1Char('.');
 }
 
 void PhysicsPresenter::judge(const QString& effect, bool adopt, bool reject) {
@@ -124,10 +178,6 @@ void PhysicsPresenter::undo() {
 
 void PhysicsPresenter::tryBlind() {
   m_page->showView(2);
-  if (m_shownTrial.stage == ui::TrialStage::answered) {
-    openTrial();
-    return;
-  }
   const QString program = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
   const int seed = QRandomGenerator::global()->bounded(1, 1 << 20);  // nobody knows what will be hidden
   runTask<TrialCase>(
@@ -243,6 +293,13 @@ void PhysicsPresenter::refresh() {
       fill_search(body, state);
       fill_explanations(body, runs, state);
     }
+  }
+  if (m_regionAsked && body.is_object()) state.region = regionInWords();
+  const auto plain = [this](QString& text) { text = without_letters(bench().inWords(text.toStdString())); };
+  plain(state.verdictSentence);
+  plain(state.nextExperiment);
+  for (auto& card : state.explanations) {
+    for (QString* text : {&card.sentence, &card.magnitude, &card.rivals, &card.couldDetect}) plain(*text);
   }
   state.trials = m_trials;
   state.trial = m_shownTrial;

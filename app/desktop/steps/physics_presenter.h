@@ -32,9 +32,12 @@ class PhysicsPresenter : public Presenter {
   void searchTrial();
   void openTrial();
   void proposePlan();
+  void findRegion();
+  QString regionInWords();
 
   ui::PhysicsPage* m_page;
   int m_component = 0;
+  bool m_regionAsked = false;
   std::vector<Judgements> m_undo;
   // The blind trial on the screen, and those that were opened.
   QTimer m_watching;

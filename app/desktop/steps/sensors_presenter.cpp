@@ -22,7 +22,8 @@ double number(const json& object, const char* key) {
 }
 
 QString tag_of(const std::string& channel) {
-  return QString::fromStdString(channel).remove(QStringLiteral("_C"));
+  return channel == "ambient_C" ? SensorsPresenter::tr("Room")
+                                : QString::fromStdString(channel).remove(QStringLiteral("_C"));
 }
 
 QVector<double> standardised(const std::vector<double>& values, std::size_t stride) {

@@ -6,6 +6,7 @@
 #include <QStorageInfo>
 #include <cmath>
 
+#include "app/desktop/ask.h"
 #include "core/acquisition/job_sink.h"
 #include "core/base/json.h"
 #include "core/flow/steps/warmup_step.h"
@@ -105,8 +106,8 @@ void WarmupPresenter::secondary(const QString& action) {
 /// An interrupted run is taken up only to be ended as it should: spindle off, series closed, what there is kept.
 void WarmupPresenter::finishInterrupted() {
   if (m_page->state().phase != ui::RunPhase::interrupted ||
-      !mayEnd(tr("Finish the interrupted run?"), tr("What was recorded until the interruption is kept and used."),
-              tr("Finish"))) {
+      !ask(m_page, tr("Finish the interrupted run?"), tr("What was recorded until the interruption is kept and used."),
+           tr("Finish"))) {
     return;
   }
   connect(

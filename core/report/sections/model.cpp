@@ -28,7 +28,7 @@ std::optional<Section> model_section(const Source& source) {
   section.blocks.emplace_back(std::move(figures));
   Table table;
   table.id = "coefficients";
-  table.title = source.say("Coefficients of the table: error = offset + sum of coefficient x (T - reference)");
+  table.title = source.say("Coefficients of the table: error = offset + sum of coefficient × (T − reference)");
   table.header = {source.say("direction"), source.say("sensor"), source.say("µm/K"), source.say("reference, °C")};
   table.trace = source.trace("model", "terms");
   for (const auto& row : model->body.value("table", nlohmann::json::array())) {

@@ -1,8 +1,16 @@
 // What was written to the controller, and how.
 
+#include <algorithm>
+
 #include "core/report/build.h"
 
 namespace zerodrift::report {
+
+/// "reading back" of "reading_back".
+static std::string words_of(std::string state) {
+  std::replace(state.begin(), state.end(), '_', ' ');
+  return state;
+}
 
 std::optional<Section> upload_section(const Source& source) {
   const LoadedArtefact* upload = source.find("upload");
@@ -36,7 +44,7 @@ std::optional<Section> upload_section(const Source& source) {
   states.trace = source.trace("upload", "states");
   for (const auto& row : body.value("states", nlohmann::json::array())) {
     states.rows.push_back(
-        {text_of(row, "state"), shown(number_of(row, "at_s"), 2), source.in_words(text_of(row, "detail"))});
+        {words_of(text_of(row, "state")), shown(number_of(row, "at_s"), 2), source.in_words(text_of(row, "detail"))});
   }
   if (!states.rows.empty()) section.blocks.emplace_back(std::move(states));
   return section;

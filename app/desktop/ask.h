@@ -1,0 +1,13 @@
+#pragma once
+// A question before something that cannot be taken back: what happens in words, the deed on the button.
+
+#include <QString>
+
+class QWidget;
+
+namespace zerodrift::desktop {
+
+/// True when the person pressed `deed`; Cancel is the default and what Escape means.
+bool ask(QWidget* parent, const QString& heading, const QString& text, const QString& deed);
+
+}  // namespace zerodrift::desktop

@@ -1,0 +1,39 @@
+#pragma once
+// Help of the open step beside the page: the pages of docs/help, which are part of the program and need no network.
+
+#include <QFrame>
+
+class QLabel;
+class QPushButton;
+class QTextBrowser;
+
+namespace zerodrift::ui {
+
+class HelpPanel : public QFrame {
+  Q_OBJECT
+
+ public:
+  explicit HelpPanel(QWidget* parent = nullptr);
+  /// The help of this page; false when there is none.
+  bool open(const QString& pageId);
+  QString pageId() const { return m_pageId; }
+  QString text() const;
+  void retranslate();
+
+ Q_SIGNALS:
+  void closeRequested();
+
+ protected:
+  void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void load();
+
+  QString m_pageId;
+  QLabel* m_title;
+  QPushButton* m_close;
+  QTextBrowser* m_text;
+};
+
+}  // namespace zerodrift::ui
