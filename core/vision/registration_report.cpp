@@ -13,14 +13,20 @@ namespace {
 constexpr int tiles_a_side = 8;
 constexpr int tiles = tiles_a_side * tiles_a_side;
 constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
+constexpr double most_of_tile = 0.95;
 
 }  // namespace
 
 struct RegistrationSolver::Scores {
-  Eigen::Matrix<double, column_count, Eigen::Dynamic> gradient =
-      Eigen::Matrix<double, column_count, Eigen::Dynamic>::Zero(column_count, tiles);
+  std::array<Vector, tiles> gradient;
+  std::array<Eigen::Matrix<float, column_count, column_count>, tiles> normal;
   std::array<double, tiles> error{};
   std::array<double, tiles> weight{};
+
+  Scores() {
+    gradient.fill(Vector::Zero());
+    normal.fill(Eigen::Matrix<float, column_count, column_count>::Zero());
+  }
 };
 
 std::vector<float> RegistrationSolver::residual_map(int width, int height) const {
@@ -70,8 +76,8 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
   out.saturated_share = static_cast<double>(bright) / count;
 }
 
-// Sums over tiles of the region: of weight times error times row (with the field's share taken off), of weighted
-// standardized errors, and of weights.
+// Sums over tiles of the region: of weight times error times row (with the field's share taken off) and of weight times
+// row times row, of weighted standardized errors, and of weights.
 RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const {
   Scores out;
   Eigen::MatrixXf rows = m_rows.leftCols(count);
@@ -85,14 +91,30 @@ RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const 
     const int tile = m_model.row[k] * tiles_a_side / height * tiles_a_side + m_model.column[k] * tiles_a_side / width;
     out.error[tile] += w * m_error(k) * m_noise_root(k);
     out.weight[tile] += w;
-    out.gradient.col(tile) += (m_weight(k) * m_error(k) * rows.col(k)).cast<double>();
+    out.gradient[tile] += (m_weight(k) * m_error(k) * rows.col(k)).cast<double>();
+    out.normal[tile].noalias() += (m_weight(k) * rows.col(k)) * rows.col(k).transpose();
   }
   return out;
 }
 
+// Variance of the shift by leaving out each tile in turn (Quenouille's and Tukey's jackknife): a few tiles that carry
+// the result, as a ball's limb does, draw it towards themselves and would look innocent in a sum of squared scores.
+Eigen::Vector2d RegistrationSolver::jackknife(const Scores& scores) const {
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (int tile = 0; tile < tiles; ++tile) {
+    if (scores.weight[tile] <= 0.0) continue;
+    // What is left without the tile; at least a part of it, where the others cannot tell a column at all.
+    const Normal without = m_prepared.normal - most_of_tile * scores.normal[tile].cast<double>();
+    const Eigen::LDLT<Normal> solved(without);
+    if (solved.info() != Eigen::Success) continue;
+    squares += solved.solve(scores.gradient[tile]).head<2>().cwiseAbs2();
+  }
+  return squares;
+}
+
 // Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
-// in the residual: the scores summed over tiles instead of pixels (cluster-robust sandwich), which sees what the noise
-// formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
+// in the residual: the scores summed over tiles instead of pixels, each tile left out in turn, which sees what the
+// noise formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
 void RegistrationSolver::tell_uncertainty(int count, Registration& out) const {
   double psi2 = 0.0, slope = 0.0, sum_w = 0.0;
   int used = 0;
@@ -121,10 +143,10 @@ void RegistrationSolver::tell_uncertainty(int count, Registration& out) const {
   const double factor = variance * used / sum_w * shrink * shrink;
   const Eigen::Vector2d growth(std::sqrt(m_model.noise_growth_x), std::sqrt(m_model.noise_growth_y));
   const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;
-  const Normal sandwich = inverse * (scores.gradient * scores.gradient.transpose()) * inverse * (shrink * shrink);
+  const Eigen::Vector2d by_tiles = jackknife(scores) * (shrink * shrink);
   // Each axis grows to what the tiles say; the correlation of the noise formula is kept.
-  const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, sandwich(0, 0) / noise(0, 0))),
-                              std::sqrt(std::max(1.0, sandwich(1, 1) / noise(1, 1))));
+  const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_tiles(0) / noise(0, 0))),
+                              std::sqrt(std::max(1.0, by_tiles(1) / noise(1, 1))));
   out.covariance_px2 = ratio.asDiagonal() * noise * ratio.asDiagonal();
   out.lens.per_px2 = m_lens;
   out.lens.sigma_per_px2 = std::sqrt(std::max(inverse(bend, bend) * factor, 0.0)) * registration_lens_unit;

@@ -72,6 +72,7 @@ class RegistrationSolver {
   void tell_fit(int count, Registration& out) const;
   void tell_uncertainty(int count, Registration& out) const;
   Scores scores_of_tiles(int count) const;
+  Eigen::Vector2d jackknife(const Scores& scores) const;
 
   const TemplateModel& m_model;
   const FramePatch& m_patch;

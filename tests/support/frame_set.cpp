@@ -204,8 +204,8 @@ Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t se
   for (int i = 0; i < frame_count; ++i) {
     frames.push_back(draw_frame(disturbance, scene, own_seed, i, frame_count, noise));
   }
-  // The calibrated area holds every frame: 10 px for motions of 8, 45 for motions of 40.
-  const double span_um = scene.renderer.camera().um_per_px * (disturbance == Disturbance::large_motion ? 45.0 : 10.0);
+  // As a calibration is planned: at least 70 px wide, and half again the motion on each side of it.
+  const double span_um = scene.renderer.camera().um_per_px * (disturbance == Disturbance::large_motion ? 60.0 : 35.0);
   std::vector<CalibrationView> grid;
   for (int i = 0; i < 9; ++i) {
     const int column = i % 3 - 1;

@@ -136,6 +136,7 @@ void run_ours(const BenchSession& session, const Options& options, Score& score)
     const vision::ErrorUm um_exact = exact->to_um(true_at);
     score.um_numbers += 2;
     score.um += std::pow(um.x_um - frame.ex_um, 2) + std::pow(um.y_um - frame.ey_um, 2);
+    if (!marks.empty()) continue;  // the exact positions hold the camera's drift too
     score.um_exact += std::pow(um_exact.x_um - frame.ex_um, 2) + std::pow(um_exact.y_um - frame.ey_um, 2);
   }
 }
@@ -159,8 +160,8 @@ void print_table(const std::string& method) {
     const double um_n = std::max(s.um_numbers, 1);
     fmt::print("{:13} {:7} {:6} {:5} {:5} {:6} {:9.3f} {:7.2f} {:7.2f} {:9.4f} {:7.3f} {:8.3f} {:6.1f}\n", key.first,
                key.second, s.frames, s.refused, s.gross, s.false_accepts, 1e3 * s.rmse(), std::sqrt(s.over_bound / n),
-               std::sqrt(s.pull / n), s.worst, std::sqrt(s.um / um_n), std::sqrt(s.um_exact / um_n),
-               s.ms / std::max(s.frames, 1));
+               std::sqrt(s.pull / n), s.worst, std::sqrt(s.um / um_n),
+               s.um_exact > 0.0 ? std::sqrt(s.um_exact / um_n) : std::nan(""), s.ms / std::max(s.frames, 1));
   }
 }
 
