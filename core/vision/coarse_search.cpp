@@ -16,6 +16,8 @@ constexpr double free_px = 80.0;          // displacements up to here are all eq
 constexpr double far_penalty = 0.15;      // of the correlation, at twice that and beyond
 constexpr double sure_correlation = 0.6;  // below this the next finer level is searched as well
 
+constexpr double found_correlation = 0.85;  // beside such a place those far behind it need not be refined
+constexpr double far_behind = 0.3;
 constexpr int climb_steps = 5;  // of half pixels: a quarter pixel's peak is never further off
 
 constexpr double surroundings_px = 3.0;  // of each level of the pyramid
@@ -218,13 +220,16 @@ std::vector<Candidate> CoarseSearch::find_from(const std::vector<GrayImage>& fra
   Climb climb(finer ? half : padded, finer ? templates[1] : top);
   const int level = finer ? 1 : top_level;
   std::vector<Candidate> candidates;
+  double best = -1.0;
   for (const cv::Point& peak : starts) {
+    if (best > found_correlation && plain.at<float>(peak) < best - far_behind) continue;
     const double penalty = plain.at<float>(peak) - scores.at<float>(peak);
     const Peak found = climb.top(finer ? 2 * peak : peak, climb_steps);
     const int pad = 1 << (finer ? 1 : 0);
     const auto full = [&](double place, int border, int home) {
       return static_cast<int>(std::lround((place - pad * border) * (1 << level))) - home;
     };
+    best = std::max(best, found.correlation);
     candidates.push_back(
         {full(found.x, pad_x, m_region.x), full(found.y, pad_y, m_region.y), found.correlation - penalty});
   }

@@ -21,34 +21,42 @@ double largest_spot_radius(const cv::Mat& saturated) {
 
 }  // namespace
 
-FramePatch::FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur_px2, bool wide_glare)
-    : spline(blurred(crop(frame, at), blur_px2)), state(static_cast<std::size_t>(at.width) * at.height, seen) {
-  cv::Mat dark(at.height, at.width, CV_8U, cv::Scalar(1));  // 0 where saturated
-  bool any = false;
+FramePatch::FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur)
+    : blur_px2(blur),
+      spline(blurred(crop(frame, at), blur)),
+      state(static_cast<std::size_t>(at.width) * at.height, seen) {
   for (int y = 0; y < at.height; ++y) {
     for (int x = 0; x < at.width; ++x) {
+      const std::size_t here = static_cast<std::size_t>(y) * at.width + x;
       const int fx = at.x + x;
       const int fy = at.y + y;
       if (fx < 0 || fy < 0 || fx >= frame.width || fy >= frame.height) {
-        state[static_cast<std::size_t>(y) * at.width + x] = outside;
+        state[here] = outside;
       } else if (frame.at(fx, fy) >= saturated_level) {
-        dark.at<std::uint8_t>(y, x) = 0;
-        any = true;
+        if (m_dark.empty()) m_dark.assign(state.size(), 1);
+        m_dark[here] = 0;
       }
     }
   }
-  if (!any) return;
-  // What a saturated pixel reaches through the spline and the blur, and the flank of a glaring spot.
-  double reach = 2.0 + std::ceil(std::sqrt(blur_px2.trace()));
-  if (wide_glare) reach += flank_radii * largest_spot_radius(1 - dark);
+  leave_out_bright(0.0);
+}
+
+// What a saturated pixel reaches through the spline and the blur, and further.
+void FramePatch::leave_out_bright(double further_px) {
+  if (m_dark.empty()) return;
+  const double reach = 2.0 + std::ceil(std::sqrt(blur_px2.trace())) + further_px;
   cv::Mat distance;
-  cv::distanceTransform(dark, distance, cv::DIST_L2, cv::DIST_MASK_3);
-  for (int y = 0; y < at.height; ++y) {
-    for (int x = 0; x < at.width; ++x) {
-      std::uint8_t& one = state[static_cast<std::size_t>(y) * at.width + x];
-      if (one == seen && distance.at<float>(y, x) <= reach) one = too_bright;
-    }
+  cv::distanceTransform(cv::Mat(spline.height(), spline.width(), CV_8U, m_dark.data()), distance, cv::DIST_L2,
+                        cv::DIST_MASK_3);
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    if (state[k] == seen && distance.ptr<float>()[k] <= reach) state[k] = too_bright;
   }
+}
+
+void FramePatch::widen_glare() {
+  if (m_dark.empty()) return;
+  const cv::Mat dark(spline.height(), spline.width(), CV_8U, m_dark.data());
+  leave_out_bright(flank_radii * largest_spot_radius(1 - dark));
 }
 
 }  // namespace zerodrift::vision

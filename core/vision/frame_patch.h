@@ -13,11 +13,17 @@ namespace zerodrift::vision {
 struct FramePatch {
   enum State : std::uint8_t { seen, outside, too_bright };
 
-  /// `wide_glare`: leave out the surroundings of bright spots as well, where their flank still falls steeply.
-  FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur_px2, bool wide_glare);
+  FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur_px2);
+  /// Leaves out the surroundings of bright spots as well, where their flank still falls steeply.
+  void widen_glare();
 
+  Eigen::Matrix2d blur_px2;
   SplineImage spline;
   std::vector<std::uint8_t> state;  // one a pixel
+
+ private:
+  void leave_out_bright(double further_px);
+  std::vector<std::uint8_t> m_dark;  // 0 where the frame is saturated; empty if it is nowhere
 };
 
 }  // namespace zerodrift::vision

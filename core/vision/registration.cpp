@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/vision/frame_patch.h"
@@ -14,9 +15,11 @@ namespace {
 constexpr double prefilter_px2 = 0.25;   // variance of the blur on both images: keeps the spline's bias below the noise
 constexpr double blur_limit_px2 = 0.25;  // a larger change of blur is put into the images and solved again
 constexpr double largest_blur_px2 = 40.0;  // trace of the covariance
-constexpr double round_blur_px2 = 0.3;     // nearer to round than this, the blur is made round, which is quicker
-constexpr double structure_limit = 2.4;    // tile means over their noise: above it a smooth field is solved as well
-constexpr double glare_share = 0.005;      // of saturated pixels
+constexpr double usual_edge_px2 = 0.8;     // variance of an edge in a picture in focus
+constexpr double largest_part = 0.45;
+constexpr double round_blur_px2 = 0.3;   // nearer to round than this, the blur is made round, which is quicker
+constexpr double structure_limit = 2.4;  // tile means over their noise: above it a smooth field is solved as well
+constexpr double glare_share = 0.005;    // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr int largest_rounds = 5;
@@ -30,6 +33,14 @@ bool needs_field(const Registration& r) {
   return r.structure > structure_limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
 }
 
+// The solve sees of a blur the part that the second derivative tells. For an edge of variance s^2 that is further
+// blurred by v it is q = 4 s^2 (1 - (1 + v / 2 s^2)^-1/2), by the integral over the edge's spectrum; this is its
+// inverse.
+double whole_change(double seen_px2, double edge_px2) {
+  const double part = std::min(std::abs(seen_px2) / (4.0 * edge_px2), largest_part);
+  return std::copysign(2.0 * edge_px2 * (1.0 / ((1.0 - part) * (1.0 - part)) - 1.0), seen_px2);
+}
+
 // Blurs the sharper of the two images until both are alike; false when they are alike enough already or never will be.
 bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solved(extra_px2);
@@ -37,6 +48,10 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   if (change.cwiseAbs().maxCoeff() < blur_limit_px2) return false;
   if (change(1) - change(0) < round_blur_px2) change.setConstant(change.mean());
   const Eigen::Matrix2d& axes = solved.eigenvectors();
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Matrix2d& there = change(k) > 0.0 ? setup.template_blur : setup.frame_blur;
+    change(k) = whole_change(change(k), usual_edge_px2 + axes.col(k).dot(there * axes.col(k)));
+  }
   ImageSetup next = setup;
   next.template_blur += axes * change.cwiseMax(0.0).asDiagonal() * axes.transpose();
   next.frame_blur += axes * (-change).cwiseMax(0.0).asDiagonal() * axes.transpose();
@@ -47,10 +62,35 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
 
 }  // namespace
 
+// The part of a frame at one place, made anew only when another blur is asked for.
+class PatchOfFrame {
+ public:
+  PatchOfFrame(const GrayImage& frame, const Region& at) : m_frame(frame), m_at(at) {}
+  const FramePatch& with(const ImageSetup& setup) {
+    if (!m_patch || m_patch->blur_px2 != setup.frame_blur || (m_wide && !setup.with_field)) {
+      m_patch.emplace(m_frame, m_at, setup.frame_blur);
+      m_wide = false;
+    }
+    if (setup.with_field && !m_wide) {
+      m_patch->widen_glare();
+      m_wide = true;
+    }
+    return *m_patch;
+  }
+
+ private:
+  const GrayImage& m_frame;
+  Region m_at;
+  std::optional<FramePatch> m_patch;
+  bool m_wide = false;
+};
+
 Registrar::Registrar(TemplateSource source)
     : m_source(std::move(source)),
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
-                                  prefilter_px2 * Eigen::Matrix2d::Identity())) {}
+                                  prefilter_px2 * Eigen::Matrix2d::Identity())) {
+  find_noise_growth(m_model);
+}
 
 Region Registrar::patch_at(int dx_px, int dy_px) const {
   const Region& region = m_source.region;
@@ -59,32 +99,30 @@ Region Registrar::patch_at(int dx_px, int dy_px) const {
 }
 
 Registration Registrar::glance(const GrayImage& frame, int dx_px, int dy_px) const {
-  const FramePatch patch(frame, patch_at(dx_px, dy_px), m_model.blur_px2, false);
+  const FramePatch patch(frame, patch_at(dx_px, dy_px), m_model.blur_px2);
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   RegistrationSolver solver(m_model, patch, nullptr, start);
-  return solver.glance() ? solver.result(m_model.pixels / 4) : Registration{};
+  return solver.glance() ? solver.fit(m_model.pixels / 4) : Registration{};
 }
 
 // Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only
 // then can the rest be solved well, and a smooth field must not take for itself what a blur does.
-void Registrar::match_blur_at_a_glance(const GrayImage& frame, const Region& at, ImageSetup& setup,
+void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
                                        std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
   ImageSetup tried = setup;
   std::optional<TemplateModel> tried_model;
   double best = 0.0;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = tried_model ? *tried_model : m_model;
-    const FramePatch patch(frame, at, tried.frame_blur, false);
-    RegistrationSolver solver(model, patch, nullptr, start);
+    RegistrationSolver solver(model, patches.with(tried), nullptr, start);
     if (!solver.glance()) return;
-    const double now = fit_of(solver.result(model.pixels / 4));
+    const double now = fit_of(solver.fit(model.pixels / 4));
     if (now < best) return;  // what looked like a blur was none: a chip over the edges, for example
     best = now;
     setup = tried;
     blurred_model = tried_model;
-    start.shift_px = solver.shift_px();
-    start.linear = solver.linear();
+    solver.hand_over(start);
     if (!match_blur(solver.extra_blur_px2(), tried)) return;
     tried_model = make_template_model(m_source, tried.template_blur, tried.frame_blur);
   }
@@ -92,32 +130,31 @@ void Registrar::match_blur_at_a_glance(const GrayImage& frame, const Region& at,
 
 Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
                             bool with_residual_map) const {
-  const Region at = patch_at(dx_px, dy_px);
+  PatchOfFrame patches(frame, patch_at(dx_px, dy_px));
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
   ImageSetup setup{m_model.blur_px2, m_model.blur_px2, false};
   std::optional<TemplateModel> blurred_model;
-  match_blur_at_a_glance(frame, at, setup, blurred_model, start);
+  match_blur_at_a_glance(patches, setup, blurred_model, start);
   Registration out;
   for (int round = 0; round < largest_rounds; ++round) {
+    if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
     const TemplateModel& model = blurred_model ? *blurred_model : m_model;
-    const FramePatch patch(frame, at, setup.frame_blur, setup.with_field);
     std::optional<SmoothField> field;
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
-    RegistrationSolver solver(model, patch, field ? &*field : nullptr, start);
+    RegistrationSolver solver(model, patches.with(setup), field ? &*field : nullptr, start);
     if (!solver.run()) {
       // A first attempt without the field may fail in a strong halo; one with it is the last.
       if (setup.with_field) break;
       setup.with_field = true;
       continue;
     }
-    const Registration found = solver.result(model.pixels);
+    const Registration found = solver.result();
     if (setup.with_field && out.converged && found.structure > out.structure) break;  // the field explained nothing
     out = found;
     if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
-    start.shift_px = solver.shift_px();
-    start.linear = solver.linear();
+    solver.hand_over(start);
     if (match_blur(solver.extra_blur_px2(), setup)) {
       blurred_model = make_template_model(m_source, setup.template_blur, setup.frame_blur);
     } else if (!setup.with_field && needs_field(out)) {

@@ -32,6 +32,7 @@ struct Registration {
 };
 
 struct RegistrationStart;
+class PatchOfFrame;
 
 /// What was put into the images and the model to make them alike.
 struct ImageSetup {
@@ -55,8 +56,8 @@ class Registrar {
 
  private:
   Region patch_at(int dx_px, int dy_px) const;
-  void match_blur_at_a_glance(const GrayImage& frame, const Region& at, ImageSetup& setup,
-                              std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const;
+  void match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup, std::optional<TemplateModel>& blurred_model,
+                              RegistrationStart& start) const;
 
   TemplateSource m_source;
   TemplateModel m_model;  // with the smallest blur

@@ -71,6 +71,8 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
   m_noise_root = m_noise_weight.cwiseSqrt();
   m_light.setZero();
   m_light(0) = 1.0;
+  if (start.light) m_light = *start.light;
+  m_light_known = start.light.has_value();
   if (m_field != nullptr) m_field_levels.setZero(m_field->size());
 }
 
@@ -351,7 +353,7 @@ bool RegistrationSolver::glance() {
   const Eigen::Vector2d start = m_shift;
   const int few = m_model.pixels / 4;
   for (int k = 0; k < few; ++k) fill_row(k);
-  if (!start_light(few)) return false;
+  if (!m_light_known && !start_light(few)) return false;
   for (int k = 0; k < settle_iterations; ++k) {
     if (!step(few) || (m_shift - start).norm() > reach_px) return false;
     if (m_last_step_px < nearly_settled_px) break;
@@ -378,7 +380,14 @@ void RegistrationSolver::choose_tukey() {
   m_tukey = clean ? tukey_wide : tukey_narrow;
 }
 
-Registration RegistrationSolver::result(int count) const {
+void RegistrationSolver::hand_over(RegistrationStart& start) const {
+  start.shift_px = m_shift;
+  start.linear = m_linear;
+  start.light = m_light;
+  start.light->tail<3>().setZero();
+}
+
+Registration RegistrationSolver::fit(int count) const {
   Registration out;
   out.converged = true;
   out.linear = m_linear;
@@ -387,7 +396,12 @@ Registration RegistrationSolver::result(int count) const {
   out.residual = m_scale;
   out.iterations = m_iterations;
   tell_fit(count, out);
-  tell_uncertainty(count, out);
+  return out;
+}
+
+Registration RegistrationSolver::result() const {
+  Registration out = fit(m_model.pixels);
+  tell_uncertainty(m_model.pixels, out);
   return out;
 }
 

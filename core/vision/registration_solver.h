@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/vision/frame_patch.h"
@@ -16,6 +17,7 @@ namespace zerodrift::vision {
 
 inline constexpr double registration_length_px = 100.0;  // scale of coordinates in the linear columns, for conditioning
 inline constexpr double registration_lens_unit = 1e-8;   // of the lens column, likewise
+inline constexpr int registration_light_count = 7;       // gain and its plane, offset, blur
 inline constexpr int patch_margin_px = 18;               // around the region: rotation, blur and the spline's support
 
 struct RegistrationStart {
@@ -23,6 +25,7 @@ struct RegistrationStart {
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the named point from there
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
   LensTerm lens;
+  std::optional<Eigen::Matrix<double, registration_light_count, 1>> light;  // of an earlier solve, without its blur
 };
 
 class RegistrationSolver {
@@ -35,12 +38,16 @@ class RegistrationSolver {
   bool run();
   /// On the first quarter of the pixels, which is spread evenly over the region.
   bool glance();
-  /// Of the last step, which used `count` pixels.
-  Registration result(int count) const;
+  /// After run.
+  Registration result() const;
+  /// After either, how well it fits and nothing of its uncertainty.
+  Registration fit(int count) const;
   /// Errors over their scale at each pixel of the region; NaN where the model has none.
   std::vector<float> residual_map(int width, int height) const;
   const Eigen::Vector2d& shift_px() const { return m_shift; }
   const Eigen::Matrix2d& linear() const { return m_linear; }
+  /// To go on from here with images that are blurred alike.
+  void hand_over(RegistrationStart& start) const;
   /// Covariance by which the frame is more blurred than the template.
   Eigen::Matrix2d extra_blur_px2() const;
 
@@ -49,6 +56,7 @@ class RegistrationSolver {
   enum Column { tx, ty, axx, axy, ayx, ayy, bend, gain, gain_x, gain_y, offset, bxx, bxy, byy, column_count };
   static constexpr int motion_count = 7;
   static constexpr int light_count = column_count - motion_count;
+  static_assert(light_count == registration_light_count);
   using Normal = Eigen::Matrix<double, column_count, column_count>;
   using Vector = Eigen::Matrix<double, column_count, 1>;
   using Rows = Eigen::Matrix<float, column_count, Eigen::Dynamic>;
@@ -94,6 +102,7 @@ class RegistrationSolver {
   NeighbourWeights m_judge;
   double m_tukey;
   double m_scale = 1.0;
+  bool m_light_known = false;
   double m_last_step_px = 1.0;
   int m_iterations = 0;
 

@@ -79,8 +79,8 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
                                   const Eigen::Matrix2d& frame_blur_px2) {
   const FloatImage smooth = blurred(source.pixels, blur_px2);
   const SplineImage spline(smooth);
-  const FloatImage fx = spline.derivative(1, 0);
-  const FloatImage fy = spline.derivative(0, 1);
+  FloatImage fx = spline.derivative(1, 0);
+  FloatImage fy = spline.derivative(0, 1);
   const FloatImage fxx = spline.derivative(2, 0);
   const FloatImage fxy = spline.derivative(1, 1);
   const FloatImage fyy = spline.derivative(0, 2);
@@ -116,9 +116,15 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   }
   model.pixels = static_cast<int>(model.column.size());
   model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));
-  model.noise_growth_x = noise_growth(fx, {blur_px2, frame_blur_px2});
-  model.noise_growth_y = noise_growth(fy, {blur_px2, frame_blur_px2});
+  model.frame_blur_px2 = frame_blur_px2;
+  model.gradient_x = std::move(fx);
+  model.gradient_y = std::move(fy);
   return model;
+}
+
+void find_noise_growth(TemplateModel& model) {
+  model.noise_growth_x = noise_growth(model.gradient_x, {model.blur_px2, model.frame_blur_px2});
+  model.noise_growth_y = noise_growth(model.gradient_y, {model.blur_px2, model.frame_blur_px2});
 }
 
 }  // namespace zerodrift::vision

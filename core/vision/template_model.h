@@ -17,10 +17,12 @@ struct TemplateModel {
   std::vector<float> fx, fy;         // per px
   std::vector<float> fxx, fxy, fyy;  // per px^2
   Eigen::Matrix2d blur_px2;          // covariance of the blur in it
-  double noise_growth_x = 1.0;       // by how much the blur's noise correlation raises the variance of x and y
-  double noise_growth_y = 1.0;       // over the formula for independent noise
-  double noise_correlation = 1.0;    // pixels that carry the noise of one, after the blur
-  double gradient_energy = 0.0;      // mean of fx^2 + fy^2 over the region
+  Eigen::Matrix2d frame_blur_px2;    // and in the frame it is compared with
+  FloatImage gradient_x, gradient_y;
+  double noise_growth_x = 0.0;     // by how much the blur's noise correlation raises the variance of x and y over the
+  double noise_growth_y = 0.0;     // formula for independent noise; 0 until find_noise_growth
+  double noise_correlation = 1.0;  // pixels that carry the noise of one, after the blur
+  double gradient_energy = 0.0;    // mean of fx^2 + fy^2 over the region
 };
 
 struct TemplateSource {
@@ -34,5 +36,7 @@ struct TemplateSource {
 /// `frame_blur_px2` is the blur of the frame it will be compared with: both carry noise into the result.
 TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
                                   const Eigen::Matrix2d& frame_blur_px2);
+/// Takes as long as the model itself and matters for the uncertainty alone.
+void find_noise_growth(TemplateModel& model);
 
 }  // namespace zerodrift::vision
