@@ -19,13 +19,13 @@ constexpr double most_of_tile = 0.95;
 
 struct RegistrationSolver::Scores {
   std::array<Vector, tiles> gradient;
-  std::array<Eigen::Matrix<float, column_count, column_count>, tiles> normal;
+  std::array<Normal, tiles> normal;
   std::array<double, tiles> error{};
   std::array<double, tiles> weight{};
 
   Scores() {
     gradient.fill(Vector::Zero());
-    normal.fill(Eigen::Matrix<float, column_count, column_count>::Zero());
+    normal.fill(Normal::Zero());
   }
 };
 
@@ -44,7 +44,7 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
   int inliers = 0, seen = 0, bright = 0;
   // The smooth field is taken off the frame first: it is no part of the target.
   const auto light_of_target = [&](int k) {
-    return static_cast<double>(m_rows.col(k).tail<light_count>().dot(m_light.cast<float>()));
+    return static_cast<double>(m_rows.col(k).segment<light_count>(motion_count).dot(m_light.cast<float>()));
   };
   std::vector<double> model(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
@@ -80,19 +80,26 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
 // row times row, of weighted standardized errors, and of weights.
 RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const {
   Scores out;
-  Eigen::MatrixXf rows = m_rows.leftCols(count);
+  Rows rows = m_rows.leftCols(count);
   rows.topRows<motion_count>() *= static_cast<float>(m_prepared.gain);
   if (m_field != nullptr) m_field->take_off(rows, count, m_prepared.field_share.cast<float>());
   const int width = *std::max_element(m_model.column.begin(), m_model.column.end()) + 1;
   const int height = *std::max_element(m_model.row.begin(), m_model.row.end()) + 1;
-  for (int k = 0; k < count; ++k) {
-    const float w = m_robust(k) * m_neighbours(k);
-    if (w <= 0.0f) continue;
-    const int tile = m_model.row[k] * tiles_a_side / height * tiles_a_side + m_model.column[k] * tiles_a_side / width;
-    out.error[tile] += w * m_error(k) * m_noise_root(k);
-    out.weight[tile] += w;
-    out.gradient[tile] += (m_weight(k) * m_error(k) * rows.col(k)).cast<double>();
-    out.normal[tile].noalias() += (m_weight(k) * rows.col(k)) * rows.col(k).transpose();
+  const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
+  const auto tile_of = [&](int k) {
+    return m_model.row[k] * tiles_a_side / height * tiles_a_side + m_model.column[k] * tiles_a_side / width;
+  };
+  for (int begin = 0, end = 0; begin < count; begin = end) {
+    const int tile = tile_of(begin);
+    Eigen::Matrix<double, row_length, 1> gradient = Eigen::Matrix<double, row_length, 1>::Zero();
+    for (end = begin; end < count && tile_of(end) == tile; ++end) {
+      const float w = m_robust(end) * m_neighbours(end);
+      out.error[tile] += w * m_error(end) * m_noise_root(end);
+      out.weight[tile] += w;
+    }
+    add_products(rows.col(begin).data(), weighted_errors.data() + begin, end - begin, gradient.data());
+    out.gradient[tile] += gradient.head<column_count>();
+    out.normal[tile] += normal_of(rows.data(), m_weight.data(), begin, end);
   }
   return out;
 }
@@ -104,7 +111,7 @@ Eigen::Vector2d RegistrationSolver::jackknife(const Scores& scores) const {
   for (int tile = 0; tile < tiles; ++tile) {
     if (scores.weight[tile] <= 0.0) continue;
     // What is left without the tile; at least a part of it, where the others cannot tell a column at all.
-    const Normal without = m_prepared.normal - most_of_tile * scores.normal[tile].cast<double>();
+    const Normal without = m_prepared.normal - most_of_tile * scores.normal[tile];
     const Eigen::LDLT<Normal> solved(without);
     if (solved.info() != Eigen::Success) continue;
     squares += solved.solve(scores.gradient[tile]).head<2>().cwiseAbs2();

@@ -62,7 +62,7 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
       m_judge(model, model.noise_correlation),
       m_tukey(tukey_narrow) {
   const int n = model.pixels;
-  m_rows.resize(column_count, n);
+  m_rows.setZero(row_length, n);
   for (Eigen::VectorXf* one : {&m_frame, &m_error, &m_weight, &m_robust}) one->setZero(n);
   m_neighbours.setOnes(n);
   m_pixel_state.assign(static_cast<std::size_t>(n), FramePatch::seen);
@@ -87,8 +87,8 @@ void RegistrationSolver::fill_row(int k) {
   const float fx = m_model.fx[k];
   const float fy = m_model.fy[k];
   const float f = m_model.value[k];
-  m_rows.col(k) << fx, fy, fx * x, fx * y, fy * x, fy * y, 0.0f, f, f * x, f * y, 1.0f, m_model.fxx[k], m_model.fxy[k],
-      m_model.fyy[k];
+  m_rows.col(k).head<column_count>() << fx, fy, fx * x, fx * y, fy * x, fy * y, 0.0f, f, f * x, f * y, 1.0f,
+      m_model.fxx[k], m_model.fxy[k], m_model.fyy[k];
 }
 
 // The frame's value at each pixel of the template moved by the present motion.
@@ -98,8 +98,12 @@ void RegistrationSolver::sample(int count) {
   // The lens moves a pixel at w from the point by 2 (w s) w + |w|^2 s times its constant, s being the displacement.
   const Eigen::Vector2f way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
   const auto bent = static_cast<float>(m_lens / lens_unit);
-  const int last_column = m_patch.spline.width() - SplineImage::reach_after;
+  const int width = m_patch.spline.width();
+  const int last_column = width - SplineImage::reach_after;
   const int last_row = m_patch.spline.height() - SplineImage::reach_after;
+  m_place.resize(m_frame.size());
+  m_fx.resize(m_frame.size());
+  m_fy.resize(m_frame.size());
   for (int k = 0; k < count; ++k) {
     const float x = m_model.x[k];
     const float y = m_model.y[k];
@@ -114,20 +118,19 @@ void RegistrationSolver::sample(int count) {
     const float whole_y = std::floor(uy);
     const int column = m_model.column[k] + patch_margin_px + static_cast<int>(whole_x);
     const int row = m_model.row[k] + patch_margin_px + static_cast<int>(whole_y);
-    if (column < 2 || row < 2 || column > last_column || row > last_row) {
-      m_pixel_state[k] = FramePatch::outside;
-      m_frame(k) = 0.0f;
-      continue;
-    }
-    m_frame(k) = m_patch.spline.at(column, ux - whole_x, row, uy - whole_y);
-    m_pixel_state[k] = m_patch.state[static_cast<std::size_t>(row) * m_patch.spline.width() + column];
+    const bool known = column >= 2 && row >= 2 && column <= last_column && row <= last_row;
+    m_place[k] = known ? row * width + column : SplineImage::first_place(width);
+    m_fx[k] = ux - whole_x;
+    m_fy[k] = uy - whole_y;
+    m_pixel_state[k] = known ? m_patch.state[m_place[k]] : std::uint8_t{FramePatch::outside};
   }
+  m_patch.spline.sample(m_place.data(), m_fx.data(), m_fy.data(), count, m_frame.data());
 }
 
 void RegistrationSolver::predict(int count) {
-  const Eigen::Matrix<float, light_count, 1> light = m_light.cast<float>();
-  m_error.head(count).noalias() =
-      m_frame.head(count) - m_rows.block(motion_count, 0, light_count, count).transpose() * light;
+  Eigen::Matrix<float, row_length, 1> light = Eigen::Matrix<float, row_length, 1>::Zero();
+  light.segment<light_count>(motion_count) = m_light.cast<float>();
+  subtract_model(m_rows.data(), light.data(), count, m_frame.data(), m_error.data());
   if (m_field != nullptr) m_field->subtract_from(m_error, count, m_field_levels);
 }
 
@@ -247,11 +250,8 @@ bool RegistrationSolver::settle(int count) {
 void RegistrationSolver::weigh(int count, bool ask_neighbours) {
   const double tukey = m_iterations > settle_iterations ? m_tukey : tukey_wide;
   const auto inverse = static_cast<float>(1.0 / (tukey * m_scale));
-  for (int k = 0; k < count; ++k) {
-    const float u = m_error(k) * m_noise_root(k) * inverse;
-    const float left = std::max(0.0f, 1.0f - u * u);
-    m_robust(k) = m_pixel_state[k] == FramePatch::seen ? left * left : 0.0f;
-  }
+  static_assert(FramePatch::seen == 0);
+  tukey_weights(m_error.data(), m_noise_root.data(), inverse, m_pixel_state.data(), count, m_robust.data());
   if (ask_neighbours) {
     const Eigen::VectorXf standard = m_error.cwiseProduct(m_noise_root) / static_cast<float>(m_scale);
     m_judge.judge(standard, m_robust, m_neighbours);
@@ -270,6 +270,13 @@ bool RegistrationSolver::outdated(int count, bool light_only) const {
   return change > weight_change * m_prepared.weight.sum();
 }
 
+RegistrationSolver::Normal RegistrationSolver::normal_of(const float* rows, const float* weights, int begin,
+                                                         int end) const {
+  Eigen::Matrix<double, row_length, row_length> sums = Eigen::Matrix<double, row_length, row_length>::Zero();
+  add_squares(rows + static_cast<std::ptrdiff_t>(begin) * row_length, weights + begin, end - begin, sums.data());
+  return sums.topLeftCorner<column_count, column_count>();
+}
+
 bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   Prepared& p = m_prepared;
   p.count = count;
@@ -277,13 +284,12 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   p.weight = m_weight.head(count);
   p.gain = m_light(0);
   p.scale = m_scale;
-  const auto rows = m_rows.leftCols(count);
-  const Eigen::MatrixXf weighted = rows.array().rowwise() * p.weight.transpose().array();
   Vector motion_gain = Vector::Ones();
   motion_gain.head<motion_count>().setConstant(p.gain);
-  p.normal = motion_gain.asDiagonal() * (weighted * rows.transpose()).cast<double>() * motion_gain.asDiagonal();
+  p.normal = motion_gain.asDiagonal() * normal_of(m_rows.data(), p.weight.data(), 0, count) * motion_gain.asDiagonal();
   if (m_field != nullptr) {
-    const Eigen::MatrixXd cross = m_field->cross(weighted, count).cast<double>() * motion_gain.asDiagonal();
+    const Eigen::MatrixXd cross =
+        m_field->cross(m_rows, p.weight, count).leftCols<column_count>().cast<double>() * motion_gain.asDiagonal();
     Eigen::MatrixXd normal = m_field->normal(p.weight, count).cast<double>();
     p.field_prior = std::pow(m_scale / field_prior_levels, 2);
     normal.diagonal().array() += p.field_prior + 1e-9 * normal.diagonal().maxCoeff();
@@ -311,7 +317,9 @@ bool RegistrationSolver::solve(int count, bool light_only) {
   if (outdated(count, light_only) && !prepare_normal(count, light_only)) return false;
   const Prepared& ready = m_prepared;
   const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
-  Vector right = (m_rows.leftCols(count) * weighted_errors).cast<double>();
+  Eigen::Matrix<double, row_length, 1> sums = Eigen::Matrix<double, row_length, 1>::Zero();
+  add_products(m_rows.data(), weighted_errors.data(), count, sums.data());
+  Vector right = sums.head<column_count>();
   right.head<motion_count>() *= ready.gain;
   Eigen::VectorXd field_step;
   if (m_field != nullptr) {
@@ -335,7 +343,9 @@ bool RegistrationSolver::solve(int count, bool light_only) {
   if (!light_only) apply(p);
   Vector change = p;
   change.head<motion_count>() *= ready.gain;
-  m_error.head(count).noalias() -= m_rows.leftCols(count).transpose() * change.cast<float>();
+  Eigen::Matrix<float, row_length, 1> factors = Eigen::Matrix<float, row_length, 1>::Zero();
+  factors.head<column_count>() = change.cast<float>();
+  subtract_model(m_rows.data(), factors.data(), count, m_error.data(), m_error.data());
   return m_linear.allFinite() && (m_linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() < 0.5;
 }
 

@@ -10,6 +10,7 @@
 #include "core/vision/lens_term.h"
 #include "core/vision/neighbour_weights.h"
 #include "core/vision/registration.h"
+#include "core/vision/row_sums.h"
 #include "core/vision/smooth_field.h"
 #include "core/vision/template_model.h"
 
@@ -59,10 +60,11 @@ class RegistrationSolver {
   static_assert(light_count == registration_light_count);
   using Normal = Eigen::Matrix<double, column_count, column_count>;
   using Vector = Eigen::Matrix<double, column_count, 1>;
-  using Rows = Eigen::Matrix<float, column_count, Eigen::Dynamic>;
-  struct Scores;  // sums over tiles, for the uncertainty
+  using Rows = Eigen::Matrix<float, row_length, Eigen::Dynamic>;  // zero beyond column_count
+  struct Scores;                                                  // sums over tiles, for the uncertainty
 
   void fill_row(int k);
+  Normal normal_of(const float* rows, const float* weights, int begin, int end) const;
   void sample(int count);
   void predict(int count);
   void find_noise_model(int count);
@@ -99,6 +101,8 @@ class RegistrationSolver {
   Eigen::VectorXf m_weight;                      // all three together
   std::vector<std::uint8_t> m_pixel_state;
   std::vector<float> m_scratch;
+  std::vector<int> m_place;             // in the frame's spline, of the pixels sampled
+  std::vector<float> m_fx, m_fy, m_at;  // fractions there, and the values
   NeighbourWeights m_judge;
   double m_tukey;
   double m_scale = 1.0;

@@ -87,30 +87,29 @@ Eigen::MatrixXf SmoothField::normal(const Eigen::VectorXf& weights, int count) c
   return out;
 }
 
-Eigen::MatrixXf SmoothField::cross(const Eigen::MatrixXf& weighted_rows, int count) const {
-  const Eigen::Index n = weighted_rows.rows();
-  Eigen::MatrixXf out = Eigen::MatrixXf::Zero(n, size());
-  Eigen::MatrixXf sum(n, 4);
+Eigen::MatrixXf SmoothField::cross(const Rows& rows, const Eigen::VectorXf& weights, int count) const {
+  Eigen::MatrixXf out = Eigen::MatrixXf::Zero(row_length, size());
+  Eigen::Matrix<float, row_length, 4> sum;
   for (const Segment& at : m_segments) {
+    const int end = std::min(at.end, count);
+    if (at.begin >= end) continue;
     sum.setZero();
-    for (int k = at.begin; k < std::min(at.end, count); ++k) {
-      for (int i = 0; i < 4; ++i) sum.col(i) += m_along[k].wx[i] * weighted_rows.col(k);
-    }
+    add_shared(rows.col(at.begin).data(), weights.data() + at.begin, m_along[at.begin].wx, end - at.begin, sum.data());
     for (int j = 0; j < 4; ++j) out.middleCols<4>(at.first + j * m_columns) += at.wy[j] * sum;
   }
   return out.transpose();
 }
 
-void SmoothField::take_off(Eigen::MatrixXf& rows, int count, const Eigen::MatrixXf& share) const {
-  const Eigen::MatrixXf across = share.transpose();
-  Eigen::MatrixXf sum(rows.rows(), 4);
+void SmoothField::take_off(Rows& rows, int count, const Eigen::MatrixXf& share) const {
+  Eigen::MatrixXf across = Eigen::MatrixXf::Zero(row_length, size());
+  across.topRows(share.cols()) = share.transpose();
+  Eigen::Matrix<float, row_length, 4> sum;
   for (const Segment& at : m_segments) {
-    if (at.begin >= count) continue;
+    const int end = std::min(at.end, count);
+    if (at.begin >= end) continue;
     sum.setZero();
     for (int j = 0; j < 4; ++j) sum += at.wy[j] * across.middleCols<4>(at.first + j * m_columns);
-    for (int k = at.begin; k < std::min(at.end, count); ++k) {
-      for (int i = 0; i < 4; ++i) rows.col(k) -= m_along[k].wx[i] * sum.col(i);
-    }
+    subtract_shared(rows.col(at.begin).data(), m_along[at.begin].wx, end - at.begin, sum.data());
   }
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/vision/row_sums.h"
 #include "core/vision/template_model.h"
 
 namespace zerodrift::vision {
@@ -21,10 +22,11 @@ class SmoothField {
   Eigen::VectorXf project(const Eigen::VectorXf& weighted_values, int count) const;
   /// Sum of weight * basis * basis.
   Eigen::MatrixXf normal(const Eigen::VectorXf& weights, int count) const;
-  /// Sum of basis * row for rows (columns of the matrix) that already carry their weight; size() x rows.rows().
-  Eigen::MatrixXf cross(const Eigen::MatrixXf& weighted_rows, int count) const;
-  /// row -= share' * basis for each of the first `count` rows (columns of the matrix); share is size() x rows.rows().
-  void take_off(Eigen::MatrixXf& rows, int count, const Eigen::MatrixXf& share) const;
+  using Rows = Eigen::Matrix<float, row_length, Eigen::Dynamic>;  // a column each
+  /// Sum of weight * basis * row; size() x row_length.
+  Eigen::MatrixXf cross(const Rows& rows, const Eigen::VectorXf& weights, int count) const;
+  /// row -= share' * basis for each of the first `count` rows; share is size() x at most row_length.
+  void take_off(Rows& rows, int count, const Eigen::MatrixXf& share) const;
 
  private:
   // Pixels that follow each other in one row of the image and one interval of the grid: they share 4 x 4 coefficients

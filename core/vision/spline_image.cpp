@@ -1,8 +1,9 @@
 #include "core/vision/spline_image.h"
 
 #include <Eigen/Eigenvalues>
-#include <cstring>
 #include <opencv2/imgproc.hpp>
+
+#include "core/vision/row_sums.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -75,13 +76,39 @@ inline void quintic_weights(float t, float* w) {
   w[5] = t2 * t2 * t * (1.0f / 120.0f);
 }
 
-// Four numbers that the compiler keeps in one register; the way GCC and Clang spell it.
-typedef float Four __attribute__((vector_size(16)));
+// The weights at steps of 1/256, between which they are interpolated linearly, to 2e-6.
+constexpr int weight_steps = 256;
+struct WeightTable {
+  alignas(32) float at[weight_steps + 2][8] = {};
+  WeightTable() {
+    for (int k = 0; k <= weight_steps; ++k) quintic_weights(static_cast<float>(k) / weight_steps, at[k]);
+    std::copy(at[weight_steps], at[weight_steps] + 8, at[weight_steps + 1]);
+  }
+};
 
-inline Four load(const float* from) {
-  Four out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
+// Eight numbers in one register or in two; the way GCC and Clang spell it.
+typedef float EightWeights __attribute__((vector_size(32)));
+typedef float EightSamples __attribute__((vector_size(32), aligned(4), may_alias));
+
+ZERODRIFT_WIDE void sample_spline(const float* coefficients, int width, const float (*table)[8], const int* places,
+                                  const float* fractions_x, const float* fractions_y, int count, float* values) {
+  const auto weights = [table](float fraction, EightWeights& out) {
+    const float step = fraction * weight_steps;
+    const int whole = static_cast<int>(step);
+    const EightWeights& here = *reinterpret_cast<const EightWeights*>(table[whole]);
+    const EightWeights& next = *reinterpret_cast<const EightWeights*>(table[whole + 1]);
+    out = here + (step - static_cast<float>(whole)) * (next - here);
+  };
+  for (int k = 0; k < count; ++k) {
+    EightWeights wx, wy;
+    weights(fractions_x[k], wx);
+    weights(fractions_y[k], wy);
+    const float* first = coefficients + places[k] - 2 * width - 2;
+    EightWeights sum = wy[0] * *reinterpret_cast<const EightSamples*>(first);
+    for (int row = 1; row < 6; ++row) sum += wy[row] * *reinterpret_cast<const EightSamples*>(first + row * width);
+    sum *= wx;
+    values[k] = ((sum[0] + sum[4]) + (sum[1] + sum[5])) + (sum[2] + sum[3]);
+  }
 }
 
 // b5 and its first two derivatives at the integers -2 .. 2; correlation with them gives the derivative at the pixels.
@@ -158,19 +185,11 @@ SplineImage::SplineImage(FloatImage samples) : m_coefficients(std::move(samples)
   m_coefficients = transposed(m_coefficients);
 }
 
-float SplineImage::at(int column, float fraction_x, int row, float fraction_y) const {
-  float wx[8] = {};
-  float wy[6];
-  quintic_weights(fraction_x, wx);
-  quintic_weights(fraction_y, wy);
-  const Four near = load(wx);
-  const Four far = load(wx + 4);
-  Four sum = {0.0f, 0.0f, 0.0f, 0.0f};
-  const float* first = m_coefficients.row(row - 2) + column - 2;
-  for (int k = 0; k < 6; ++k, first += m_coefficients.width) {
-    sum += wy[k] * (near * load(first) + far * load(first + 4));
-  }
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+void SplineImage::sample(const int* places, const float* fractions_x, const float* fractions_y, int count,
+                         float* values) const {
+  static const WeightTable table;
+  sample_spline(m_coefficients.values.data(), m_coefficients.width, table.at, places, fractions_x, fractions_y, count,
+                values);
 }
 
 FloatImage SplineImage::derivative(int order_x, int order_y) const {

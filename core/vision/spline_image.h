@@ -35,10 +35,11 @@ class SplineImage {
 
   int width() const { return m_coefficients.width; }
   int height() const { return m_coefficients.height; }
-  /// Value at (column + fraction_x, row + fraction_y), fractions in [0, 1); columns and rows that the support of the
-  /// spline reaches must be inside: 2 <= column <= width - reach_after, the same for rows.
+  /// Values at (column + fraction_x, row + fraction_y), fractions in [0, 1], place = row * width + column; what the
+  /// support of the spline reaches must be inside: 2 <= column <= width - reach_after, the same for rows.
   static constexpr int reach_after = 6;  // eight columns are read at once
-  float at(int column, float fraction_x, int row, float fraction_y) const;
+  static constexpr int first_place(int width) { return 2 * width + 2; }
+  void sample(const int* places, const float* fractions_x, const float* fractions_y, int count, float* values) const;
   /// Derivative images at the pixels: order 0, 1, 2 along x and y.
   FloatImage derivative(int order_x, int order_y) const;
 

@@ -1,0 +1,32 @@
+#pragma once
+// The sums of a least-squares solve over many pixels, each of which has a row of sixteen numbers (unused ones are
+// zero). Three quarters of a registration's time goes into them, so they are compiled for wide registers as well, and
+// the processor's own are chosen when the program starts. Plain arrays: Eigen's types differ between the two.
+
+#include <cstdint>
+
+namespace zerodrift::vision {
+
+inline constexpr int row_length = 16;
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define ZERODRIFT_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define ZERODRIFT_WIDE
+#endif
+
+/// sums (16 x 16, symmetric) += weight * row * row'.
+void add_squares(const float* rows, const float* weights, int count, double* sums);
+/// sums (16) += value * row.
+void add_products(const float* rows, const float* values, int count, double* sums);
+/// values = from - row . factors; `from` may be `values`.
+void subtract_model(const float* rows, const float* factors, int count, const float* from, float* values);
+/// sums (4 x 16) += share * weight * row for each of four shares a pixel.
+void add_shared(const float* rows, const float* weights, const float* shares, int count, float* sums);
+/// row -= share * change for each of four shares a pixel and their changes (4 x 16).
+void subtract_shared(float* rows, const float* shares, int count, const float* changes);
+/// Tukey's biweight of error * root * inverse where `use` is zero, none elsewhere.
+void tukey_weights(const float* errors, const float* roots, float inverse, const std::uint8_t* use, int count,
+                   float* weights);
+
+}  // namespace zerodrift::vision
