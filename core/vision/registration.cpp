@@ -17,9 +17,12 @@ constexpr double blur_limit_px2 = 0.25;  // a larger change of blur is put into 
 constexpr double largest_blur_px2 = 40.0;  // trace of the covariance
 constexpr double usual_edge_px2 = 0.8;     // variance of an edge in a picture in focus
 constexpr double largest_part = 0.45;
-constexpr double round_blur_px2 = 0.3;   // nearer to round than this, the blur is made round, which is quicker
-constexpr double structure_limit = 2.4;  // tile means over their noise: above it a smooth field is solved as well
-constexpr double glare_share = 0.005;    // of saturated pixels
+constexpr double round_blur_px2 = 0.3;    // nearer to round than this, the blur is made round, which is quicker
+constexpr double structure_limit = 2.4;   // tile means over their noise: above it a smooth field is solved as well
+constexpr double glance_structure = 2.0;  // the same on a quarter of the pixels, when there is no doubt
+constexpr double with_field_px2 = 1.0;    // beside a field the solve's own blur columns do for a smaller change
+constexpr double as_good = 0.93;          // of the best fit: blur fits shapes nearly as well before it fits them better
+constexpr double glare_share = 0.005;     // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr int largest_rounds = 5;
@@ -29,8 +32,8 @@ double fit_of(const Registration& r) {
   return r.informed_share * std::max(r.correlation, 0.0) / r.residual;
 }
 
-bool needs_field(const Registration& r) {
-  return r.structure > structure_limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
+bool needs_field(const Registration& r, double limit = structure_limit) {
+  return r.structure > limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
 }
 
 // The solve sees of a blur the part that the second derivative tells. For an edge of variance s^2 that is further
@@ -43,9 +46,10 @@ double whole_change(double seen_px2, double edge_px2) {
 
 // Blurs the sharper of the two images until both are alike; false when they are alike enough already or never will be.
 bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
+  const double limit = setup.with_field ? with_field_px2 : blur_limit_px2;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solved(extra_px2);
   Eigen::Vector2d change = solved.eigenvalues();
-  if (change.cwiseAbs().maxCoeff() < blur_limit_px2) return false;
+  if (change.cwiseAbs().maxCoeff() < limit) return false;
   if (change(1) - change(0) < round_blur_px2) change.setConstant(change.mean());
   const Eigen::Matrix2d& axes = solved.eigenvectors();
   for (int k = 0; k < 2; ++k) {
@@ -117,13 +121,17 @@ void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
     const TemplateModel& model = tried_model ? *tried_model : m_model;
     RegistrationSolver solver(model, patches.with(tried), nullptr, start);
     if (!solver.glance()) return;
-    const double now = fit_of(solver.fit(model.pixels / 4));
-    if (now < best) return;  // what looked like a blur was none: a chip over the edges, for example
-    best = now;
+    const Registration seen = solver.fit(model.pixels / 4);
+    const double now = fit_of(seen);
+    if (now < as_good * best) return;  // what looked like a blur was none: a chip over the edges, for example
+    best = std::max(best, now);
     setup = tried;
     blurred_model = tried_model;
     solver.hand_over(start);
-    if (!match_blur(solver.extra_blur_px2(), tried)) return;
+    if (!match_blur(solver.extra_blur_px2(), tried)) {
+      setup.with_field = needs_field(seen, glance_structure);
+      return;
+    }
     tried_model = make_template_model(m_source, tried.template_blur, tried.frame_blur);
   }
 }
@@ -139,7 +147,6 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   match_blur_at_a_glance(patches, setup, blurred_model, start);
   Registration out;
   for (int round = 0; round < largest_rounds; ++round) {
-    if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
     const TemplateModel& model = blurred_model ? *blurred_model : m_model;
     std::optional<SmoothField> field;
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
@@ -150,19 +157,24 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
       setup.with_field = true;
       continue;
     }
-    const Registration found = solver.result();
+    const Registration found = solver.fit(model.pixels);
     if (setup.with_field && out.converged && found.structure > out.structure) break;  // the field explained nothing
     out = found;
     if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
     solver.hand_over(start);
-    if (match_blur(solver.extra_blur_px2(), setup)) {
-      blurred_model = make_template_model(m_source, setup.template_blur, setup.frame_blur);
-    } else if (!setup.with_field && needs_field(out)) {
-      setup.with_field = true;
+    ImageSetup next = setup;
+    const bool blurs = match_blur(solver.extra_blur_px2(), next);
+    next.with_field = setup.with_field || (!blurs && needs_field(out));
+    if (!blurs) {
+      if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
+      solver.tell_uncertainty(out);
+      if (next.with_field == setup.with_field) break;
     } else {
-      break;
+      blurred_model = make_template_model(m_source, next.template_blur, next.frame_blur);
     }
+    setup = next;
   }
+  if (out.covariance_px2.isZero()) out.converged = false;  // the last round failed, and what came before was no end
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;
 }

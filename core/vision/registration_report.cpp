@@ -20,8 +20,7 @@ constexpr double most_of_tile = 0.95;
 struct RegistrationSolver::Scores {
   std::array<Vector, tiles> gradient;
   std::array<Normal, tiles> normal;
-  std::array<double, tiles> error{};
-  std::array<double, tiles> weight{};
+  std::array<bool, tiles> used{};
 
   Scores() {
     gradient.fill(Vector::Zero());
@@ -37,6 +36,10 @@ std::vector<float> RegistrationSolver::residual_map(int width, int height) const
     out[static_cast<std::size_t>(m_model.row[k]) * width + m_model.column[k]] = m_error(k) * m_noise_root(k) / scale;
   }
   return out;
+}
+
+int RegistrationSolver::tile_of(int k) const {
+  return m_model.row[k] * tiles_a_side / m_height * tiles_a_side + m_model.column[k] * tiles_a_side / m_width;
 }
 
 void RegistrationSolver::tell_fit(int count, Registration& out) const {
@@ -77,26 +80,17 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
 }
 
 // Sums over tiles of the region: of weight times error times row (with the field's share taken off) and of weight times
-// row times row, of weighted standardized errors, and of weights.
+// row times row.
 RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const {
   Scores out;
   Rows rows = m_rows.leftCols(count);
   rows.topRows<motion_count>() *= static_cast<float>(m_prepared.gain);
   if (m_field != nullptr) m_field->take_off(rows, count, m_prepared.field_share.cast<float>());
-  const int width = *std::max_element(m_model.column.begin(), m_model.column.end()) + 1;
-  const int height = *std::max_element(m_model.row.begin(), m_model.row.end()) + 1;
   const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
-  const auto tile_of = [&](int k) {
-    return m_model.row[k] * tiles_a_side / height * tiles_a_side + m_model.column[k] * tiles_a_side / width;
-  };
   for (int begin = 0, end = 0; begin < count; begin = end) {
     const int tile = tile_of(begin);
     Eigen::Matrix<double, row_length, 1> gradient = Eigen::Matrix<double, row_length, 1>::Zero();
-    for (end = begin; end < count && tile_of(end) == tile; ++end) {
-      const float w = m_robust(end) * m_neighbours(end);
-      out.error[tile] += w * m_error(end) * m_noise_root(end);
-      out.weight[tile] += w;
-    }
+    for (end = begin; end < count && tile_of(end) == tile; ++end) out.used[tile] |= m_weight(end) > 0.0f;
     add_products(rows.col(begin).data(), weighted_errors.data() + begin, end - begin, gradient.data());
     out.gradient[tile] += gradient.head<column_count>();
     out.normal[tile] += normal_of(rows.data(), m_weight.data(), begin, end);
@@ -109,7 +103,7 @@ RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const 
 Eigen::Vector2d RegistrationSolver::jackknife(const Scores& scores) const {
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   for (int tile = 0; tile < tiles; ++tile) {
-    if (scores.weight[tile] <= 0.0) continue;
+    if (!scores.used[tile]) continue;
     // What is left without the tile; at least a part of it, where the others cannot tell a column at all.
     const Normal without = m_prepared.normal - most_of_tile * scores.normal[tile];
     const Eigen::LDLT<Normal> solved(without);
@@ -119,32 +113,51 @@ Eigen::Vector2d RegistrationSolver::jackknife(const Scores& scores) const {
   return squares;
 }
 
-// Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
-// in the residual: the scores summed over tiles instead of pixels, each tile left out in turn, which sees what the
-// noise formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
-void RegistrationSolver::tell_uncertainty(int count, Registration& out) const {
-  double psi2 = 0.0, slope = 0.0, sum_w = 0.0;
+// How far the means of the errors over tiles are beyond their noise; returns the variance of single errors.
+double RegistrationSolver::tell_structure(int count, Registration& out) const {
+  double psi2 = 0.0;
   int used = 0;
+  std::array<double, tiles> error{};
+  std::array<double, tiles> weight{};
   for (int k = 0; k < count; ++k) {
     const double w = m_robust(k) * m_neighbours(k);
     if (w <= 0.0) continue;
     const double z = m_error(k) * m_noise_root(k);
-    const double u2 = std::pow(z / (m_tukey * m_scale), 2);
     ++used;
-    sum_w += w;
     psi2 += w * z * w * z;
-    slope += m_neighbours(k) * (1.0 - u2) * (1.0 - 5.0 * u2);
+    const int tile = tile_of(k);
+    error[tile] += w * z;
+    weight[tile] += w;
   }
   const double variance = psi2 / std::max(used - static_cast<int>(column_count), 1);
-  const Scores scores = scores_of_tiles(count);
   double structure = 0.0;
   int tiles_used = 0;
   for (int tile = 0; tile < tiles; ++tile) {
-    if (scores.weight[tile] < tile_weight) continue;
-    structure += scores.error[tile] * scores.error[tile] / (scores.weight[tile] * variance);
+    if (weight[tile] < tile_weight) continue;
+    structure += error[tile] * error[tile] / (weight[tile] * variance);
     ++tiles_used;
   }
   out.structure = tiles_used > 4 ? std::sqrt(structure / tiles_used) : 0.0;
+  return variance;
+}
+
+// Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
+// in the residual: the scores summed over tiles instead of pixels, each tile left out in turn, which sees what the
+// noise formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
+void RegistrationSolver::tell_uncertainty(Registration& out) const {
+  const int count = m_model.pixels;
+  const double variance = tell_structure(count, out);
+  double slope = 0.0, sum_w = 0.0;
+  int used = 0;
+  for (int k = 0; k < count; ++k) {
+    const double w = m_robust(k) * m_neighbours(k);
+    if (w <= 0.0) continue;
+    const double u2 = std::pow(m_error(k) * m_noise_root(k) / (m_tukey * m_scale), 2);
+    ++used;
+    sum_w += w;
+    slope += m_neighbours(k) * (1.0 - u2) * (1.0 - 5.0 * u2);
+  }
+  const Scores scores = scores_of_tiles(count);
   const double shrink = sum_w / std::max(slope, 0.1 * sum_w);
   const Normal inverse = m_prepared.normal.inverse();
   const double factor = variance * used / sum_w * shrink * shrink;

@@ -54,6 +54,8 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
     : m_model(model),
       m_patch(patch),
       m_field(field),
+      m_width(*std::max_element(model.column.begin(), model.column.end()) + 1),
+      m_height(*std::max_element(model.row.begin(), model.row.end()) + 1),
       m_whole_px(start.whole_px),
       m_shift(start.shift_px),
       m_linear(start.linear),
@@ -293,9 +295,9 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
     Eigen::MatrixXd normal = m_field->normal(p.weight, count).cast<double>();
     p.field_prior = std::pow(m_scale / field_prior_levels, 2);
     normal.diagonal().array() += p.field_prior + 1e-9 * normal.diagonal().maxCoeff();
-    p.field.compute(normal);
-    if (p.field.info() != Eigen::Success) return false;
-    p.field_share = p.field.solve(cross);
+    if (!p.field.compute(normal, m_field->band())) return false;
+    p.field_share = cross;
+    p.field.solve_in_place(p.field_share);
     p.normal -= cross.transpose() * p.field_share;
   }
   const double linear = m_field != nullptr ? linear_prior_with_field : linear_prior;
@@ -325,7 +327,9 @@ bool RegistrationSolver::solve(int count, bool light_only) {
   if (m_field != nullptr) {
     const Eigen::VectorXd field_right =
         m_field->project(weighted_errors, count).cast<double>() - ready.field_prior * m_field_levels.cast<double>();
-    field_step = ready.field.solve(field_right);
+    Eigen::MatrixXd levels_step = field_right;
+    ready.field.solve_in_place(levels_step);
+    field_step = levels_step;
     right -= ready.field_share.transpose() * field_right;
   }
   const Eigen::Vector4d away(m_linear(0, 0) - 1.0, m_linear(0, 1), m_linear(1, 0), m_linear(1, 1) - 1.0);
@@ -406,12 +410,7 @@ Registration RegistrationSolver::fit(int count) const {
   out.residual = m_scale;
   out.iterations = m_iterations;
   tell_fit(count, out);
-  return out;
-}
-
-Registration RegistrationSolver::result() const {
-  Registration out = fit(m_model.pixels);
-  tell_uncertainty(m_model.pixels, out);
+  tell_structure(count, out);
   return out;
 }
 

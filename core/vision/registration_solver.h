@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/vision/banded_cholesky.h"
 #include "core/vision/frame_patch.h"
 #include "core/vision/lens_term.h"
 #include "core/vision/neighbour_weights.h"
@@ -39,10 +40,10 @@ class RegistrationSolver {
   bool run();
   /// On the first quarter of the pixels, which is spread evenly over the region.
   bool glance();
-  /// After run.
-  Registration result() const;
-  /// After either, how well it fits and nothing of its uncertainty.
+  /// What was found on the `count` pixels used, without its uncertainty.
   Registration fit(int count) const;
+  /// After run. The model's noise growth must be known.
+  void tell_uncertainty(Registration& out) const;
   /// Errors over their scale at each pixel of the region; NaN where the model has none.
   std::vector<float> residual_map(int width, int height) const;
   const Eigen::Vector2d& shift_px() const { return m_shift; }
@@ -80,13 +81,15 @@ class RegistrationSolver {
   bool solve(int count, bool light_only);
   void apply(const Vector& p);
   void tell_fit(int count, Registration& out) const;
-  void tell_uncertainty(int count, Registration& out) const;
+  double tell_structure(int count, Registration& out) const;
+  int tile_of(int k) const;
   Scores scores_of_tiles(int count) const;
   Eigen::Vector2d jackknife(const Scores& scores) const;
 
   const TemplateModel& m_model;
   const FramePatch& m_patch;
   const SmoothField* m_field;
+  int m_width, m_height;  // of what the model uses of the region
   Eigen::Vector2d m_whole_px;
   Eigen::Vector2d m_shift;
   Eigen::Matrix2d m_linear;
@@ -119,7 +122,7 @@ class RegistrationSolver {
     double scale = 0.0, gain = 1.0, linear_prior = 0.0, lens_prior = 0.0, field_prior = 0.0;
     Normal normal;  // the field eliminated
     Eigen::LDLT<Normal> solved;
-    Eigen::LLT<Eigen::MatrixXd> field;
+    BandedCholesky field;
     Eigen::MatrixXd field_share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
   } m_prepared;
 };

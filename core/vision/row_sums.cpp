@@ -10,7 +10,7 @@ namespace {
 typedef float Eight __attribute__((vector_size(32)));
 typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
 
-constexpr int block = 512;  // pixels summed in single precision before they are added in double
+constexpr int pixels_a_block = 512;  // pixels summed in single precision before they are added in double
 
 inline void add_to(double* sums, const Eight& part) {
   for (int i = 0; i < 8; ++i) sums[i] += static_cast<double>(part[i]);
@@ -19,8 +19,8 @@ inline void add_to(double* sums, const Eight& part) {
 }  // namespace
 
 ZERODRIFT_WIDE void add_squares(const float* rows, const float* weights, int count, double* sums) {
-  for (int begin = 0; begin < count; begin += block) {
-    const int end = std::min(begin + block, count);
+  for (int begin = 0; begin < count; begin += pixels_a_block) {
+    const int end = std::min(begin + pixels_a_block, count);
     // Upper left, then upper right and lower right: so many sums as fit into registers.
     Eight first[8] = {};
     for (int k = begin; k < end; ++k) {
@@ -46,8 +46,8 @@ ZERODRIFT_WIDE void add_squares(const float* rows, const float* weights, int cou
 }
 
 ZERODRIFT_WIDE void add_products(const float* rows, const float* values, int count, double* sums) {
-  for (int begin = 0; begin < count; begin += block) {
-    const int end = std::min(begin + block, count);
+  for (int begin = 0; begin < count; begin += pixels_a_block) {
+    const int end = std::min(begin + pixels_a_block, count);
     Eight low[2] = {};
     Eight high[2] = {};
     for (int k = begin; k < end; ++k) {

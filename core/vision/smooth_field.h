@@ -16,6 +16,8 @@ class SmoothField {
   SmoothField(const TemplateModel& model, int width, int height, double spacing_px);
 
   int size() const { return m_columns * m_rows; }
+  /// Coefficients further apart than this have no product.
+  int band() const { return 3 * m_columns + 3; }
   /// error -= field, for the first `count` pixels.
   void subtract_from(Eigen::VectorXf& error, int count, const Eigen::VectorXf& coefficients) const;
   /// Sum of weight * basis * value.

@@ -99,7 +99,13 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   TemplateModel model;
   model.blur_px2 = blur_px2;
   model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
-  for (const int at : choose_pixels(source, energy)) {
+  const std::vector<int> chosen = choose_pixels(source, energy);
+  for (std::vector<int>* one : {&model.column, &model.row}) one->reserve(chosen.size());
+  for (std::vector<float>* one :
+       {&model.x, &model.y, &model.value, &model.fx, &model.fy, &model.fxx, &model.fxy, &model.fyy}) {
+    one->reserve(chosen.size());
+  }
+  for (const int at : chosen) {
     const int x = at % source.region.width;
     const int y = at / source.region.width;
     const std::size_t k = index(x, y);
