@@ -146,6 +146,7 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   std::optional<TemplateModel> blurred_model;
   match_blur_at_a_glance(patches, setup, blurred_model, start);
   Registration out;
+  bool field_helped = false;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = blurred_model ? *blurred_model : m_model;
     std::optional<SmoothField> field;
@@ -158,23 +159,21 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
       continue;
     }
     const Registration found = solver.fit(model.pixels);
-    if (setup.with_field && out.converged && found.structure > out.structure) break;  // the field explained nothing
+    const bool field_is_new = setup.with_field && out.converged && !field_helped;
+    if (field_is_new && found.structure > out.structure) break;  // it explained nothing
+    field_helped = setup.with_field;
     out = found;
     if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
     solver.hand_over(start);
     ImageSetup next = setup;
     const bool blurs = match_blur(solver.extra_blur_px2(), next);
     next.with_field = setup.with_field || (!blurs && needs_field(out));
-    if (!blurs) {
-      if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
-      solver.tell_uncertainty(out);
-      if (next.with_field == setup.with_field) break;
-    } else {
-      blurred_model = make_template_model(m_source, next.template_blur, next.frame_blur);
-    }
+    if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
+    solver.tell_uncertainty(out);
+    if (!blurs && next.with_field == setup.with_field) break;
+    if (blurs) blurred_model = make_template_model(m_source, next.template_blur, next.frame_blur);
     setup = next;
   }
-  if (out.covariance_px2.isZero()) out.converged = false;  // the last round failed, and what came before was no end
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;
 }

@@ -152,7 +152,8 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   for (int k = 0; k < count; ++k) {
     const double w = m_robust(k) * m_neighbours(k);
     if (w <= 0.0) continue;
-    const double u2 = std::pow(m_error(k) * m_noise_root(k) / (m_tukey * m_scale), 2);
+    // The weights are those before the last step, after which an error may lie beyond their reach.
+    const double u2 = std::min(std::pow(m_error(k) * m_noise_root(k) / (m_tukey * m_scale), 2), 1.0);
     ++used;
     sum_w += w;
     slope += m_neighbours(k) * (1.0 - u2) * (1.0 - 5.0 * u2);
