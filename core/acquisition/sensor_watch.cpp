@@ -8,9 +8,10 @@
 namespace zerodrift::acquisition {
 namespace {
 
-// A sensor that changes in a share p of its readings stays still n times with probability about exp(-p n): with p n =
-// 20 that is once in 5e8 readings.
-constexpr double expected_changes = 20.0;
+// A sensor that changes in a share p of its readings stays still n times with probability (1 - p)^n: this is once in
+// 5e8 readings.
+constexpr double log_chance = -20.0;
+constexpr double most_changing = 0.95;  // even a noisy one repeats a value now and then
 constexpr std::size_t fewest_readings = 20;
 
 }  // namespace
@@ -36,7 +37,8 @@ double SensorWatch::usual_rate() const {
 
 bool SensorWatch::stuck(const Sensor& sensor, double usual) const {
   const double rate = sensor.changes >= 3 ? sensor.change_rate() : usual;
-  return sensor.still >= fewest_readings && rate * static_cast<double>(sensor.still) >= expected_changes;
+  return sensor.still >= fewest_readings &&
+         static_cast<double>(sensor.still) * std::log1p(-std::min(rate, most_changing)) <= log_chance;
 }
 
 std::vector<SensorWatch::Change> SensorWatch::add(double time_s, const std::vector<double>& temperature_C) {

@@ -10,6 +10,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+#include <optional>
 #include <thread>
 
 #include "core/vision/opencv_image.h"
@@ -21,6 +22,7 @@ using Steady = std::chrono::steady_clock;
 using Milliseconds = std::chrono::milliseconds;
 
 constexpr double default_file_rate_hz = 25.0;
+constexpr std::uint64_t fewest_repeats = 5;
 
 enum class SourceKind { stream, device, file };
 
@@ -83,6 +85,7 @@ struct Camera::Work {
   void read_all(cv::VideoCapture& capture, const std::stop_token& stop);
   void publish(GrayImage image);
   Result<std::shared_ptr<const CameraFrame>> state(Steady::time_point now) const;
+  std::optional<Steady::duration> repeating(Steady::time_point now) const;
   bool pause(Steady::duration duration, const std::stop_token& stop) {
     std::unique_lock lock(mutex);
     return !changed.wait_for(lock, stop, duration, [&] { return stop.stop_requested(); });
@@ -164,6 +167,14 @@ Result<std::shared_ptr<const CameraFrame>> Camera::Work::state(Steady::time_poin
   return frame;
 }
 
+// With the mutex held. For how long a live camera has sent one picture over and over, when that is too long to wait for
+// in a measurement: the machine drifts meanwhile.
+std::optional<Steady::duration> Camera::Work::repeating(Steady::time_point now) const {
+  const bool repeats = kind_of(source) != SourceKind::file && frame && frame->count >= last_changed + fewest_repeats;
+  const auto since = now - last_change;
+  return repeats && since > options.repeats_after ? std::optional(since) : std::nullopt;
+}
+
 Camera::Camera(std::string source, CameraOptions options) : m_work(std::make_shared<Work>()) {
   quiet_libraries();
   m_work->source = std::move(source);
@@ -197,6 +208,9 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
       // The first may have been exposed before; so may one that repeats it, as a camera does that froze just then.
       if (m_work->last_changed > first_after) return frame;
       if (kind_of(m_work->source) == SourceKind::file && frame->count > first_after) return frame;
+      if (const auto repeated = m_work->repeating(Steady::now())) {
+        return fail(ErrorCode::camera_frozen, {{"url", m_work->source}, {"seconds", seconds_text(*repeated)}});
+      }
     }
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
     const std::uint64_t seen = frame ? frame->count : 0;

@@ -27,6 +27,7 @@ struct CameraOptions {
   std::chrono::milliseconds read_timeout{1500};
   std::chrono::milliseconds silent_after{3000};
   std::chrono::milliseconds frozen_after{3000};
+  std::chrono::milliseconds repeats_after{1000};  // frozen, for one who waits for a fresh picture
   std::chrono::milliseconds longest_pause{5000};  // between attempts to open
 };
 

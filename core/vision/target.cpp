@@ -83,7 +83,7 @@ std::string_view words_of(Refusal refusal) {
     case Refusal::missing:
       return "target missing";
     case Refusal::wrong_target:
-      return "another target";
+      return "target occluded, or another one";
     case Refusal::occluded:
       return "target occluded";
     case Refusal::glare:

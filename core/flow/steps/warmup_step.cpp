@@ -1,7 +1,11 @@
 #include "core/flow/steps/warmup_step.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/acquisition/job_sink.h"
 #include "core/flow/steps/inputs.h"
@@ -12,15 +16,40 @@ using nlohmann::json;
 
 namespace {
 
-/// The problems of a run in short: which and how often, as recorded in its events.
+struct Occurrence {
+  int count = 0;
+  std::set<std::string> what;  // which sensor, which reason
+};
+
+/// Which one an event is about: the sensor, the reason, the camera.
+std::string particulars_of(const commissioning::Event& event) {
+  const json details = json::parse(event.details, nullptr, false);
+  if (!details.is_object() || !details.contains("context") || !details["context"].is_object()) return {};
+  for (const char* key : {"sensor", "reason", "view"}) {
+    const auto at = details["context"].find(key);
+    if (at != details["context"].end() && at->is_string()) return at->get<std::string>();
+  }
+  return {};
+}
+
+/// The problems of a run in short, as recorded in its events: "sensor stuck (T1_C), 2 times".
 Result<std::vector<std::string>> problems_of(const commissioning::Job& job, commissioning::SeriesId series) {
   ZD_TRY(const auto events, job.events(series));
-  std::map<std::string, int> counts;
+  std::map<std::string, Occurrence> found;
   for (const auto& event : events) {
-    if (event.kind == "problem" || event.kind == "gap") ++counts[event.kind == "gap" ? "gap" : event.text];
+    if (event.kind != "problem" && event.kind != "gap") continue;
+    std::string name = event.kind == "gap" ? "gap" : event.text;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    Occurrence& one = found[name];
+    ++one.count;
+    if (const auto what = particulars_of(event); !what.empty()) one.what.insert(what);
   }
   std::vector<std::string> problems;
-  for (const auto& [what, count] : counts) problems.push_back(fmt::format("{}, {} times", what, count));
+  for (const auto& [name, one] : found) {
+    std::string text = name;
+    if (!one.what.empty()) text += fmt::format(" ({})", fmt::join(one.what, "; "));
+    problems.push_back(text + (one.count == 1 ? ", once" : fmt::format(", {} times", one.count)));
+  }
   return problems;
 }
 
