@@ -114,6 +114,12 @@ class SafetyTest : public QObject {
     QVERIFY(!clear->isChecked());
     Q_EMIT page->secondaryTriggered(QStringLiteral("repeat"));
     QVERIFY(!bench.tasks().running());
+
+    // Who has looked elsewhere does not know whether the area is still clear.
+    clear->setChecked(true);
+    application.openPage(QStringLiteral("machine"));
+    application.openPage(QStringLiteral("calibrate"));
+    QVERIFY(!clear->isChecked());
   }
 
   void virtualMachineEndsWithTheWindow_data() {

@@ -329,11 +329,22 @@ void PagesTest::plotsFollowTheTheme() {
     theme.setMode(ThemeMode::dark);
     if (hidden) window.setCurrentPage(page);
     QTest::qWait(90);
-    for (auto* plot : window.currentPage()->findChildren<PlotWidget*>()) {
-      if (!plot->isVisible()) continue;
-      const QColor corner = plot->grab().toImage().pixelColor(plot->width() - 3, 3);
-      const QString where = scene.page + '-' + scene.name + ' ' + plot->metaObject()->className() + ' ' + corner.name();
-      QVERIFY2(corner.lightness() < 90, qPrintable(where));
+    const auto allDark = [&](int view) {
+      for (auto* plot : window.currentPage()->findChildren<PlotWidget*>()) {
+        if (!plot->isVisible()) continue;
+        const QColor corner = plot->grab().toImage().pixelColor(plot->width() - 3, 3);
+        const QString where =
+            QStringLiteral("%1 view %2 %3 %4").arg(page).arg(view).arg(plot->metaObject()->className(), corner.name());
+        QVERIFY2(corner.lightness() < 90, qPrintable(where));
+      }
+    };
+    allDark(0);
+    for (auto* views : window.currentPage()->findChildren<QStackedWidget*>()) {
+      for (int i = 0; views->isVisible() && i < views->count(); ++i) {
+        views->setCurrentIndex(i);
+        QTest::qWait(5);
+        allDark(i);
+      }
     }
   }
   theme.setMode(ThemeMode::light);

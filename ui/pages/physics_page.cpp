@@ -313,7 +313,7 @@ void PhysicsPage::renderChannel() {
   m_channelPlot->setData("simulated", found->time_s, found->simulated);
   m_channelPlot->setData("refined", found->time_s, found->refined);
   QVector<LegendItem> legend = {{tr("recorded"), c.text}, {tr("simulated"), c.bad, true}};
-  if (!found->refined.isEmpty()) legend.append({tr("with what was adopted"), c.ok});
+  if (!found->refined.isEmpty()) legend.append({tr("adopted"), c.ok});
   m_channelLegend->setItems(legend);
   m_channelPlot->setAxisLabels({}, found->valueUnit);
   m_residualPlot->setAxisLabels({}, tr("difference / %1").arg(found->unit));

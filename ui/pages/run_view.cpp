@@ -13,7 +13,7 @@ RunView::RunView(QWidget* parent) : QWidget(parent) {
   auto* right = new QVBoxLayout;
   right->setSpacing(16);
   right->addWidget(m_cameraCard);
-  right->addWidget(m_errorCard);
+  right->addWidget(m_errorCard, 1);
   right->addWidget(m_temperatureCard, 1);
   for (Card* card : {m_cameraCard, m_errorCard, m_temperatureCard}) card->setFixedWidth(304);
   auto* all = new QHBoxLayout(this);
@@ -140,7 +140,10 @@ void RunView::setChannels(const QVector<RunChannel>& temperatures, const QVector
   m_inputs->setCurves(curvesOf(inputs, true));
   m_temperatureTable->setRows(rowsOf(temperatures));
   m_errorTable->setRows(rowsOf(errors));
-  m_errorCard->setFixedHeight(78 + 22 * static_cast<int>(std::max<qsizetype>(1, errors.size())));
+  // As high as its rows; in a low window many rows scroll.
+  const int whole = 78 + 22 * static_cast<int>(std::max<qsizetype>(1, errors.size()));
+  m_errorCard->setMinimumHeight(std::min(whole, 144));
+  m_errorCard->setMaximumHeight(whole);
   retranslate();
 }
 

@@ -56,6 +56,7 @@ struct VerifyState {
   double rmsAfter_um = std::numeric_limits<double>::quiet_NaN();
   double removed_percent = std::numeric_limits<double>::quiet_NaN();
   double removedTarget_percent = 85.0;
+  double frameLimit_s = 120.0;  // longer without a measurement is too long
   double lastGoodFrame_s = std::numeric_limits<double>::quiet_NaN();
   double timeLeft_s = std::numeric_limits<double>::quiet_NaN();
   QString wallTimeLeft{};     // when the machine's time is not the wall's

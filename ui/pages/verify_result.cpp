@@ -63,7 +63,9 @@ void VerifyResult::setResults(const QVector<AxisResult>& results, double compare
 
 void VerifyResult::renderTable() {
   m_tableCard->setTitle(tr("Axis by axis"));
-  m_tableCard->setSubtitle(tr("largest error in the first %1 min of each run").arg(m_compared_s / 60.0, 0, 'f', 0));
+  m_tableCard->setSubtitle(
+      m_results.isEmpty() ? QString()
+                          : tr("largest error in the first %1 min of each run").arg(m_compared_s / 60.0, 0, 'f', 0));
   m_table->setColumns({{tr("Axis"), 46, false, {}},
                        {tr("Without"), 78, true, tr("Warm-up run, compensation off")},
                        {tr("With"), 98, true, tr("Verification run, compensation on")},

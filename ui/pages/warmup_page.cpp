@@ -233,7 +233,9 @@ QVector<Figure> WarmupPage::runFigures() const {
     figure->word = m_state.steady ? tr("steady") : tr("still moving");
     figure->tip = m_state.steadyCriterion;
   }
-  return {left, largest, slope, heat, lostFigure(), figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5)};
+  Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
+  if (disk.judgement == Judgement::ok) disk.limit.clear();
+  return {left, largest, slope, heat, lostFigure(), disk};
 }
 
 /// A lost sample is judged by what it costs: temperatures change over minutes.

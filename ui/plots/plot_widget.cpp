@@ -26,6 +26,7 @@ class ElapsedTicker : public QCPAxisTickerTime {
 
 PlotWidget::PlotWidget(QWidget* parent) : QWidget(parent) {
   m_plot = new QCustomPlot(this);
+  m_plot->setMinimumSize(8, 8);  // it paints into buffers of its size: there is no buffer of none
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->addWidget(m_plot);

@@ -63,6 +63,7 @@ QWidget* MainWindow::makeHead() {
   m_sentence->setObjectName("pageSentence");
   m_sentence->setProperty("role", "muted");
   m_sentence->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  m_sentence->setWordWrap(true);  // two lines when many actions stand beside it
   auto* words = new QVBoxLayout;
   words->setSpacing(2);
   words->addStretch();
@@ -72,7 +73,7 @@ QWidget* MainWindow::makeHead() {
   m_actions = new QHBoxLayout;
   m_actions->setSpacing(8);
   auto* all = new QHBoxLayout(head);
-  all->setContentsMargins(24, 8, 24, 8);
+  all->setContentsMargins(24, 4, 24, 4);
   all->setSpacing(16);
   all->addLayout(words, 1);
   all->addLayout(m_actions);
@@ -141,6 +142,7 @@ void MainWindow::addPage(Page* page, bool branch) {
   m_progress->addWidget(page->progressStrip());
   connect(page, &Page::refreshed, this, [this, page] {
     if (StepButton* step = m_rail->step(page->id())) step->setTitle(page->title());
+    showWork();
     if (page == currentPage()) showHead();
   });
   if (m_pages.size() == 1) setCurrentPage(page->id());
@@ -214,6 +216,12 @@ void MainWindow::showHead() {
   m_primary->setEnabled(primary.enabled);
   m_primary->setToolTip(primary.enabled ? tr("%1 (Ctrl+Enter)").arg(primary.text) : primary.reason);
   m_primary->setAccessibleDescription(primary.enabled ? QString() : primary.reason);
+}
+
+/// The progress says more than the lamp beside it, and both have no room in a small window.
+void MainWindow::showWork() {
+  const bool working = std::any_of(m_pages.begin(), m_pages.end(), [](const Page* page) { return page->isWorking(); });
+  m_lamps[static_cast<int>(LampId::recording)]->setVisible(!working);
 }
 
 void MainWindow::setStepState(const QString& id, StepState state, const QString& words) {

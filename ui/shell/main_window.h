@@ -89,6 +89,7 @@ class MainWindow : public QMainWindow {
   void openPalette();
   void runCommand(const QString& id);
   void showHead();
+  void showWork();
   void retranslate();
   void placeHelp();
   /// Before a control is switched off or removed: Qt would give its focus to the next one, which nobody asked for.

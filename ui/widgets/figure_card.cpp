@@ -11,7 +11,7 @@ QString words(const char* text) {
 
 Figure judged(Figure figure, double value, double excess) {
   if (std::isnan(value)) {
-    figure.word = words(QT_TRANSLATE_NOOP("Figure", "not measured"));
+    figure.word = words(QT_TRANSLATE_NOOP("Figure", "not yet"));
   } else if (excess <= 1.0) {
     figure.judgement = Judgement::ok;
     figure.word = words(QT_TRANSLATE_NOOP("Figure", "good"));

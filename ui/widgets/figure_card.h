@@ -17,7 +17,7 @@ struct Figure {
   QString unit{};
   QString limit{};  // "limit 0.5 K", "of 20"
   Judgement judgement = Judgement::none;
-  QString word{};  // "good", "too warm", "not measured"
+  QString word{};  // "good", "too warm", "not yet"
   QString tip{};   // the reason, on hover
 
   bool operator==(const Figure& other) const = default;

@@ -32,7 +32,7 @@ ProgressStrip::ProgressStrip(QWidget* parent) : QFrame(parent) {
   all->setSpacing(10);
   all->addLayout(column, 1);
   all->addWidget(m_cancel);
-  m_bar->setFixedWidth(118);
+  m_bar->setFixedWidth(150);
   setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
   hide();
 }
@@ -48,7 +48,8 @@ void ProgressStrip::setProgress(const QString& phase, double fraction, std::opti
   QStringList words;
   if (fraction >= 0.0) words << tr("%1 %").arg(std::lround(100.0 * std::min(1.0, fraction)));
   if (secondsLeft) words << tr("%1 left").arg(durationText(*secondsLeft));
-  m_left->setText(words.isEmpty() ? tr("working") : words.join(QStringLiteral(" · ")));
+  const QString text = words.isEmpty() ? phase : words.join(QStringLiteral(" · "));
+  m_left->setText(m_left->fontMetrics().elidedText(text, Qt::ElideRight, m_bar->width()));
   m_bar->setAccessibleName(phase);
   show();
 }

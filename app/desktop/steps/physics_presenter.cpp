@@ -20,6 +20,7 @@ namespace {
 
 constexpr int watch_ms = 5000;  // a run of hours is watched in so long
 constexpr int watch_tick_ms = 100;
+constexpr double smallest_heat_W = 0.5;
 
 ui::PhysicsVerdict verdict_of(const std::string& name) {
   if (name == "consistent") return ui::PhysicsVerdict::consistent;
@@ -53,13 +54,15 @@ void fill_search(const json& body, ui::PhysicsState& state) {
   state.adopted = adopted;
   state.held_K = over_temperatures(rmse.value(adopted ? "held_out_after" : "held_out_before", json::object()));
   if (state.verdict != ui::PhysicsVerdict::consistent) {
-    state.missing_W = diagnosis.value("mismatch", json::object()).value("missing_heat_W", std::nan(""));
+    const double missing_W = diagnosis.value("mismatch", json::object()).value("missing_heat_W", std::nan(""));
+    if (std::abs(missing_W) >= smallest_heat_W) state.missing_W = missing_W;  // else it is no heat that is missing
   }
 }
 
 /// The letters of formulas, "g = -5.1 µm/K", say nothing to who does not know the formula; the unit tells what it is.
 QString without_letters(QString text) {
-  static const QRegularExpression letter(QStringLiteral("(?<![\\w])[\\p{L}][\\p{L}_]{0,2} = (?=[-+−]?\\d)"));
+  static const QRegularExpression letter(
+      QStringLiteral("(?<![\\w])[\\p{L}][\\p{L}_]{0,2}(\\([^()]*\\))? = (?=[-+−]?\\d)"));
   return text.remove(letter);
 }
 

@@ -1,14 +1,12 @@
 #include "app/desktop/steps/upload_presenter.h"
 
-#include <QAbstractButton>
 #include <QDir>
 #include <QFileDialog>
-#include <QMessageBox>
-#include <QPushButton>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "app/desktop/ask.h"
 #include "app/desktop/machine_writes.h"
 #include "app/desktop/upload_view.h"
 #include "core/base/time_text.h"
@@ -110,12 +108,7 @@ void UploadPresenter::preview(Done done) {
 
 bool UploadPresenter::confirmed(const QString& heading, const QString& text) const {
   if (!m_asking) return true;
-  QMessageBox box(QMessageBox::Question, tr("Zerodrift"), heading, QMessageBox::Cancel, m_page);
-  box.setInformativeText(text);
-  const QAbstractButton* write = box.addButton(tr("Write"), QMessageBox::AcceptRole);
-  box.setDefaultButton(QMessageBox::Cancel);
-  box.exec();
-  return box.clickedButton() == write;
+  return ask(m_page, heading, text, tr("Write"));
 }
 
 void UploadPresenter::askAndWrite(Done done) {

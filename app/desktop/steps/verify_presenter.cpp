@@ -16,6 +16,7 @@ using nlohmann::json;
 namespace {
 
 constexpr int threshold_rest_ms = 600;
+constexpr double missed_measurements = 3.0;  // so many periods without one are too long
 
 /// Largest number of an object {"X": ..., "Y": ...}; NaN when there is none.
 double largest(const json& body, const char* key) {
@@ -133,6 +134,8 @@ void VerifyPresenter::fillRun(ui::VerifyState& state) {
   state.wallTimeLeft = wallTime(now.seconds_left);
   state.peakAfter_um = feed().largestError_um();
   state.afterAxis = feed().largestErrorAxis();
+  const json plan = bench().body("warmup").value("plan", json::object());
+  state.frameLimit_s = missed_measurements * plan.value("measure_period_s", 60.0);
   if (m_measured_s >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - m_measured_s);
 }
 

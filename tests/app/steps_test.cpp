@@ -1,0 +1,168 @@
+// Presenters over a job whose run is made up here: what was tried stays, what was judged is the job's.
+
+#include <QApplication>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <QTest>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/desktop/application.h"
+#include "core/base/json.h"
+#include "core/base/resources.h"
+#include "core/flow/steps/sensors_step.h"
+#include "core/flow/steps/verify_step.h"
+#include "ui/pages/fit_page.h"
+#include "ui/pages/verify_page.h"
+
+using zerodrift::commissioning::Job;
+using zerodrift::commissioning::NewArtefact;
+using zerodrift::commissioning::SeriesId;
+using zerodrift::desktop::Application;
+
+namespace {
+
+constexpr double kelvin[] = {14.0, 9.0, 6.0, 4.0, 2.0};                   // rises of the sensors
+constexpr double minutes[] = {25.0, 40.0, 60.0, 90.0, 150.0};             // their time constants
+constexpr double um_per_K[3][2] = {{0.3, 0.2}, {-0.2, 0.1}, {2.5, 1.2}};  // X, Y, Z from T1 and T3
+
+/// A warm-up by first-order rises; `left` is the share of the errors that is there.
+SeriesId record(Job& job, const char* name, int rows, double left) {
+  const auto series =
+      job.start_series(name, {"spindle_rpm", "T1_C", "T2_C", "T3_C", "T4_C", "T5_C", "dX_um", "dY_um", "dZ_um"});
+  for (int i = 0; i < rows; ++i) {
+    std::vector<double> row = {3000.0};
+    for (int s = 0; s < 5; ++s) {
+      // A little of its own for each sensor, the same at each call.
+      const double own = 0.05 * std::sin(0.7 * i * (s + 1));
+      row.push_back(20.0 + kelvin[s] * (1.0 - std::exp(-i / minutes[s])) + own);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const double error =
+          um_per_K[axis][0] * (row[1] - 20.0) + um_per_K[axis][1] * (row[3] - 20.0) + 0.1 * std::cos(1.3 * i + axis);
+      row.push_back(i % 2 == 0 ? left * error : std::nan(""));
+    }
+    if (!job.append(*series, 60.0 * i, row)) return 0;
+  }
+  return job.flush() && job.finish_series(*series) ? *series : 0;
+}
+
+}  // namespace
+
+class StepsTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void initTestCase() {
+    QVERIFY(m_folder.isValid());
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
+    QSettings::setDefaultFormat(QSettings::NativeFormat);
+    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
+  }
+
+  void triedMethodsStay() {
+    Application application(*m_theme);
+    QVERIFY(recorded(application));
+    application.openPage(QStringLiteral("fit"));
+    auto* page = qobject_cast<zerodrift::ui::FitPage*>(application.presenter(QStringLiteral("fit"))->page());
+    auto& tasks = application.bench().tasks();
+    QTRY_VERIFY_WITH_TIMEOUT(application.bench().has("model") && !tasks.running(), 60000);
+    const auto ids = [page] {
+      QStringList all;
+      for (const auto& row : page->state().methods) all << row.id;
+      all.sort();
+      return all;
+    };
+    const QStringList offered = ids();
+    QVERIFY2(offered.contains(QStringLiteral("ridge")) && offered.contains(QStringLiteral("mlr")),
+             qPrintable(offered.join(QLatin1Char(' '))));
+    const QString proposed = page->state().proposed;
+    for (const char* method : {"mlr", "ridge", "mlr"}) {
+      Q_EMIT page->methodChosen(QString::fromLatin1(method));
+      QTRY_VERIFY_WITH_TIMEOUT(!tasks.running(), 60000);
+      QCOMPARE(page->state().method, QString::fromLatin1(method));
+      QCOMPARE(ids(), offered);
+      QCOMPARE(page->state().proposed, proposed);
+    }
+  }
+
+  /// Page, job and report name the same coefficient, also after the threshold was changed by hand.
+  void oneCorrectionForPageAndReport() {
+    Application application(*m_theme);
+    QVERIFY(recorded(application));
+    auto& job = *application.bench().job();
+    QVERIFY(put(job, "upload", {{"table", tableOf()}, {"sign_check", {{"passed", true}}}}, {}));
+    const SeriesId series = record(job, "verification", 180, 0.12);
+    QVERIFY(series != 0);
+    const auto upload = job.latest("upload");
+    const auto warmup = job.latest("warmup");
+    QVERIFY(put(job, "verification", {{"series", series}, {"limit_um", 5.0}, {"problems", nlohmann::json::array()}},
+                {(*warmup)->id, (*upload)->id}));
+    const auto judged = zerodrift::flow::judge_again(job, 2.0);
+    QVERIFY2(judged.has_value(), judged ? "" : describe(judged.error()).c_str());
+    QVERIFY(application.bench().keep(*judged).has_value());
+
+    application.openPage(QStringLiteral("verify"));
+    auto* page = qobject_cast<zerodrift::ui::VerifyPage*>(application.presenter(QStringLiteral("verify"))->page());
+    const auto agrees = [&] {
+      const auto body = application.bench().body("verification");
+      for (const auto& row : page->state().corrections) {
+        if (std::abs(row.kappa - body["kappa"][row.axis.toStdString()].get<double>()) > 1e-12) return false;
+      }
+      return !page->state().corrections.isEmpty();
+    };
+    QVERIFY(agrees());
+    QVERIFY(page->state().correctionProposed);
+    Q_EMIT page->thresholdChanged(50.0);
+    QTRY_COMPARE(application.bench().body("verification").value("threshold_um", 0.0), 50.0);
+    QTRY_VERIFY(!application.bench().tasks().running());
+    QVERIFY(agrees());
+    QVERIFY(!page->state().correctionProposed);
+
+    // Both runs over the same minutes.
+    const auto& results = page->state().results;
+    QCOMPARE(results.size(), 3);
+    QVERIFY(!results[2].worse());
+    QCOMPARE(page->state().beforeAxis, QStringLiteral("Z"));
+    QVERIFY(std::abs(page->state().compared_s - 179 * 60.0) < 1.0);
+  }
+
+ private:
+  static bool put(Job& job, const char* kind, const nlohmann::json& body,
+                  const std::vector<zerodrift::commissioning::ArtefactId>& inputs) {
+    return job.put(NewArtefact::of(kind, body, inputs)).has_value();
+  }
+
+  static nlohmann::json tableOf() {
+    zerodrift::compensation::Table table;
+    for (int axis = 0; axis < 3; ++axis) {
+      auto& record = table.axes[std::string(1, "XYZ"[axis])];
+      record.terms = {{"T1_C", um_per_K[axis][0], 20.0}, {"T3_C", um_per_K[axis][1], 20.0}};
+    }
+    return zerodrift::compensation::to_json(table);
+  }
+
+  /// A job up to the sensors.
+  bool recorded(Application& application) {
+    const auto path = m_folder.filePath(QStringLiteral("job-%1.zdj").arg(++m_jobs)).toStdString();
+    if (!application.bench().createJob(path)) return false;
+    auto& job = *application.bench().job();
+    const auto file = zerodrift::find_resource("profiles/virtual-five-axis.json");
+    const auto profile = file ? zerodrift::read_json_file(*file) : zerodrift::Result<nlohmann::json>(nullptr);
+    if (!profile || profile->is_null()) return false;
+    const SeriesId series = record(job, "warm-up", 240, 1.0);
+    if (series == 0 || !put(job, "machine", {{"profile", *profile}, {"identity", {{"accepts_table", true}}}}, {}) ||
+        !put(job, "warmup", {{"series", series}, {"rows", 240}, {"lost_samples", 0}}, {})) {
+      return false;
+    }
+    const auto sensors = zerodrift::flow::choose_sensors(job, {}, {});
+    return sensors && application.bench().keep(*sensors).has_value();
+  }
+
+  QTemporaryDir m_folder;
+  std::unique_ptr<zerodrift::ui::Theme> m_theme;
+  int m_jobs = 0;
+};
+
+QTEST_MAIN(StepsTest)
+#include "steps_test.moc"
