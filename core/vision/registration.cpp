@@ -17,12 +17,14 @@ constexpr double blur_limit_px2 = 0.25;  // a larger change of blur is put into 
 constexpr double largest_blur_px2 = 40.0;  // trace of the covariance
 constexpr double usual_edge_px2 = 0.8;     // variance of an edge in a picture in focus
 constexpr double largest_part = 0.45;
-constexpr double round_blur_px2 = 0.3;    // nearer to round than this, the blur is made round, which is quicker
-constexpr double structure_limit = 1.7;   // tile means over their noise: above it a smooth field is solved as well
-constexpr double glance_structure = 2.0;  // the same on a quarter of the pixels, when there is no doubt
-constexpr double with_field_px2 = 1.0;    // beside a field the solve's own blur columns do for a smaller change
-constexpr double as_good = 0.93;          // of the best fit: blur fits shapes nearly as well before it fits them better
-constexpr double glare_share = 0.005;     // of saturated pixels
+constexpr double round_blur_px2 = 0.3;      // nearer to round than this, the blur is made round, which is quicker
+constexpr double structure_limit = 2.4;     // tile means over their noise: above it a smooth field is solved as well
+constexpr double doubtful_structure = 1.7;  // from here on it is tried whether a field moves the result
+constexpr double glance_structure = 4.0;    // the same on a quarter of the pixels, when there is no doubt
+constexpr double glance_structure_in_glare = 2.0;
+constexpr double with_field_px2 = 1.0;  // beside a field the solve's own blur columns do for a smaller change
+constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nearly as well before it fits them better
+constexpr double glare_share = 0.005;   // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr int largest_rounds = 5;
@@ -32,8 +34,19 @@ double fit_of(const Registration& r) {
   return r.informed_share * std::max(r.correlation, 0.0) / r.residual;
 }
 
-bool needs_field(const Registration& r, double limit = structure_limit) {
-  return r.structure > limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
+bool needs_field(const Registration& r) {
+  return r.structure > structure_limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
+}
+
+// Hausman's test (Econometrica 46 (1978) 1251): the solve without a field is the more precise of the two, the one with
+// it the more robust. Where they differ by more than their noise allows, the first is biased. True then.
+bool biased(const Registration& without, const Registration& with_field) {
+  constexpr double limit = 16.0;  // chi-square of two numbers: four standard deviations, for blur's shape moves both
+  constexpr double least_share = 0.1;  // of the variance, where both hardly differ
+  const Eigen::Vector2d moved = with_field.displacement_px - without.displacement_px;
+  const Eigen::Vector2d& variance = without.noise_variance_px2;
+  const Eigen::Vector2d expected = (with_field.noise_variance_px2 - variance).cwiseMax(least_share * variance);
+  return (moved.cwiseAbs2().array() / expected.array()).sum() > limit;
 }
 
 // The solve sees of a blur the part that the second derivative tells. For an edge of variance s^2 that is further
@@ -129,7 +142,8 @@ void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
     blurred_model = tried_model;
     solver.hand_over(start);
     if (!match_blur(solver.extra_blur_px2(), tried)) {
-      setup.with_field = needs_field(seen, glance_structure);
+      const bool bright = seen.saturated_share > glare_share;
+      setup.with_field = seen.structure > (bright ? glance_structure_in_glare : glance_structure);
       return;
     }
     tried_model = make_template_model(m_source, tried.template_blur, tried.frame_blur);
@@ -147,6 +161,7 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   match_blur_at_a_glance(patches, setup, blurred_model, start);
   Registration out;
   bool field_helped = false;
+  bool on_trial = false;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = blurred_model ? *blurred_model : m_model;
     std::optional<SmoothField> field;
@@ -162,12 +177,19 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
     const bool field_is_new = setup.with_field && out.converged && !field_helped;
     if (field_is_new && found.structure > out.structure) break;  // it explained nothing
     field_helped = setup.with_field;
+    if (on_trial) {
+      // A trial of the field: what was found without it stands unless it was biased.
+      Registration with_field = found;
+      solver.tell_uncertainty(with_field);
+      if (!biased(out, with_field)) break;
+    }
     out = found;
     if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
     solver.hand_over(start);
     ImageSetup next = setup;
     const bool blurs = match_blur(solver.extra_blur_px2(), next);
-    next.with_field = setup.with_field || (!blurs && needs_field(out));
+    on_trial = !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;
+    next.with_field = setup.with_field || (!blurs && (needs_field(out) || on_trial));
     if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
     solver.tell_uncertainty(out);
     if (!blurs && next.with_field == setup.with_field) break;

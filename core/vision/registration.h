@@ -17,10 +17,11 @@ struct Registration {
   Eigen::Vector2d displacement_px = Eigen::Vector2d::Zero();  // of the named point, right and down
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();       // affine part
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
-  double correlation = 0.0;     // weighted, of frame and model
-  double inlier_share = 0.0;    // of the pixels, by weight over a quarter
-  double informed_share = 0.0;  // of the gradient energy
-  double seen_share = 0.0;      // of the pixels that lie in the frame
+  Eigen::Vector2d noise_variance_px2 = Eigen::Vector2d::Zero();  // what the covariance would be by the noise alone
+  double correlation = 0.0;                                      // weighted, of frame and model
+  double inlier_share = 0.0;                                     // of the pixels, by weight over a quarter
+  double informed_share = 0.0;                                   // of the gradient energy
+  double seen_share = 0.0;                                       // of the pixels that lie in the frame
   double saturated_share = 0.0;
   double contrast = 0.0;   // gain of the frame over the template
   double blur_px2 = 0.0;   // largest change of the blur's variance since the template, px^2

@@ -165,6 +165,7 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   const Eigen::Vector2d growth(std::sqrt(m_model.noise_growth_x), std::sqrt(m_model.noise_growth_y));
   const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;
   const Eigen::Vector2d by_tiles = jackknife(scores) * (shrink * shrink);
+  out.noise_variance_px2 = noise.diagonal();
   // Each axis grows to what the tiles say; the correlation of the noise formula is kept.
   const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_tiles(0) / noise(0, 0))),
                               std::sqrt(std::max(1.0, by_tiles(1) / noise(1, 1))));

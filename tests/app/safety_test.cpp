@@ -5,13 +5,16 @@
 #include <QDir>
 #include <QFile>
 #include <QProcess>
+#include <QPushButton>
 #include <QSettings>
+#include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
 
 #include "app/desktop/application.h"
 #include "core/flow/devices.h"
 #include "ui/pages/calibrate_page.h"
+#include "ui/widgets/camera_view.h"
 
 using zerodrift::desktop::Application;
 using zerodrift::desktop::DemoOptions;
@@ -51,6 +54,28 @@ bool lives(qint64 pid) {
   return state != 0 && state != 'Z' && state != 'X';
 }
 
+/// Draws the box with the mouse on the live picture, as a person does; what the page made of it, in pixels of the
+/// image.
+QRectF drawn_on_the_picture(CalibratePage* page, const QRectF& box, const QSizeF& image) {
+  auto* view = page->findChild<zerodrift::ui::CameraView*>();
+  auto* button = page->findChild<QPushButton*>(QStringLiteral("drawRegion"));
+  button->click();
+  if (!button->isChecked()) return {};
+  const double scale = std::min(view->width() / image.width(), view->height() / image.height());
+  const auto on_screen = [&](const QPointF& at) {
+    return ((at - QPointF(image.width(), image.height()) / 2.0) * scale + QRectF(view->rect()).center()).toPoint();
+  };
+  QSignalSpy drawn(page, &CalibratePage::regionDrawn);
+  for (int attempt = 0; attempt < 100 && drawn.isEmpty(); ++attempt) {
+    QTest::qWait(200);  // until a picture has arrived nothing can be drawn on it
+    QTest::mousePress(view, Qt::LeftButton, {}, on_screen(box.topLeft()));
+    QTest::mouseMove(view, on_screen(box.center()));
+    QTest::mouseMove(view, on_screen(box.bottomRight()));
+    QTest::mouseRelease(view, Qt::LeftButton, {}, on_screen(box.bottomRight()));
+  }
+  return drawn.isEmpty() || button->isChecked() ? QRectF() : drawn.first().first().toRectF();
+}
+
 }  // namespace
 
 class SafetyTest : public QObject {
@@ -84,6 +109,12 @@ class SafetyTest : public QObject {
     Q_EMIT page->primaryTriggered();
     QVERIFY(!bench.tasks().running());
 
+    // A region drawn by hand is where the first camera's target is looked for.
+    const auto& planned = bench.profile()->cameras.front().target_roi_px;
+    const QRectF wanted = QRectF(planned[0], planned[1], planned[2], planned[3]).adjusted(-9, -7, 5, 8);
+    const QRectF drawn = drawn_on_the_picture(page, wanted, {640, 480});
+    QVERIFY(std::abs(drawn.left() - wanted.left()) < 3.0 && std::abs(drawn.bottom() - wanted.bottom()) < 3.0);
+
     const QString first = page->state().moveCamera;
     clear->setChecked(true);
     QVERIFY(page->primaryAction().enabled);
@@ -111,6 +142,11 @@ class SafetyTest : public QObject {
     Q_EMIT page->primaryTriggered();
     QTRY_VERIFY_WITH_TIMEOUT(!bench.tasks().running(), 180000);
     QVERIFY2(bench.has("calibration"), qPrintable(page->problem().sentence));
+    const QRect used = drawn.toRect();
+    const auto cameras = bench.body("calibration").at("cameras");
+    QCOMPARE(cameras.at(0).at("roi") == nlohmann::json({used.x(), used.y(), used.width(), used.height()}), true);
+    const auto& other = bench.profile()->cameras[1].target_roi_px;
+    QCOMPARE(cameras.at(1).at("roi") == nlohmann::json(other), true);
     QVERIFY(!clear->isChecked());
     Q_EMIT page->secondaryTriggered(QStringLiteral("repeat"));
     QVERIFY(!bench.tasks().running());
