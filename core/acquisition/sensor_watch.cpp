@@ -9,10 +9,10 @@ namespace zerodrift::acquisition {
 namespace {
 
 // A sensor that changes in a share p of its readings stays still n times with probability (1 - p)^n: this is once in
-// 5e8 readings.
-constexpr double log_chance = -20.0;
+// nine million readings, some hundred runs of twenty sensors.
+constexpr double log_chance = -16.0;
 constexpr double most_changing = 0.95;  // even a noisy one repeats a value now and then
-constexpr std::size_t fewest_readings = 20;
+constexpr std::size_t fewest_readings = 15;
 
 }  // namespace
 

@@ -3,12 +3,14 @@
 Usage: fault_test.py [FAULT ...]"""
 
 import bisect
+import concurrent.futures
 import csv
 import os
 import sys
 
 from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
 
+at_a_time = 3
 LINK_FAULTS = ["busy", "late", "wrong-transaction", "truncated", "drop", "bytewise"]
 # What a device that is broken, now and then or for good (":always"), must be called.
 BROKEN = {"stuck-sensor": "stuck", "dead-sensor": "dead", "camera-freeze": "frozen", "camera-occluded": "occluded"}
@@ -82,8 +84,10 @@ def fault_run(folder, fault):
 
 
 def all_faults(folder):
-    for fault in sys.argv[1:] or LINK_FAULTS + list(BROKEN) + [fault + ":always" for fault in BROKEN]:
-        fault_run(folder, fault)
+    faults = sys.argv[1:] or LINK_FAULTS + list(BROKEN) + [fault + ":always" for fault in BROKEN]
+    with concurrent.futures.ThreadPoolExecutor(at_a_time) as pool:  # each is a machine of its own, and mostly waits
+        for run in [pool.submit(fault_run, folder, fault) for fault in faults]:
+            run.result()
 
 
 if __name__ == "__main__":
