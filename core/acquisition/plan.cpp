@@ -96,6 +96,12 @@ Result<Plan> read_plan(const std::filesystem::path& path, std::vector<std::strin
 std::vector<Plan> preset_plans() {
   constexpr double hour = 3600.0;
   return {
+      // How heat splits between motor and bearings shows only when the speed changes, and how it leaves only at rest.
+      preset("Warm-up, 4 h, stepped speeds", 10.0, 120.0,
+             {{2 * hour, 3000.0, true, true},
+              {0.8 * hour, 6000.0, true, true},
+              {0.6 * hour, 1500.0, false, true},
+              {0.6 * hour, 0.0, false, false}}),
       preset("Warm-up, 4 h at 3000 rpm", 10.0, 60.0, {{4 * hour, 3000.0, true, true}}),
       preset("Warm-up and cooling, 3000 rpm", 10.0, 60.0,
              {{4 * hour, 3000.0, true, true}, {2 * hour, 0.0, false, false}}),

@@ -36,7 +36,8 @@ Result<Plan> plan_from_json(const nlohmann::json& document, const std::string& f
 nlohmann::json to_json(const Plan& plan);
 Result<Plan> read_plan(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 
-/// Presets: 4 h at 3000 rpm; ISO 230-3 ETVE (environment), spindle and linear axis tests; stepped-speed spectrum.
+/// Presets: 4 h of stepped speeds (first, the usual one); 4 h at 3000 rpm; stepped-speed spectrum; ISO 230-3 ETVE
+/// (environment), spindle and linear axis tests.
 std::vector<Plan> preset_plans();
 
 }  // namespace zerodrift::acquisition

@@ -168,13 +168,8 @@ QVector<Figure> VerifyPage::figures() const {
   }
   Figure frame = figureAtMost(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s", m_state.frameLimit_s);
   if (frame.judgement == Judgement::ok) frame.word = tr("measuring");
-  frame.limit.clear();
   frame.tip = tr("Machine time since the camera last measured the error. Up to %1 it is as planned.")
                   .arg(durationText(m_state.frameLimit_s));
-  if (!std::isnan(m_state.timeLeft_s)) {
-    frame.limit =
-        m_state.wallTimeLeft.isEmpty() ? tr("%1 left").arg(durationText(m_state.timeLeft_s)) : m_state.wallTimeLeft;
-  }
   return {before, after, rms, removed, frame};
 }
 

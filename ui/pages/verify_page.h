@@ -58,8 +58,6 @@ struct VerifyState {
   double removedTarget_percent = 85.0;
   double frameLimit_s = 120.0;  // longer without a measurement is too long
   double lastGoodFrame_s = std::numeric_limits<double>::quiet_NaN();
-  double timeLeft_s = std::numeric_limits<double>::quiet_NaN();
-  QString wallTimeLeft{};     // when the machine's time is not the wall's
   double threshold_um = 3.0;  // part error above which a correction is proposed
   QVector<AxisCorrection> corrections{};
   bool correctionProposed = false;

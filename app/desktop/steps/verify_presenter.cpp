@@ -130,8 +130,6 @@ void VerifyPresenter::fillRun(ui::VerifyState& state) {
   const auto& now = feed().now();
   state.phase = feed().paused() ? ui::VerifyPhase::paused : ui::VerifyPhase::running;
   if (!feed().receiving()) return;
-  state.timeLeft_s = now.seconds_left;
-  state.wallTimeLeft = wallTime(now.seconds_left);
   state.peakAfter_um = feed().largestError_um();
   state.afterAxis = feed().largestErrorAxis();
   const json plan = bench().body("warmup").value("plan", json::object());
@@ -272,7 +270,21 @@ void VerifyPresenter::refresh() {
 }
 
 void VerifyPresenter::tour(std::function<void(bool good)> done) {
-  start(std::move(done));
+  // As an engineer would: what the residual shows is corrected once and proved again.
+  start([this, done = std::move(done)](bool good) {
+    refresh();
+    if (!good || !m_page->state().correctionProposed) {
+      done(good);
+      return;
+    }
+    applyCorrection([this, done](bool written) {
+      if (written) {
+        start(done);
+      } else {
+        done(false);
+      }
+    });
+  });
 }
 
 }  // namespace zerodrift::desktop

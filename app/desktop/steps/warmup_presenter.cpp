@@ -2,9 +2,8 @@
 
 #include <QDir>
 #include <QFileDialog>
-#include <QFileInfo>
-#include <QStorageInfo>
 #include <cmath>
+#include <filesystem>
 
 #include "app/desktop/ask.h"
 #include "core/acquisition/job_sink.h"
@@ -197,10 +196,9 @@ void WarmupPresenter::refresh() {
   state.samplePeriod_s = m_plan.sample_period_s;
   state.measurePeriod_s = m_plan.measure_period_s;
   state.compensationOn = bench().compensationOn();
-  state.diskFree_GB =
-      static_cast<double>(
-          QStorageInfo(QFileInfo(QString::fromStdString(job->path().string())).path()).bytesAvailable()) /
-      1e9;
+  std::error_code unknown;
+  const auto space = std::filesystem::space(std::filesystem::absolute(job->path()).parent_path(), unknown);
+  state.diskFree_GB = unknown ? std::nan("") : static_cast<double>(space.available) / 1e9;
   const json body = bench().body("warmup");
   if (running()) {
     fillRun(state);

@@ -83,7 +83,6 @@ void fillVerify(Page* page, const QString& scene) {
   s.rmsAfter_um = 1.42;
   s.removed_percent = 94;
   s.lastGoodFrame_s = 12;
-  s.timeLeft_s = finished ? NAN : 2700;
   s.threshold_um = 3.0;
   s.correctionProposed = finished;
   if (finished) {
