@@ -17,6 +17,7 @@ inline constexpr double worst_hole_s = 600.0;
 // The sensors
 inline constexpr double unseen_error_um = 5.0;
 inline constexpr double lost_against_all_percent = 10.0;
+inline constexpr double lost_against_all_um = 0.2;  // less is no reason for another cable, whatever its share
 // Belsley, Kuh, Welsch (1980): from 30 on coefficients disturb one another.
 inline constexpr double condition_number = 30.0;
 // The model

@@ -163,9 +163,19 @@ QVector<Figure> SensorsPage::figures() const {
   if (m_state.lost_percent <= 0.0) {
     lost.judgement = Judgement::ok;
     lost.word = tr("nothing lost");
+  } else if (lost.judgement != Judgement::ok) {
+    const double lost_um = m_state.error_um * m_state.lost_percent / (100.0 + m_state.lost_percent);
+    if (lost_um <= m_state.lostLimit_um) {
+      lost.judgement = Judgement::ok;
+      lost.word = tr("only %1 µm").arg(lost_um, 0, 'f', 2);
+    }
   }
   Figure condition = figureAtMost(tr("Condition number"), m_state.condition, 0, {}, m_state.conditionLimit);
   condition.tip = tr("How alike the kept sensors are. Large: their coefficients cannot be told apart.");
+  if (condition.judgement == Judgement::bad) {
+    condition.judgement = Judgement::warn;
+    condition.word = tr("much alike");
+  }
   if (m_state.pricing) {
     for (Figure* figure : {&error, &lost, &condition}) {
       figure->judgement = Judgement::none;

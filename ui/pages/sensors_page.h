@@ -51,6 +51,7 @@ struct SensorsState {
   double errorLimit_um = 5.0;
   double lost_percent = std::numeric_limits<double>::quiet_NaN();  // against all sensors
   double lostLimit_percent = 10.0;
+  double lostLimit_um = 0.2;  // less is harmless, whatever its share
   double condition = std::numeric_limits<double>::quiet_NaN();
   double conditionLimit = 30.0;
   QVector<double> time_s{};                 // for the small multiples

@@ -146,6 +146,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   state.error_um = number(price, "held_out_rms_um");
   state.errorLimit_um = report::limits::unseen_error_um;
   state.lostLimit_percent = report::limits::lost_against_all_percent;
+  state.lostLimit_um = report::limits::lost_against_all_um;
   state.conditionLimit = report::limits::condition_number;
   const double all_um = number(price, "all_rms_um");
   if (all_um > 0.0) state.lost_percent = 100.0 * (state.error_um / all_um - 1.0);
