@@ -161,7 +161,8 @@ QString PhysicsPage::sentence() const {
                  ? tr("Map, curves and figures hold what was adopted. Go on, or take it out again.")
                  : tr("Something is missing in the simulation. Judge the explanations; adopt what convinces.");
     case PhysicsVerdict::unexplained:
-      return tr("Something is missing that no known effect explains. It is shown, not guessed.");
+      return m_state.adopted ? tr("Map, curves and figures hold what was adopted; the rest no known effect explains.")
+                             : tr("Something is missing that no known effect explains. It is shown, not guessed.");
   }
   return {};
 }
@@ -201,7 +202,7 @@ QVector<Figure> PhysicsPage::figures() const {
                                   std::isnan(m_state.noise_K) ? 0.1 : std::ceil(20.0 * m_state.noise_K) / 10.0);
   if (agreement.judgement == Judgement::ok) agreement.word = tr("down to noise");
   if (agreement.judgement == Judgement::bad) agreement.word = tr("something missing");
-  agreement.limit = m_state.adopted ? tr("with what was adopted, %1").arg(agreement.limit) : agreement.limit;
+  agreement.tip = m_state.adopted ? tr("With what was adopted.") : tr("As the machine is described.");
   Figure noise = figureOf(tr("Noise of the sensors"), m_state.noise_K, 2, "K");
   Figure heat = figureOf(tr("Missing heat"), m_state.missing_W, 0, "W");
   if (m_state.adopted && !heat.value.isEmpty()) heat.word = tr("explained by what was adopted");

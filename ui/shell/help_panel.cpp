@@ -44,6 +44,21 @@ void HelpPanel::load() {
   m_text->document()->setDefaultFont(uiFont(13));
   if (!file.open(QIODevice::ReadOnly)) return;
   m_text->setMarkdown(QString::fromUtf8(file.readAll()));
+  m_text->document()->setIndentWidth(18);
+  // Markdown comes without room between its paragraphs.
+  for (QTextBlock block = m_text->document()->begin(); block.isValid(); block = block.next()) {
+    QTextCursor cursor(block);
+    QTextBlockFormat format = block.blockFormat();
+    format.setTopMargin(format.headingLevel() > 1 ? 10 : 0);
+    format.setBottomMargin(block.textList() != nullptr ? 4 : 8);
+    format.setLineHeight(118, QTextBlockFormat::ProportionalHeight);
+    cursor.setBlockFormat(format);
+    if (format.headingLevel() == 0) continue;
+    QTextCharFormat letters;
+    letters.setFont(uiFont(format.headingLevel() == 1 ? 18 : 14, QFont::DemiBold));
+    cursor.select(QTextCursor::BlockUnderCursor);
+    cursor.mergeCharFormat(letters);
+  }
   m_text->moveCursor(QTextCursor::Start);
 }
 

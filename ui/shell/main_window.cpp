@@ -234,7 +234,10 @@ void MainWindow::setBackEnabled(bool enabled) {
 }
 
 void MainWindow::setLamp(LampId lamp, const QString& text, Judgement judgement, bool strong) {
-  m_lamps[static_cast<int>(lamp)]->setState(text, judgement, strong);
+  Lamp* shown = m_lamps[static_cast<int>(lamp)];
+  shown->setState(text, judgement, strong);
+  // The interlock's state is never cut.
+  if (lamp == LampId::compensation) shown->setMinimumWidth(shown->sizeHint().width());
 }
 
 void MainWindow::setJob(const QString& job, const QString& engineer) {

@@ -105,6 +105,7 @@ QMenu::separator { height: 1px; background: @line; margin: 4px 0; }
 #footer { border-top: 1px solid @line; }
 #logDrawer { background: @panel; border-top: 1px solid @line; }
 #helpPanel { background: @panel; border-left: 1px solid @line; }
+#helpPanel QTextBrowser { border: 0; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 #paletteBox { background: @panel; border: 1px solid @buttonLine; border-radius: 8px; }
 )";
