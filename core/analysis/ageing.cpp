@@ -75,6 +75,41 @@ bool DriftDetector::add(double standardised) {
   return m_alarm;
 }
 
+std::vector<DriftCheck> check_drift(const Prediction& prediction, const recording::Recording& recording) {
+  constexpr double every_s = 3600.0;
+  constexpr double deviations_of_band = 1.645;
+  std::vector<DriftCheck> out;
+  for (const auto& e : prediction.errors) {
+    const recording::Channel* measured = recording.find(e.error);
+    if (measured == nullptr) continue;
+    DriftCheck check{e.error};
+    DriftDetector detector;
+    double sum = 0.0;
+    int count = 0;
+    double until_s = prediction.time_s.front() + every_s;
+    for (std::size_t i = 0; i < prediction.time_s.size(); ++i) {
+      const double deviation_um = e.half_width_um[i] / deviations_of_band;
+      if (std::isfinite(measured->values[i]) && deviation_um > 0.0) {
+        sum += (measured->values[i] - e.value_um[i]) / deviation_um;
+        ++count;
+      }
+      const bool last = i + 1 == prediction.time_s.size();
+      if (!last && prediction.time_s[i + 1] < until_s) continue;
+      until_s += every_s;
+      if (count == 0) continue;
+      ++check.checks;
+      if (detector.add(sum / count) && !check.alarm) {
+        check.alarm = true;
+        check.at_s = prediction.time_s[i];
+      }
+      sum = 0.0;
+      count = 0;
+    }
+    out.push_back(check);
+  }
+  return out;
+}
+
 void DriftDetector::reset() {
   m_high = m_low = 0.0;
   m_alarm = false;

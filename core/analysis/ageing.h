@@ -2,9 +2,11 @@
 // Machines age: bearings run in, preload settles, a chiller is serviced. A short new run corrects an old model without
 // starting over, and verified residuals say when it is time.
 
+#include <string>
 #include <vector>
 
 #include "core/analysis/model.h"
+#include "core/analysis/predict.h"
 #include "core/base/result.h"
 #include "core/recording/recording.h"
 
@@ -39,5 +41,17 @@ class DriftDetector {
   double m_low = 0.0;
   bool m_alarm = false;
 };
+
+struct DriftCheck {
+  std::string error;
+  int checks = 0;  // one an hour, each the mean of what was measured in it
+  bool alarm = false;
+  double at_s = 0.0;  // when it was raised
+};
+
+/// Whether the measured errors of a recording have left what the model states: CUSUM of hourly mean residuals over the
+/// deviation that the band stands for (90 %: 1.645 of them). An hour, because residuals of a thermal model are slow:
+/// neighbouring minutes are one observation.
+std::vector<DriftCheck> check_drift(const Prediction& prediction, const recording::Recording& recording);
 
 }  // namespace zerodrift::analysis

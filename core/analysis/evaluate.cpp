@@ -74,6 +74,9 @@ Recipe make_recipe(Method method, const std::vector<std::string>& sensors, const
       recipe.sensors = {room_of(set, sensors)};
       recipe.features = greybox_features(recipe.sensors.front(), set.runs.front());
       break;
+    case Method::physics:
+      recipe.features = physics_features(sensors, set.runs.front());
+      break;
     default:
       recipe.features = static_features(sensors);
   }
@@ -90,6 +93,30 @@ Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const
   return out;
 }
 
+namespace {
+
+/// The mean of ridge fits on the first so many sensors: with one cycle nothing tells which number is right, and their
+/// errors on other speeds point different ways.
+std::vector<RidgeFit> fit_nested(const Rows& rows, const Eigen::MatrixXd& errors_um, const Recipe& recipe,
+                                 const TrainingSet& set) {
+  // A controller low-passes its readings, so less is given up than single readings would ask for; the mean of several
+  // fits is quieter as well.
+  constexpr double share_of_noise = 0.5;
+  const Eigen::VectorXd noise_C = share_of_noise * set.feature_noise_C(recipe.features);
+  const RidgeChoice choice = default_choice(set.duration_s());
+  std::vector<std::vector<RidgeFit>> members;
+  for (const std::size_t count : recipe.nested) {
+    const auto columns = static_cast<Eigen::Index>(count);
+    Rows part = rows;
+    part.x = rows.x.leftCols(columns);
+    members.push_back(fit_ridge(part, errors_um, choice));
+    for (auto& fit : members.back()) fit = for_noisy_readings(fit, part.x, noise_C.head(columns));
+  }
+  return mean_of(members, rows.x.cols());
+}
+
+}  // namespace
+
 Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& errors_um, const Recipe& recipe,
                                        const TrainingSet& set) {
   const Method method = recipe.method;
@@ -102,8 +129,9 @@ Result<std::vector<RidgeFit>> fit_rows(const Rows& rows, const Eigen::MatrixXd& 
   if (method == Method::arx || method == Method::greybox) {
     return fit_poles(rows, errors_um, pole_groups(recipe.features, method == Method::greybox), set.duration_s());
   }
+  if (!recipe.nested.empty()) return fit_nested(rows, errors_um, recipe, set);
   std::vector<RidgeFit> fits;
-  if (method == Method::ridge || method == Method::dynamic) {
+  if (method == Method::ridge || method == Method::dynamic || method == Method::physics) {
     fits = fit_ridge(rows, errors_um, default_choice(set.duration_s()));
   } else {
     Rows one = rows;

@@ -15,6 +15,7 @@ struct Recipe {
   Method method = Method::ridge;
   std::vector<std::string> sensors;
   std::vector<FeatureSpec> features;
+  std::vector<std::size_t> nested = {};  // static: the mean of fits on the first so many sensors; empty: one fit on all
 };
 Recipe make_recipe(Method method, const std::vector<std::string>& sensors, const TrainingSet& set);
 

@@ -104,6 +104,22 @@ std::vector<FeatureSpec> greybox_features(const std::string& room, const Prepare
   return specs;
 }
 
+bool has_simulation(const Prepared& data) {
+  return std::any_of(data.inputs.begin(), data.inputs.end(),
+                     [](const std::string& name) { return name.starts_with(simulated_prefix); });
+}
+
+std::vector<FeatureSpec> physics_features(const std::vector<std::string>& sensors, const Prepared& data) {
+  std::vector<FeatureSpec> specs;
+  for (const auto& name : data.inputs) {
+    if (!name.starts_with(simulated_prefix)) continue;
+    for (const double hours : {0.0, 0.4, 1.5}) specs.push_back({name, hours * hour_s, 1, 1.0, false});
+  }
+  const std::vector<FeatureSpec> temperatures = static_features(sensors);
+  specs.insert(specs.end(), temperatures.begin(), temperatures.end());
+  return specs;
+}
+
 std::vector<std::vector<int>> pole_groups(const std::vector<FeatureSpec>& specs, bool pairs) {
   std::vector<double> poles_s;
   for (const auto& spec : specs) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/analysis/prepare.h"
@@ -30,6 +31,12 @@ std::vector<FeatureSpec> dynamic_features(const std::vector<std::string>& sensor
 std::vector<FeatureSpec> arx_features(const std::vector<std::string>& sensors, const Prepared& data);
 /// For the grey box: moving inputs (speed n and n^2) and the room through each of a list of time constants.
 std::vector<FeatureSpec> greybox_features(const std::string& room, const Prepared& data);
+/// Inputs of this name are what a simulation of the machine says: its displacements, in um.
+inline constexpr std::string_view simulated_prefix = "simulated_";
+bool has_simulation(const Prepared& data);
+/// For a physics model: the simulated displacements, at once and lagging (what the description leaves out of the
+/// structure follows later), and the temperatures as they are.
+std::vector<FeatureSpec> physics_features(const std::vector<std::string>& sensors, const Prepared& data);
 /// Columns of the features that share one time constant, or two of them when `pairs`: the structures to choose from.
 std::vector<std::vector<int>> pole_groups(const std::vector<FeatureSpec>& specs, bool pairs);
 

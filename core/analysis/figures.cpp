@@ -52,7 +52,8 @@ Result<std::vector<FitFigure>> fit_figures(const Model& model, const std::vector
   for (const auto& e : model.errors) options.errors.push_back(e.error);
   ZD_TRY(const TrainingSet set, make_training(recordings, options));
   ZD_TRY(const Eigen::MatrixXd x, design(set, model.features));
-  ZD_TRY(const Evaluation evaluation, evaluate(set, {model.method, model.sensors, model.features}, 0.9));
+  ZD_TRY(const Evaluation evaluation,
+         evaluate(set, {model.method, model.sensors, model.features, model.averaged}, 0.9));
   ZD_TRY(const Eigen::MatrixXd hot, design(set, static_features(model.sensors)));
   std::vector<FitFigure> out;
   for (std::size_t e = 0; e < model.errors.size(); ++e) {

@@ -70,10 +70,17 @@ Result<Plan> plan_for(const FitOptions& options, const std::vector<recording::Re
   // The other ways of shrinking answer the same question and are there to be asked for: with a few cycles the best of
   // many candidates is the luckiest (winner's curse).
   if (any) {
+    std::vector<std::size_t> nested = plan.sensors.nested();
+    if (!options.sensors.empty() && set.folds.cycles < 2) {  // chosen by hand or by the step before
+      ZD_TRY(few, nearest_order(set));
+      nested = averaged_counts(few.size());
+    }
     plan.recipes.push_back(make_recipe(Method::ridge, few, set));
+    plan.recipes.back().nested = std::move(nested);
     if (few.size() <= most_for_mlr) plan.recipes.push_back(make_recipe(Method::mlr, few, set));
   } else if (is_static(options.method)) {
     plan.recipes.push_back(make_recipe(options.method, few, set));
+    if (options.method == Method::ridge) plan.recipes.back().nested = plan.sensors.nested();
   }
   if (dynamic) {
     if (!any) plan.recipes.push_back(make_recipe(Method::ridge, many, set));  // for the table
@@ -90,7 +97,9 @@ Result<Trial> try_out(const TrainingSet& set, const Recipe& recipe, double cover
   c.method = recipe.method;
   c.sensors = recipe.sensors;
   c.label = fmt::format("{} on {} sensors{}", name_of(recipe.method), recipe.sensors.size(),
-                        is_static(recipe.method) ? "" : " and the inputs");
+                        is_static(recipe.method)           ? ""
+                        : recipe.method == Method::physics ? " and the simulation"
+                                                           : " and the inputs");
   c.held_out_rms_um = trial.evaluation.rms_um;
   c.held_out_peak_um = trial.evaluation.peak_um;
   c.noise_um = trial.evaluation.mean_noise_um;
@@ -293,6 +302,7 @@ Result<Model> assemble(const TrainingSet& set, const FitOptions& options, const 
   for (const auto& run : set.runs) model.recordings.push_back(run.name);
   model.sensors = chosen.recipe.sensors;
   model.features = chosen.recipe.features;
+  model.averaged = chosen.recipe.nested;
   model.reference_C = start_references(set.runs.front(), model.features);
   const Eigen::VectorXd noise_C = set.feature_noise_C(model.features);
   model.noise_C.assign(noise_C.begin(), noise_C.end());
@@ -344,18 +354,17 @@ void add_sets(const SensorChoice& choice, Model& model) {
 
 Result<Model> fit(const std::vector<recording::Recording>& recordings, const FitOptions& options,
                   const TaskContext& context) {
-  if (options.method == Method::physics) {
-    return fail(ErrorCode::bad_argument,
-                {{"what", "the method"},
-                 {"found", "physics without a machine description"},
-                 {"expected",
-                  "one: diagnose --machine M.json --recording R.csv --refined M2.json refines the "
-                  "simulation, simulate --machine M2.json --inputs R.csv predicts with it"}});
-  }
   PrepareOptions prepare_options;
   prepare_options.sensors = options.sensors;
   prepare_options.errors = options.errors;
   ZD_TRY(const TrainingSet set, make_training(recordings, prepare_options));
+  if (options.method == Method::physics && !has_simulation(set.runs.front())) {
+    return fail(ErrorCode::bad_argument, {{"what", "the method"},
+                                          {"found", "physics without a machine description"},
+                                          {"expected",
+                                           "one: --machine M.json (diagnose --machine M.json --recording R.csv "
+                                           "--refined M2.json makes a better one from a recording)"}});
+  }
   std::vector<Trial> trials;
   ZD_TRY(const Plan plan, plan_for(options, recordings, set, context));
   const std::vector<Recipe>& list = plan.recipes;

@@ -30,7 +30,7 @@ enum class Method {
   dynamic,  // ridge on banks of low-passes of temperatures and inputs
   arx,      // first-order autoregressive with inputs, its pole always stable, fitted by what it simulates
   greybox,  // state space of two time constants: powers of the speed, other inputs and the room
-  physics,
+  physics,  // ridge on simulated displacements and temperatures
 };
 /// offset + sum um_per_K (T - reference): what a controller runs itself.
 bool is_static(Method method);
@@ -108,6 +108,7 @@ struct Model {
   std::vector<std::string> recordings;
   std::vector<std::string> sensors;
   std::vector<FeatureSpec> features;
+  std::vector<std::size_t> averaged;  // numbers of sensors (first so many) whose fits were averaged; empty: one fit
   std::vector<double> reference_C;  // of each feature (temperatures; 0 for inputs)
   std::vector<double> noise_C;      // reading noise of each feature as it is used (1 sigma); 0 for filtered ones
   std::vector<ErrorModel> errors;
@@ -121,6 +122,7 @@ struct Model {
   std::vector<Candidate> candidates;
   RunQuality quality;
   std::vector<Finding> findings;
+  std::string machine;  // physics: the machine description (JSON) whose simulation the inputs "simulated_..." are
 
   bool is_static() const { return analysis::is_static(method); }
   /// Half-width of the band at each row of features: noise, uncertain coefficients, reading noise of the sensors.

@@ -1,12 +1,12 @@
 // model.json, "zerodrift-model/1":
-//   method, asked, reason, held_out (what was left out), recordings, sensors, runs_on_controller,
+//   method, asked, reason, held_out (what was left out), recordings, sensors, averaged, runs_on_controller,
 //   errors [{error, intercept_um, terms [{sensor, um_per_K, reference_C}] (static models), fit, held_out {rms_um,
 //            peak_um, removed_percent, count}, band {half_width_um, stated_coverage, guaranteed_coverage,
 //            measured_coverage, factor}, regression {...}}],
 //   features [{channel, time_constant_s, power, unit, temperature, reference}] (what regression.coefficients belong
 //   to), table [{error, offset_um, terms [...], fit, held_out}], table_lost_percent, valid {sensor: [low, high] in C},
-//   domain, candidates, quality, findings, training {start_time_s, end_time_s, start_C, end_C, filtered, driving} (to
-//   go on from).
+//   machine (physics: the description that is simulated), domain, candidates, quality, findings, training
+//   {start_time_s, end_time_s, start_C, end_C, filtered, driving} (to go on from).
 // Covariances are packed lower triangles, row by row.
 
 #include <nlohmann/json.hpp>
@@ -240,7 +240,8 @@ void quality_from(JsonObject& o, RunQuality& q) {
 Model model_from(JsonObject& o) {
   Model model;
   o.word("format", {format_name});
-  if (auto m = method_from(o.word("method", {"mlr", "ridge", "pcr", "lasso", "robust", "dynamic", "arx", "greybox"})))
+  if (auto m = method_from(
+          o.word("method", {"mlr", "ridge", "pcr", "lasso", "robust", "dynamic", "arx", "greybox", "physics"})))
     model.method = *m;
   if (auto m = method_from(o.text_or("asked", "auto"))) model.asked = *m;
   model.reason = o.text_or("reason", "");
@@ -248,6 +249,13 @@ Model model_from(JsonObject& o) {
   model.recordings = o.texts_or_empty("recordings");
   model.sensors = o.texts_or_empty("sensors");
   features_from(o, model);
+  if (const json* averaged = o.raw("averaged")) {
+    for (const auto& count : *averaged) {
+      if (count.is_number_unsigned() && count > 0U && count.get<std::size_t>() <= model.sensors.size()) {
+        model.averaged.push_back(count.get<std::size_t>());
+      }
+    }
+  }
   for (JsonObject& e : o.objects("errors")) model.errors.push_back(error_from(e, model.features.size()));
   for (JsonObject& t : o.objects("table")) {
     TableTerms terms;
@@ -264,6 +272,7 @@ Model model_from(JsonObject& o) {
   candidates_from(o, model);
   if (JsonObject* quality = o.object_if("quality")) quality_from(*quality, model.quality);
   for (const char* known : {"valid", "findings", "runs_on_controller"}) o.raw(known);
+  if (const json* machine = o.raw("machine")) model.machine = machine->dump();
   return model;
 }
 
@@ -276,41 +285,44 @@ nlohmann::json to_json(const Model& model) {
   for (std::size_t s = 0; s < model.sensors.size(); ++s) {
     valid[model.sensors[s]] = {model.domain.low[s], model.domain.high[s]};
   }
-  return {{"format", format_name},
-          {"method", name_of(model.method)},
-          {"asked", name_of(model.asked)},
-          {"reason", model.reason},
-          {"held_out", model.held_out},
-          {"recordings", model.recordings},
-          {"sensors", model.sensors},
-          {"runs_on_controller", model.is_static()},
-          {"errors", std::move(errors)},
-          {"features", features_json(model)},
-          {"table", table_json(model)},
-          {"table_lost_percent", model.table_lost_percent},
-          {"valid", std::move(valid)},
-          {"domain",
-           {{"channels", model.domain.channels},
-            {"low", model.domain.low},
-            {"high", model.domain.high},
-            {"mean", list_of(model.domain.mean)},
-            {"inverse", packed(model.domain.inverse)},
-            {"limit", model.domain.limit}}},
-          {"candidates", candidates_json(model)},
-          {"quality",
-           {{"rise_K", model.quality.rise_K},
-            {"error_range_um", model.quality.error_range_um},
-            {"cycles", model.quality.cycles},
-            {"condition_number", model.quality.condition_number},
-            {"advice", model.quality.advice}}},
-          {"findings", to_json(model.findings)},
-          {"training",
-           {{"start_time_s", model.start_time_s},
-            {"end_time_s", model.end.time_s},
-            {"start_C", model.start_C},
-            {"end_C", model.end_C},
-            {"filtered", model.end.filtered},
-            {"driving", model.end.driving}}}};
+  json out = {{"format", format_name},
+              {"method", name_of(model.method)},
+              {"asked", name_of(model.asked)},
+              {"reason", model.reason},
+              {"held_out", model.held_out},
+              {"recordings", model.recordings},
+              {"sensors", model.sensors},
+              {"averaged", model.averaged},
+              {"runs_on_controller", model.is_static()},
+              {"errors", std::move(errors)},
+              {"features", features_json(model)},
+              {"table", table_json(model)},
+              {"table_lost_percent", model.table_lost_percent},
+              {"valid", std::move(valid)},
+              {"domain",
+               {{"channels", model.domain.channels},
+                {"low", model.domain.low},
+                {"high", model.domain.high},
+                {"mean", list_of(model.domain.mean)},
+                {"inverse", packed(model.domain.inverse)},
+                {"limit", model.domain.limit}}},
+              {"candidates", candidates_json(model)},
+              {"quality",
+               {{"rise_K", model.quality.rise_K},
+                {"error_range_um", model.quality.error_range_um},
+                {"cycles", model.quality.cycles},
+                {"condition_number", model.quality.condition_number},
+                {"advice", model.quality.advice}}},
+              {"findings", to_json(model.findings)},
+              {"training",
+               {{"start_time_s", model.start_time_s},
+                {"end_time_s", model.end.time_s},
+                {"start_C", model.start_C},
+                {"end_C", model.end_C},
+                {"filtered", model.end.filtered},
+                {"driving", model.end.driving}}}};
+  if (!model.machine.empty()) out["machine"] = json::parse(model.machine);
+  return out;
 }
 
 Result<Model> model_from_json(const nlohmann::json& document, const std::string& file,

@@ -180,6 +180,8 @@ recording::Recording Prediction::to_recording() const {
 }
 
 Result<Prediction> predict(const Model& model, const Recording& recording, Zero zero) {
+  // A simulation starts with its recording: it cannot go on from the training's end.
+  if (model.method == Method::physics) zero = Zero::start;
   ZD_TRY(const Prepared data, prepare_for(model, recording));
   const Frame frame = frame_of(model, data, zero);
   const std::vector<double> reference_C = references(model, data, frame.zero);

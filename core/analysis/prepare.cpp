@@ -154,6 +154,22 @@ Status take_errors(const Recording& recording, const PrepareOptions& options, Pr
   return {};
 }
 
+/// A table without any temperature or error column was never one of a run, or its columns bear other names.
+Status check_kinds(const Recording& recording, const PrepareOptions& options) {
+  const auto none = [&](const std::string& found, const std::string& expected) {
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", "the recording " + recording.name}, {"found", found}, {"expected", expected}});
+  };
+  if (options.sensors.empty() && recording.names(ChannelKind::temperature).empty() &&
+      recording.names(ChannelKind::ambient).empty()) {
+    return none("no temperature column", "columns named like T1_C");
+  }
+  if (options.need_errors && options.errors.empty() && recording.names(ChannelKind::error).empty()) {
+    return none("no error column", "columns named like dZ_um");
+  }
+  return {};
+}
+
 }  // namespace
 
 int Prepared::sensor(const std::string& channel) const {
@@ -172,6 +188,7 @@ Result<Prepared> prepare(const Recording& recording, const PrepareOptions& optio
                                              {"found", fmt::format("{} rows", recording.rows())},
                                              {"needed", "at least 4"}});
   }
+  ZD_CHECK(check_kinds(recording, options));
   Prepared out;
   out.name = recording.name;
   out.time_s = recording.time_s;

@@ -209,4 +209,35 @@ std::vector<RidgeFit> fit_poles(const Rows& rows, const Eigen::MatrixXd& errors_
   return best;
 }
 
+std::vector<RidgeFit> mean_of(const std::vector<std::vector<RidgeFit>>& members, Eigen::Index columns) {
+  const auto padded = [columns](const Eigen::VectorXd& v) {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(columns);
+    out.head(v.size()) = v;
+    return out;
+  };
+  const auto count = static_cast<double>(members.size());
+  std::vector<RidgeFit> out = members.back();
+  for (std::size_t e = 0; e < out.size(); ++e) {
+    RidgeFit& mean = out[e];
+    const auto largest = std::max_element(members.begin(), members.end(), [e](const auto& a, const auto& b) {
+      return a[e].mean.size() < b[e].mean.size();
+    });
+    mean = (*largest)[e];
+    mean.noise = {};
+    mean.beta = Eigen::VectorXd::Zero(columns);
+    mean.intercept = mean.sigma_um = 0.0;
+    for (const auto& member : members) {
+      mean.beta += padded(member[e].beta) / count;
+      mean.intercept += member[e].intercept / count;
+      mean.sigma_um += member[e].sigma_um / count;
+    }
+    if (!(mean.sigma_um > 0.0)) continue;
+    for (const auto& member : members) {
+      const Eigen::VectorXd apart = (padded(member[e].beta) - mean.beta) / mean.sigma_um;
+      mean.covariance += apart * apart.transpose() / count;
+    }
+  }
+  return out;
+}
+
 }  // namespace zerodrift::analysis

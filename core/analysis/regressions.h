@@ -24,4 +24,8 @@ RidgeFit fit_robust(const Rows& rows);
 std::vector<RidgeFit> fit_poles(const Rows& rows, const Eigen::MatrixXd& errors_um,
                                 const std::vector<std::vector<int>>& groups, double duration_s);
 
+/// Members fitted on the first columns of the same rows (each a list by error) as one fit of all columns: the mean of
+/// their coefficients, and how far they are apart in its uncertainty.
+std::vector<RidgeFit> mean_of(const std::vector<std::vector<RidgeFit>>& members, Eigen::Index columns);
+
 }  // namespace zerodrift::analysis

@@ -85,12 +85,14 @@ std::size_t best_of(const std::vector<SensorSet>& sets) {
   return best;
 }
 
-/// The smallest set of the kind "nearest"; the smallest of all when there is none.
-std::size_t few_nearest(const std::vector<SensorSet>& sets) {
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    if (sets[i].kind == SetKind::nearest) return i;
+/// The set of the kind "nearest" of at most eight; the smallest of all when there is none.
+std::size_t eight_nearest(const std::vector<SensorSet>& sets) {
+  constexpr std::size_t most_averaged = 8;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < sets.size(); ++i) {  // from few to many
+    if (sets[i].kind == SetKind::nearest && sets[i].sensors.size() <= most_averaged) best = i;
   }
-  return 0;
+  return best;
 }
 
 std::string comparison(const std::vector<SensorSet>& sets, std::size_t chosen, const std::string& left_out) {
@@ -159,10 +161,26 @@ Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptio
     out.sets.push_back(std::move(candidate));
   }
   const bool one_cycle = set.folds.count < 2;
-  out.chosen = one_cycle ? few_nearest(out.sets) : best_of(out.sets);
+  out.one_cycle = one_cycle;
+  out.chosen = one_cycle ? eight_nearest(out.sets) : best_of(out.sets);
   out.reason = comparison(out.sets, out.chosen, set.folds.in_words);
-  if (one_cycle) out.reason += "; one cycle cannot rank them: a second speed would";
+  if (one_cycle)
+    out.reason += "; one cycle cannot rank them (a second speed would), so fits on the first few of them are averaged";
   return out;
+}
+
+std::vector<std::size_t> SensorChoice::nested() const {
+  if (!one_cycle || sets.empty() || sets[chosen].kind != SetKind::nearest) return {};
+  return averaged_counts(sets[chosen].sensors.size());
+}
+
+std::vector<std::size_t> averaged_counts(std::size_t sensors) {
+  std::vector<std::size_t> counts;
+  for (const std::size_t count : {2U, 3U, 4U, 5U, 6U, 8U}) {
+    if (count <= sensors) counts.push_back(count);
+  }
+  if (sensors == 7 || sensors > 8) counts.push_back(sensors);  // all that were asked for have their say
+  return counts;
 }
 
 nlohmann::json to_json(const SensorChoice& choice) {

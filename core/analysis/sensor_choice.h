@@ -40,7 +40,14 @@ struct SensorChoice {
   std::vector<SensorSet> sets;  // from few sensors to many
   std::size_t chosen = 0;
   std::string reason;  // one sentence
+  bool one_cycle = false;
+
+  /// With one cycle: the numbers of the chosen sensors, from the first on, whose fits are averaged; else empty.
+  std::vector<std::size_t> nested() const;
 };
+
+/// Of so many sensors, those nearest first: the numbers whose fits are averaged when one cycle cannot rank them.
+std::vector<std::size_t> averaged_counts(std::size_t sensors);
 
 struct ChoiceOptions {
   std::vector<std::string> sensitive_points;  // may be empty
@@ -48,10 +55,10 @@ struct ChoiceOptions {
   std::size_t most = 0;                       // 0: no limit; else no set is larger
 };
 
-/// One cycle ranks nothing: the few sensors nearest to the model on all are taken, because sensors that rose together
-/// in it need not do so at other speeds. With more: the largest set whose error is not told apart from the least one: a
-/// few left-out stretches do not rank sets of sensors, and the mean of many sensors is quieter and stays right when a
-/// slow body goes where it was never seen.
+/// One cycle ranks nothing: the eight sensors nearest to the model on all are taken, because sensors that rose together
+/// in it need not do so at other speeds, and the mean of the fits on the first two to eight of them. With more: the
+/// largest set whose error is not told apart from the least one: a few left-out stretches do not rank sets of sensors,
+/// and the mean of many sensors is quieter and stays right when a slow body goes where it was never seen.
 Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptions& options,
                                        const TaskContext& context = {});
 

@@ -110,43 +110,61 @@ void scale_terms(AxisTable& axis, double kappa) {
   for (auto& point : axis.points) point.um_per_K *= kappa;
 }
 
-/// Least squares of residual = (kappa - 1) e_T + offset; the offset alone where e_T is small or does not vary.
+/// residual = (kappa - 1) e_T + offset by least squares with a normal prior round the model as it is. A residual is for
+/// the most part slow: however many measurements there are, a verification counts as a few independent ones whose
+/// scatter is that of the model. What is far
+/// outside the prior widens it: a machine that has really changed is believed.
+struct Change {
+  double kappa = 0.0;
+  double offset_um = 0.0;
+};
+
+Change shrunk(const Eigen::VectorXd& thermal, const Eigen::VectorXd& residual, const ResidualOptions& options) {
+  const auto n = static_cast<double>(thermal.size());
+  Eigen::MatrixXd design(thermal.size(), 2);
+  design << thermal, Eigen::VectorXd::Ones(thermal.size());
+  const Eigen::Vector2d plain = design.colPivHouseholderQr().solve(residual);
+  const double scatter_um = std::max((residual - design * plain).norm() / std::sqrt(n), options.model_scatter_um);
+  const double weight = std::min(options.independent, n) / n / (scatter_um * scatter_um);
+  const auto precision = [](double sigma, double seen) {
+    const double excess = std::max(std::abs(seen) - 2.0 * sigma, 0.0);
+    return 1.0 / (sigma * sigma + excess * excess);
+  };
+  Eigen::Matrix2d normal = weight * design.transpose() * design;
+  normal(0, 0) += precision(options.kappa_sigma, plain(0));
+  normal(1, 1) += precision(options.offset_sigma_um, plain(1));
+  const Eigen::Vector2d change = normal.ldlt().solve(weight * design.transpose() * residual);
+  return {change(0), change(1)};
+}
+
+/// The offset alone where e_T is small; kappa alone where it is large and does not vary.
 Status fit_kappa(const AxisTable& axis, const Samples& samples, const ResidualOptions& options, AxisCorrection& row) {
-  std::vector<double> thermal;
-  for (const auto& one : samples) {
-    ZD_TRY(const double value, thermal_um(axis, one));
-    thermal.push_back(value);
+  Eigen::VectorXd thermal(std::ssize(samples));
+  Eigen::VectorXd residual(std::ssize(samples));
+  for (Eigen::Index i = 0; i < thermal.size(); ++i) {
+    const ResidualSample& one = samples[static_cast<std::size_t>(i)];
+    ZD_TRY(thermal(i), thermal_um(axis, one));
+    residual(i) = one.residual_um;
   }
-  const auto n = static_cast<double>(samples.size());
-  double mean_t = 0.0;
-  double mean_r = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    mean_t += thermal[i] / n;
-    mean_r += samples[i].residual_um / n;
-  }
-  double stt = 0.0;
-  double str = 0.0;
-  double raw_tt = 0.0;
-  double raw_tr = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    stt += (thermal[i] - mean_t) * (thermal[i] - mean_t);
-    str += (thermal[i] - mean_t) * (samples[i].residual_um - mean_r);
-    raw_tt += thermal[i] * thermal[i];
-    raw_tr += thermal[i] * samples[i].residual_um;
-  }
-  const bool varies = std::sqrt(stt / n) >= options.resolution_um;
-  const bool large = std::sqrt(raw_tt / n) >= options.resolution_um;
+  const double n = static_cast<double>(thermal.size());
+  const double mean_t = thermal.mean();
+  const double varies_um = (thermal.array() - mean_t).matrix().norm() / std::sqrt(n);
   double change = 0.0;
   row.kind = CorrectionKind::offset;
-  if (varies) {  // slope and offset can be told apart
-    change = str / stt;
+  row.offset_um = residual.mean();
+  if (varies_um >= options.resolution_um) {  // slope and offset can be told apart
+    const Change both = shrunk(thermal, residual, options);
+    change = both.kappa;
     row.kind = CorrectionKind::both;
-  } else if (large) {  // one state only: the whole residual is laid on the temperatures, as kappa = 1 + residual / e_T
-    change = raw_tr / raw_tt;
+    row.offset_um = both.offset_um;
+  } else if (thermal.norm() / std::sqrt(n) >= options.resolution_um) {
+    // One state only: the whole residual is laid on the temperatures, as kappa = 1 + residual / e_T.
+    change = thermal.dot(residual) / thermal.squaredNorm();
     row.kind = CorrectionKind::kappa;
+    row.offset_um = 0.0;
   }
+  row.offset_um *= options.smoothing;
   row.kappa = std::clamp(1.0 + options.smoothing * change, options.kappa_low, options.kappa_high);
-  if (row.kind != CorrectionKind::kappa) row.offset_um = options.smoothing * (mean_r - (row.kappa - 1.0) * mean_t);
   return {};
 }
 

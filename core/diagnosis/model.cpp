@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/nonlinear.h"
+
 namespace zerodrift::diagnosis {
 
 using Eigen::Index;
@@ -119,14 +121,13 @@ Eigen::MatrixXd Model::hessian() const {
 /// gain or three steps.
 void Model::fit(const FitOptions& options) {
   m_log_evidence.reset();
-  const Index n = static_cast<Index>(m_free.size());
   const std::vector<int> all = all_unknowns();
   const std::vector<int> effects = effect_unknowns();
   int stale = m_borrowed ? 1 : 0;
   refresh(m_borrowed ? effects : all);
   m_borrowed = false;
   m_have_columns = true;
-  double damping = 1e-3;
+  analysis::Damping damping;
   Eigen::VectorXd trial_residual;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const Eigen::MatrixXd h = hessian();
@@ -134,20 +135,8 @@ void Model::fit(const FitOptions& options) {
     bool better = false;
     double gained = 0.0;
     for (int attempt = 0; attempt < 5 && !better; ++attempt) {
-      Eigen::MatrixXd damped = h;
-      Eigen::VectorXd rhs = g;
-      for (Index i = 0; i < n; ++i) {
-        const bool stuck = (m_z[i] <= m_low[i] + 1e-9 && g[i] < 0.0) || (m_z[i] >= m_high[i] - 1e-9 && g[i] > 0.0);
-        if (stuck) {
-          damped.row(i).setZero();
-          damped.col(i).setZero();
-          rhs[i] = 0.0;
-          damped(i, i) = 1.0;
-        } else {
-          damped(i, i) += damping * h(i, i);
-        }
-      }
-      const Eigen::VectorXd step = damped.ldlt().solve(rhs).cwiseMax(-4.0).cwiseMin(4.0);
+      const Eigen::VectorXd step =
+          analysis::damped_step(h, g, damping.value() * h.diagonal(), m_z, m_low, m_high).cwiseMax(-4.0).cwiseMin(4.0);
       const Eigen::VectorXd z = (m_z + step).cwiseMax(m_low).cwiseMin(m_high);
       residual_at(z, trial_residual);
       const double cost = trial_residual.squaredNorm() + z.squaredNorm();
@@ -156,10 +145,10 @@ void Model::fit(const FitOptions& options) {
         m_z = z;
         m_cost = cost;
         m_residual = trial_residual;
-        damping = std::max(damping / 8.0, 1e-6);
+        damping.helped();
         better = true;
       } else {
-        damping = std::max(damping * 8.0, 1e-3);
+        damping.failed();
       }
     }
     if (!better && stale == 0) break;
@@ -167,7 +156,7 @@ void Model::fit(const FitOptions& options) {
     if (!better || gained > 30.0 || stale >= 3 || effects.empty()) {
       refresh(all);
       stale = 0;
-      if (!better) damping = 1e-3;
+      if (!better) damping.restart();
     } else {
       refresh(effects);
       ++stale;

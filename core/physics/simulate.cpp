@@ -98,6 +98,20 @@ Result<Simulation> simulate(const Machine& machine, const recording::Recording& 
   return result;
 }
 
+Result<recording::Recording> with_simulation(const Machine& machine, const recording::Recording& recording,
+                                             const TaskContext& context) {
+  auto simulation = simulate(machine, recording, context);
+  if (!simulation) return fail(std::move(simulation).error().with("recording", recording.name));
+  recording::Recording out = recording;
+  for (const auto& channel : simulation->prediction.channels) {
+    if (channel.kind() != recording::ChannelKind::error) continue;
+    const std::string direction = channel.name.substr(0, channel.name.size() - std::string_view("_um").size());
+    recording::Channel& added = out.ensure("simulated_" + direction);
+    for (std::size_t i = 0; i < channel.values.size(); ++i) added.values[i] = channel.values[i] - channel.values[0];
+  }
+  return out;
+}
+
 std::vector<ChannelDifference> compare(const recording::Recording& prediction, const recording::Recording& measured) {
   std::vector<ChannelDifference> list;
   for (const auto& channel : prediction.channels) {

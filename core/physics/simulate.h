@@ -21,6 +21,11 @@ struct Simulation {
 Result<Simulation> simulate(const Machine& machine, const recording::Recording& inputs,
                             const TaskContext& context = {});
 
+/// The recording with the simulated displacements beside it, as inputs of a regression: "simulated_dZ" for dZ_um, in
+/// um, counted from the recording's first row.
+Result<recording::Recording> with_simulation(const Machine& machine, const recording::Recording& recording,
+                                             const TaskContext& context = {});
+
 struct ChannelDifference {
   std::string channel;
   bool temperature = true;

@@ -71,4 +71,27 @@ TEST(Ageing, DriftDetectorStaysQuietThenSpeaks) {
   EXPECT_FALSE(detector.add(std::nan("")));
 }
 
+TEST(Ageing, DriftOfAPredictionIsFoundHourByHour) {
+  recording::Recording r;
+  Prediction p;
+  PredictedError e;
+  e.error = "dZ_um";
+  for (int minute = 0; minute < 12 * 60; ++minute) {
+    r.time_s.push_back(60.0 * minute);
+    e.value_um.push_back(1.0);
+    e.half_width_um.push_back(1.645);
+  }
+  p.time_s = r.time_s;
+  p.errors.push_back(e);
+  auto& measured = r.ensure("dZ_um").values;
+  for (std::size_t i = 0; i < measured.size(); ++i) measured[i] = i % 2 == 0 ? 1.4 : 0.6;
+  EXPECT_FALSE(check_drift(p, r).front().alarm);
+  EXPECT_EQ(check_drift(p, r).front().checks, 12);
+  for (std::size_t i = 4 * 60; i < measured.size(); ++i) measured[i] += 2.0;  // two deviations from 4 h on
+  const DriftCheck check = check_drift(p, r).front();
+  EXPECT_TRUE(check.alarm);
+  EXPECT_GT(check.at_s, 6.0 * 3600.0);
+  EXPECT_LT(check.at_s, 9.0 * 3600.0);
+}
+
 }  // namespace zerodrift::analysis

@@ -225,4 +225,50 @@ TEST(LivePredictor, HoldsAMissingSensorBrieflyThenRefuses) {
   EXPECT_EQ(late.error().code, ErrorCode::sensor_dead);
 }
 
+TEST(Fit, OneCycleAveragesFitsOnTheNearestSensors) {
+  const auto run = machine_run({});
+  const auto model = fit({run});
+  ASSERT_TRUE(model) << describe(model.error());
+  EXPECT_EQ(model->averaged, (std::vector<std::size_t>{2, 3, 4, 5, 6, 8}));
+  for (const auto& e : model->errors) EXPECT_LT(e.fit.rms_um, 1.0) << e.error;
+  FitOptions by_hand;
+  by_hand.sensors = {"T1_C", "T5_C", "T9_C", "T13_C", "T17_C", "T2_C", "T3_C", "T4_C", "T6_C", "T7_C"};
+  const auto ten = fit({run}, by_hand);
+  ASSERT_TRUE(ten) << describe(ten.error());
+  EXPECT_EQ(ten->sensors.size(), 10U);
+  EXPECT_EQ(ten->averaged.back(), 10U);
+  const auto again = model_from_json(to_json(*ten), "test");
+  ASSERT_TRUE(again) << describe(again.error());
+  EXPECT_EQ(again->averaged, ten->averaged);
+}
+
+/// The simulation comes as inputs; a machine whose simulation is right up to a scale needs little else.
+TEST(Fit, PhysicsRunsOnTheSimulatedDisplacements) {
+  auto run = machine_run(warm_up());
+  EXPECT_EQ(fit({run},
+                [] {
+                  FitOptions o;
+                  o.method = Method::physics;
+                  return o;
+                }())
+                .error()
+                .code,
+            ErrorCode::bad_argument);
+  for (const char* axis : {"dX", "dY", "dZ"}) {
+    const auto error = run.find(std::string(axis) + "_um")->values;
+    auto& simulated = run.ensure("simulated_" + std::string(axis)).values;
+    double last = 0.0;
+    for (std::size_t i = 0; i < error.size(); ++i)
+      simulated[i] = last = std::isfinite(error[i]) ? 0.7 * error[i] : last;
+  }
+  FitOptions options;
+  options.method = Method::physics;
+  const auto model = fit({run}, options);
+  ASSERT_TRUE(model) << describe(model.error());
+  EXPECT_EQ(model->method, Method::physics);
+  const auto p = predict(*model, run);
+  ASSERT_TRUE(p) << describe(p.error());
+  for (const auto& e : p->errors) EXPECT_GT(e.residual.removed_percent, 90.0) << e.error;
+}
+
 }  // namespace zerodrift::analysis

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/base/noise.h"
@@ -37,11 +38,26 @@ TEST(Residual, KappaIsFoundWhenTheStateVaries) {
   ASSERT_TRUE(out) << describe(out.error());
   const AxisCorrection& row = out->axes.front();
   EXPECT_EQ(row.kind, CorrectionKind::both);
-  EXPECT_NEAR(row.kappa, 1.3, 0.02);
-  EXPECT_NEAR(row.offset_um, 4.0, 0.3);
-  EXPECT_LT(row.rms_after_um, 0.4);
+  EXPECT_GT(row.kappa, 1.2);  // pulled a little towards the model
+  EXPECT_LT(row.kappa, 1.35);
+  EXPECT_GT(row.offset_um, 2.5);
+  EXPECT_LT(row.offset_um, 5.0);
+  EXPECT_LT(row.rms_after_um, 0.15 * row.rms_before_um);
   EXPECT_EQ(out->table.version, 5);
-  EXPECT_NEAR(out->table.axes.at("Z").terms[0].um_per_K, 2.6, 0.05);
+  EXPECT_NEAR(out->table.axes.at("Z").terms[0].um_per_K, 2.0 * row.kappa, 1e-9);
+}
+
+/// Of a model that is right on the whole, one verification shows a slow wave of model error: it is not a slope.
+TEST(Residual, ASlowWaveOfModelErrorIsNotTakenForASlope) {
+  auto samples = measured(1.0, 0.0, 0.0, 12.0);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].residual_um += 2.5 * std::sin(4.0 * static_cast<double>(i) / 19.0);
+  }
+  ResidualOptions options;
+  options.threshold_um = 1.0;
+  const auto out = correct_residual(model(), {{"Z", samples}}, options);
+  ASSERT_TRUE(out);
+  EXPECT_NEAR(out->axes.front().kappa, 1.0, 0.05);
 }
 
 TEST(Residual, OneStateGivesThePublishedCoefficient) {

@@ -120,6 +120,11 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
+  if (model.method == analysis::Method::physics) {
+    return fail(ErrorCode::bad_argument, {{"what", "--model"},
+                                          {"found", "a physics model, which predicts recordings"},
+                                          {"expected", "a model of another method (fit --method auto)"}});
+  }
   ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
   Log log;
   ZD_CHECK(log.open(options.log));

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "core/analysis/ageing.h"
+#include "core/analysis/training.h"
 #include "core/base/json.h"
+#include "core/physics/simulate.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
@@ -16,6 +19,8 @@ struct Options {
   std::string sensors = "auto";
   std::string errors;
   std::string method = "auto";
+  std::string machine;
+  std::string update;
   int max_sensors = 0;
   double coverage_percent = 90.0;
   std::string out;
@@ -50,6 +55,39 @@ std::string text_of(const analysis::Model& model) {
   return text;
 }
 
+/// Each run with the displacements that the machine description says; `machine` receives the description as read.
+Result<std::vector<recording::Recording>> simulated(const Options& options,
+                                                    std::vector<recording::Recording> recordings, std::string& machine,
+                                                    std::vector<std::string>& warnings, const TaskContext& context) {
+  if (options.method != "physics") {
+    return fail(ErrorCode::bad_argument,
+                {{"what", "--machine"}, {"found", "--method " + options.method}, {"expected", "--method physics"}});
+  }
+  ZD_TRY(const physics::Machine description, physics::read_machine(options.machine, &warnings));
+  machine = physics::to_json(description).dump();
+  std::vector<recording::Recording> out;
+  for (const auto& recording : analysis::join_continuing(recordings)) {
+    ZD_TRY(recording::Recording more, physics::with_simulation(description, recording, context));
+    out.push_back(std::move(more));
+  }
+  return out;
+}
+
+/// The old model corrected by each run in turn.
+Result<analysis::Model> updated(const Options& options, const std::vector<recording::Recording>& recordings,
+                                std::vector<std::string>& warnings) {
+  ZD_TRY(analysis::Model model, analysis::read_model(options.update, &warnings));
+  if (model.method == analysis::Method::physics) {
+    return fail(ErrorCode::bad_argument, {{"what", "--update"},
+                                          {"found", "a physics model"},
+                                          {"expected", "a model of another method (fit --method auto)"}});
+  }
+  for (const auto& recording : recordings) {
+    ZD_TRY(model, analysis::update(model, recording));
+  }
+  return model;
+}
+
 Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   analysis::FitOptions how;
   ZD_TRY(how.method, analysis::method_from(options.method));
@@ -67,8 +105,19 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
     ZD_TRY(recording::Recording recording, recording::read_recording(file));
     recordings.push_back(std::move(recording));
   }
-  ZD_TRY(const analysis::Model model, analysis::fit(recordings, how, context));
   CommandOutput output;
+  std::string machine;
+  if (!options.machine.empty()) {
+    ZD_TRY(recordings, simulated(options, std::move(recordings), machine, output.warnings, context));
+  }
+  analysis::Model model;
+  if (options.update.empty()) {
+    ZD_TRY(model, analysis::fit(recordings, how, context));
+  } else {
+    ZD_TRY(model, updated(options, recordings, output.warnings));
+    machine = model.machine;
+  }
+  model.machine = std::move(machine);
   output.json = analysis::to_json(model);
   output.text = text_of(model);
   for (const auto& finding : model.findings) output.warnings.push_back(analysis::describe(finding));
@@ -90,6 +139,13 @@ void add_fit(Cli& cli) {
   app.add_option("--method", options->method, "auto, mlr, ridge, pcr, lasso, robust, dynamic, arx, greybox or physics")
       ->check(CLI::IsMember({"auto", "mlr", "ridge", "pcr", "lasso", "robust", "dynamic", "arx", "greybox", "physics"}))
       ->capture_default_str();
+  app.add_option(
+      "--machine", options->machine,
+      "With --method physics: machine description (JSON) whose simulated displacements are predictors beside "
+      "the temperatures");
+  app.add_option("--update", options->update,
+                 "Correct this model.json by a short new run instead of starting over: what the run does not excite "
+                 "stays; --method and --sensors are those of the old model");
   app.add_option("--max-sensors", options->max_sensors, "With --sensors auto: use at most so many (0: no limit)")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "core/analysis/ageing.h"
+#include "core/physics/simulate.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
@@ -54,7 +56,12 @@ std::string text_of(const analysis::Prediction& prediction) {
 Result<CommandOutput> run(const Options& options) {
   CommandOutput output;
   ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
-  ZD_TRY(const recording::Recording recording, recording::read_recording(options.recording));
+  ZD_TRY(recording::Recording recording, recording::read_recording(options.recording));
+  if (!model.machine.empty()) {
+    ZD_TRY(const physics::Machine machine,
+           physics::machine_from_json(nlohmann::json::parse(model.machine), options.model, &output.warnings));
+    ZD_TRY(recording, physics::with_simulation(machine, recording));
+  }
   const analysis::Zero zero = options.zero == "auto"    ? analysis::Zero::automatic
                               : options.zero == "start" ? analysis::Zero::start
                                                         : analysis::Zero::training;
@@ -63,6 +70,17 @@ Result<CommandOutput> run(const Options& options) {
   ZD_CHECK(recording::write_recording(options.out, prediction->to_recording()));
   output.json = json_of(*prediction);
   output.text = text_of(*prediction);
+  nlohmann::json drift = nlohmann::json::object();
+  for (const auto& check : analysis::check_drift(*prediction, recording)) {
+    if (check.checks == 0) continue;
+    drift[check.error] = {{"alarm", check.alarm}, {"checks", check.checks}};
+    if (!check.alarm) continue;
+    drift[check.error]["at_s"] = check.at_s;
+    output.warnings.push_back(fmt::format(
+        "{} has drifted away from the model (from {:.0f} s on): measure again and correct it with fit --update",
+        check.error, check.at_s));
+  }
+  output.json["drift"] = std::move(drift);
   for (const auto& finding : prediction->findings) output.warnings.push_back(analysis::describe(finding));
   return output;
 }
