@@ -109,8 +109,8 @@ struct Model {
   std::vector<std::string> sensors;
   std::vector<FeatureSpec> features;
   std::vector<std::size_t> averaged;  // numbers of sensors (first so many) whose fits were averaged; empty: one fit
-  std::vector<double> reference_C;  // of each feature (temperatures; 0 for inputs)
-  std::vector<double> noise_C;      // reading noise of each feature as it is used (1 sigma); 0 for filtered ones
+  std::vector<double> reference_C;    // of each feature (temperatures; 0 for inputs)
+  std::vector<double> noise_C;        // reading noise of each feature as it is used (1 sigma); 0 for filtered ones
   std::vector<ErrorModel> errors;
   std::vector<TableTerms> table;  // static models: the model; dynamic: the best static approximation
   double table_lost_percent = 0;  // rise of the held-out rms when the table runs instead of this model
