@@ -229,14 +229,4 @@ std::vector<ProposedPosition> propose_positions(double span_mm, int per_side, do
   return out;
 }
 
-double propose_span_mm(double expected_drift_um, double um_per_px_nominal, const GrayImage& image,
-                       const Region& target) {
-  const double wanted_px = std::max(60.0, 3.0 * expected_drift_um / um_per_px_nominal);
-  // The target may use the room to the nearest border, less 10 px for what is not known yet.
-  const int room_px =
-      std::min({target.x, target.y, image.width - target.x - target.width, image.height - target.y - target.height});
-  const double possible_px = std::max(2.0 * (room_px - 10), 20.0);
-  return std::min(wanted_px, possible_px) * um_per_px_nominal / 1000.0;
-}
-
 }  // namespace zerodrift::vision

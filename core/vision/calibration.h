@@ -74,10 +74,6 @@ struct ProposedPosition {
 /// A square grid of per_side x per_side positions over span_mm, the centre first. The expected drift should stay within
 /// it.
 std::vector<ProposedPosition> propose_positions(double span_mm, int per_side = 3, double approach_mm = 0.1);
-/// The span for an expected drift, within what the camera sees: half again the drift on each side, at least 60 px wide.
-double propose_span_mm(double expected_drift_um, double um_per_px_nominal, const GrayImage& image,
-                       const Region& target);
-
 /// calibration.json by the contract, with further keys; the mask goes with the region it was learned for.
 nlohmann::json to_json(const Calibration& calibration);
 Result<Calibration> calibration_from_json(const nlohmann::json& document, const std::string& file,

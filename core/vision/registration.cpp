@@ -21,7 +21,8 @@ constexpr double round_blur_px2 = 0.3;      // nearer to round than this, the bl
 constexpr double structure_limit = 2.4;     // tile means over their noise: above it a smooth field is solved as well
 constexpr double doubtful_structure = 1.7;  // from here on it is tried whether a field moves the result
 constexpr double glance_structure = 4.0;    // the same on a quarter of the pixels, when there is no doubt
-constexpr double glance_structure_in_glare = 2.0;
+constexpr double glance_structure_expected = 2.0;
+constexpr double strong_blur_px2 = 1.0;
 constexpr double with_field_px2 = 1.0;  // beside a field the solve's own blur columns do for a smaller change
 constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nearly as well before it fits them better
 constexpr double glare_share = 0.005;   // of saturated pixels
@@ -142,8 +143,10 @@ void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
     blurred_model = tried_model;
     solver.hand_over(start);
     if (!match_blur(solver.extra_blur_px2(), tried)) {
-      const bool bright = seen.saturated_share > glare_share;
-      setup.with_field = seen.structure > (bright ? glance_structure_in_glare : glance_structure);
+      // Glare has a halo, and a strong blur is never quite of the shape that the template is given.
+      const double blur_px2 = (setup.template_blur + setup.frame_blur - 2.0 * m_model.blur_px2).trace();
+      const bool expected = seen.saturated_share > glare_share || blur_px2 > strong_blur_px2;
+      setup.with_field = seen.structure > (expected ? glance_structure_expected : glance_structure);
       return;
     }
     tried_model = make_template_model(m_source, tried.template_blur, tried.frame_blur);

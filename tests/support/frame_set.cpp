@@ -204,7 +204,7 @@ Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t se
   for (int i = 0; i < frame_count; ++i) {
     frames.push_back(draw_frame(disturbance, scene, own_seed, i, frame_count, noise));
   }
-  // As a calibration is planned: at least 70 px wide, and half again the motion on each side of it.
+  // The machine's repeatability is the noise of a calibration: its area is as wide as the picture easily holds.
   const double span_um = scene.renderer.camera().um_per_px * (disturbance == Disturbance::large_motion ? 60.0 : 35.0);
   std::vector<CalibrationView> grid;
   for (int i = 0; i < 9; ++i) {
