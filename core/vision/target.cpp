@@ -16,6 +16,8 @@ namespace {
 constexpr int smallest_region_px = 24;
 constexpr int template_margin_px = 12;
 constexpr int candidates_refined = 2;
+constexpr double rival_merit = 0.75;           // of the best glance: the candidate is refined as well, unless
+constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
 constexpr int candidates_glanced = 8;
 constexpr double rival_correlation = 0.3;   // a candidate further behind the best is not looked at, and half of it
@@ -33,13 +35,14 @@ constexpr double least_informed = 0.50;
 constexpr double least_informed_in_glare = 0.12;
 constexpr double glare_correlation = 0.999;
 constexpr double glare_explained = 0.9;
-constexpr double least_fine_correlation = 0.90;
+constexpr double least_fine_correlation = 0.95;
 constexpr double least_contrast = 0.2;
 constexpr double largest_contrast = 3.0;
 constexpr double largest_linear = 0.035;
 constexpr double largest_linear_in_glare = 0.07;  // a halo bends what little a ball shows
 constexpr double some_glare = 0.02;               // of the pixels
-constexpr double accepted_blur_px2 = 18.0;
+constexpr double accepted_blur_px2 = 12.0;
+constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
 constexpr double least_seen = 0.70;
 constexpr double largest_structure = 8.0;  // of the residual's patches: frames that are measured well stay below 2.5
 
@@ -60,6 +63,7 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
   if (r.structure > largest_structure) return r.saturated_share > 0.02 ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
+  if (r.covariance_px2.diagonal().maxCoeff() > largest_sigma_px * largest_sigma_px) return Refusal::too_different;
   const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;
   if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {
     if (r.saturated_share > 0.10) return Refusal::glare;
@@ -69,9 +73,11 @@ Refusal judge(const Registration& r, double coarse_correlation) {
 }
 
 // Better of two registrations: more of the target explained, and to a smaller residual; a bad fit has no outliers
-// because its scale is large.
+// because its scale is large. Below the floor the residual of a glance tells how far it has settled, not how well it
+// fits: a pattern that repeats fits one period further as sharply, but not with all of its pixels.
 double merit(const Registration& r) {
-  return r.converged ? r.informed_share * std::max(r.correlation, 0.0) / r.residual : -1.0;
+  constexpr double floor = 2.0;  // grey levels at middle grey
+  return r.converged ? r.informed_share * std::max(r.correlation, 0.0) / std::max(r.residual, floor) : -1.0;
 }
 
 }  // namespace
@@ -128,8 +134,9 @@ struct Target::Impl {
     }
     std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Candidate> out;
-    for (std::size_t k = 0; k < std::min<std::size_t>(rated.size(), candidates_refined); ++k)
-      out.push_back(rated[k].second);
+    for (std::size_t k = 0; k < std::min<std::size_t>(rated.size(), candidates_refined); ++k) {
+      if (k == 0 || rated[k].first > rival_merit * rated[0].first) out.push_back(rated[k].second);
+    }
     return out;
   }
 
@@ -201,7 +208,8 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
       best = found;
       best_coarse = one.correlation;
     }
-    if (judge(best, best_coarse) == Refusal::none && best.correlation > sure_correlation) break;
+    if (judge(best, best_coarse) != Refusal::none || best.correlation <= sure_correlation) continue;
+    if (best.inlier_share > clear_inliers) break;
   }
   out.correlation = best.correlation;
   out.inlier_share = best.inlier_share;

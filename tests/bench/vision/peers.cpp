@@ -85,35 +85,66 @@ std::optional<PeerAnswer> ecc(const cv::Mat& pattern, const cv::Mat& frame, cons
                     at.dy + w(1, 0) * cx + w(1, 1) * cy + w(1, 2) - cy - margin_px, score > accepted_correlation};
 }
 
-// Keys' cubic convolution; cv::remap knows 1/32 pixels only, which would be all of the peer's error.
-double bicubic(const cv::Mat& image, double x, double y) {
+// Coefficients of the cubic B-spline through the pixels along the rows, mirrored at the ends: what the correlation
+// codes sample with (cv::remap knows 1/32 pixels only, which would be all of the peer's error).
+void spline_rows(cv::Mat& image) {
+  const double pole = std::sqrt(3.0) - 2.0;
+  for (int y = 0; y < image.rows; ++y) {
+    double* row = image.ptr<double>(y);
+    const int n = image.cols;
+    double start = 0.0;
+    for (int x = std::min(n, 30) - 1; x >= 0; --x) start = start * pole + row[x];
+    row[0] = start;
+    for (int x = 1; x < n; ++x) row[x] += pole * row[x - 1];
+    row[n - 1] = pole / (pole * pole - 1.0) * (row[n - 1] + pole * row[n - 2]);
+    for (int x = n - 2; x >= 0; --x) row[x] = pole * (row[x + 1] - row[x]);
+    for (int x = 0; x < n; ++x) row[x] *= 6.0;
+  }
+}
+
+cv::Mat cubic_spline(const cv::Mat& image) {
+  cv::Mat out;
+  image.convertTo(out, CV_64F);
+  for (int axis = 0; axis < 2; ++axis) {
+    spline_rows(out);
+    cv::transpose(out.clone(), out);
+  }
+  return out;
+}
+
+double sampled(const cv::Mat& spline, double x, double y) {
   const auto weights = [](double t, double* w) {
-    w[0] = ((-0.5 * t + 1.0) * t - 0.5) * t;
-    w[1] = (1.5 * t - 2.5) * t * t + 1.0;
-    w[2] = ((-1.5 * t + 2.0) * t + 0.5) * t;
-    w[3] = (0.5 * t - 0.5) * t * t;
+    const double s = 1.0 - t;
+    w[0] = s * s * s / 6.0;
+    w[1] = 2.0 / 3.0 - t * t * (2.0 - t) / 2.0;
+    w[2] = 2.0 / 3.0 - s * s * (2.0 - s) / 2.0;
+    w[3] = t * t * t / 6.0;
   };
-  const int column = std::clamp(static_cast<int>(std::floor(x)), 1, image.cols - 3);
-  const int row = std::clamp(static_cast<int>(std::floor(y)), 1, image.rows - 3);
+  const int column = std::clamp(static_cast<int>(std::floor(x)), 1, spline.cols - 3);
+  const int row = std::clamp(static_cast<int>(std::floor(y)), 1, spline.rows - 3);
   double wx[4], wy[4];
   weights(std::clamp(x - column, 0.0, 1.0), wx);
   weights(std::clamp(y - row, 0.0, 1.0), wy);
   double sum = 0.0;
   for (int j = 0; j < 4; ++j) {
-    const float* from = image.ptr<float>(row - 1 + j) + column - 1;
+    const double* from = spline.ptr<double>(row - 1 + j) + column - 1;
     sum += wy[j] * (wx[0] * from[0] + wx[1] * from[1] + wx[2] * from[2] + wx[3] * from[3]);
   }
   return sum;
 }
 
-// Plain digital image correlation: inverse-compositional Gauss-Newton, affine, zero-mean normalized, bicubic.
+// Plain digital image correlation: inverse-compositional Gauss-Newton, affine, zero-mean normalized, cubic B-spline.
 std::optional<PeerAnswer> plain_icgn(const cv::Mat& pattern, const cv::Mat& frame, const Region& region,
                                      const Coarse& at) {
   cv::Mat f, image, fx, fy;
   pattern.convertTo(f, CV_64F);
-  around(frame, region, at, margin_px).convertTo(image, CV_32F);
-  cv::Scharr(f, fx, CV_64F, 1, 0, 1.0 / 32);
-  cv::Scharr(f, fy, CV_64F, 0, 1, 1.0 / 32);
+  image = cubic_spline(around(frame, region, at, margin_px));
+  // The spline's own derivatives at the pixels.
+  const cv::Mat slope = (cv::Mat_<double>(1, 3) << -0.5, 0.0, 0.5);
+  const cv::Mat smooth = (cv::Mat_<double>(1, 3) << 1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0);
+  const cv::Mat coefficients = cubic_spline(f);
+  cv::sepFilter2D(coefficients, fx, CV_64F, slope, smooth, {-1, -1}, 0.0, cv::BORDER_REFLECT_101);
+  cv::sepFilter2D(coefficients, fy, CV_64F, smooth, slope, {-1, -1}, 0.0, cv::BORDER_REFLECT_101);
   const double cx = (f.cols - 1) / 2.0;
   const double cy = (f.rows - 1) / 2.0;
   const cv::Scalar mean_f = cv::mean(f);
@@ -137,7 +168,7 @@ std::optional<PeerAnswer> plain_icgn(const cv::Mat& pattern, const cv::Mat& fram
     for (int y = 0; y < f.rows; ++y) {
       for (int x = 0; x < f.cols; ++x) {
         const cv::Vec3d to = motion * cv::Vec3d(x - cx, y - cy, 1.0);
-        g.at<double>(y, x) = bicubic(image, to[0] + cx, to[1] + cy);
+        g.at<double>(y, x) = sampled(image, to[0] + cx, to[1] + cy);
       }
     }
     g -= cv::mean(g)[0];
@@ -154,7 +185,7 @@ std::optional<PeerAnswer> plain_icgn(const cv::Mat& pattern, const cv::Mat& fram
     const cv::Matx33d change(1 + p[2] / 100, p[3] / 100, p[0], p[4] / 100, 1 + p[5] / 100, p[1], 0, 0, 1);
     motion = motion * change.inv();
     if (std::hypot(motion(0, 2) - margin_px, motion(1, 2) - margin_px) > 12.0) return std::nullopt;
-    if (std::hypot(p[0], p[1]) < 1e-4) break;
+    if (std::hypot(p[0], p[1]) < 1e-5) break;
   }
   return PeerAnswer{at.dx + motion(0, 2) - margin_px, at.dy + motion(1, 2) - margin_px,
                     correlation > accepted_correlation};
