@@ -67,10 +67,19 @@ Result<LaserReport> parse_laser(std::string_view bytes, const std::string& file,
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (options.mapping) return laser_parts::parse_mapped(text, file, *options.mapping, options);
   if (has(text, "DEVIATIONS::") || extension == ".rtl") return laser_parts::parse_rtl(text, file, options);
   if (has(text, "Compensation start") || extension == ".ren") return laser_parts::parse_ren(text, file, options);
   if (has(text, "Bidirectional Avg Error") || extension == ".pos") return laser_parts::parse_pos(text, file, options);
-  return laser_parts::parse_csv(text, file, options);
+  auto report = laser_parts::parse_csv(text, file, options);
+  if (report || !options.columns.empty()) return report;
+  // Another maker's table, whose names leave no doubt what the columns are.
+  const bool other_form =
+      report.error().code == ErrorCode::csv_bad_header || report.error().code == ErrorCode::csv_cell_count;
+  if (!other_form) return report;
+  const auto preview = preview_laser(bytes, file);
+  if (!preview || !preview->certain) return report;
+  return laser_parts::parse_mapped(text, file, preview->guess, options);
 }
 
 Result<LaserReport> read_laser(const std::filesystem::path& path, const LaserOptions& options) {

@@ -6,11 +6,13 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/compensation/laser_columns.h"
 #include "core/compensation/table.h"
 
 namespace zerodrift::compensation {
@@ -26,6 +28,7 @@ struct LaserReport {
   std::string file;
   std::string machine;             // as far as the report tells
   std::string axis;                // "X", or empty
+  std::vector<std::string> axes;   // of a file that holds several
   std::vector<double> targets_mm;  // strictly increasing
   std::vector<LaserReading> readings;
   std::vector<std::string> warnings;
@@ -36,6 +39,8 @@ struct LaserReport {
 struct LaserOptions {
   std::size_t max_points = 20000;              // MAXL: targets of an axis
   std::map<std::string, std::string> columns;  // column in the file -> contract's name
+  std::optional<LaserMapping> mapping;         // what the columns are, when that is settled already
+  std::string axis;                            // which one, of a file that holds several
   bool negate = false;                         // for a report whose sign turns out to be the other one
 };
 

@@ -1,6 +1,7 @@
 // The contract's CSV forms: position_mm,error_um; target_mm,measured_mm; target_mm,direction,run,measured_mm.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,15 +49,8 @@ Result<Columns> columns_of(const TextTable& table) {
 }
 
 Result<Approach> approach_from(const TextTable& table, std::size_t row, int column) {
-  std::string word = table.rows[row][static_cast<std::size_t>(column)];
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const char* up : {"up", "forward", "fwd", "positive", "+", "1", "+1", "u", "f"}) {
-    if (word == up) return Approach::up;
-  }
-  for (const char* down : {"down", "backward", "bwd", "reverse", "negative", "-", "-1", "0", "2", "d", "b", "r"}) {
-    if (word == down) return Approach::down;
-  }
+  const std::string& word = table.rows[row][static_cast<std::size_t>(column)];
+  if (const auto approach = approach_word(word)) return *approach;
   return fail(
       ErrorCode::csv_bad_number,
       {{"file", table.file}, {"line", std::to_string(table.lines[row])}, {"column", "direction"}, {"found", word}});
@@ -90,6 +84,33 @@ Result<RawReading> reading_at(const TextTable& table, std::size_t row, const Col
   return one;
 }
 
+struct Axes {
+  std::vector<std::string> all;
+  std::string chosen;  // empty: the file names none
+};
+
+/// A file with several axes gives the one asked for.
+Result<Axes> axes_of(const TextTable& table, const Columns& columns, const LaserOptions& options) {
+  Axes axes;
+  if (columns.axis < 0) return axes;
+  for (const auto& row : table.rows) {
+    const auto& name = row[static_cast<std::size_t>(columns.axis)];
+    if (std::find(axes.all.begin(), axes.all.end(), name) == axes.all.end()) axes.all.push_back(name);
+  }
+  axes.chosen = axes.all.front();
+  if (axes.all.size() == 1) return axes;
+  const auto wanted = std::find_if(axes.all.begin(), axes.all.end(),
+                                   [&](const auto& name) { return lowered(name) == lowered(options.axis); });
+  if (wanted == axes.all.end()) {
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", "the axes in " + table.file},
+                 {"found", fmt::format("{}", fmt::join(axes.all, ", "))},
+                 {"expected", options.axis.empty() ? "one, or the choice of one of them" : "axis " + options.axis}});
+  }
+  axes.chosen = *wanted;
+  return axes;
+}
+
 }  // namespace
 
 Result<LaserReport> parse_csv(std::string_view text, const std::string& file, const LaserOptions& options) {
@@ -98,24 +119,18 @@ Result<LaserReport> parse_csv(std::string_view text, const std::string& file, co
     if (const auto mapped = options.columns.find(name); mapped != options.columns.end()) name = mapped->second;
   }
   ZD_TRY(const Columns columns, columns_of(table));
+  ZD_TRY(const Axes axes, axes_of(table, columns, options));
   std::vector<RawReading> readings;
   std::map<std::pair<double, int>, int> seen;  // target and direction -> readings so far, when no run is given
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (!axes.chosen.empty() && table.rows[row][static_cast<std::size_t>(columns.axis)] != axes.chosen) continue;
     ZD_TRY(RawReading one, reading_at(table, row, columns));
     if (columns.run < 0) one.run = ++seen[{one.target_mm, one.approach == Approach::up ? 0 : 1}];
     readings.push_back(one);
   }
   ZD_TRY(LaserReport report, assemble(std::move(readings), file, options));
-  if (columns.axis >= 0 && !table.rows.empty()) {
-    report.axis = table.rows.front()[static_cast<std::size_t>(columns.axis)];
-    for (std::size_t row = 1; row < table.rows.size(); ++row) {
-      const auto& other = table.rows[row][static_cast<std::size_t>(columns.axis)];
-      if (other == report.axis) continue;
-      return fail(ErrorCode::data_does_not_fit, {{"what", fmt::format("{}, line {}, axis", file, table.lines[row])},
-                                                 {"found", other},
-                                                 {"expected", report.axis}});
-    }
-  }
+  report.axis = axes.chosen;
+  report.axes = axes.all;
   return report;
 }
 

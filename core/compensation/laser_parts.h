@@ -25,11 +25,20 @@ struct Line {
 std::vector<Line> lines_of(std::string_view text);
 std::vector<std::string> words_of(std::string_view line);
 std::optional<double> number_from(std::string_view word);
+/// Cells between separators, trimmed; ' ' parts at blanks and tabs.
+std::vector<std::string> cells_of_line(std::string_view line, char separator);
+std::optional<double> number_in_cell(std::string cell, bool decimal_comma);
+/// ASCII letters in lower case.
+std::string lowered(std::string text);
+/// "up", "forward", "+1", ...; nothing for a word that is no direction.
+std::optional<Approach> approach_word(std::string word);
 
 /// Numbers the targets; csv-style errors name file and line.
 Result<LaserReport> assemble(std::vector<RawReading> readings, const std::string& file, const LaserOptions& options);
 
 Result<LaserReport> parse_csv(std::string_view text, const std::string& file, const LaserOptions& options);
+Result<LaserReport> parse_mapped(std::string_view text, const std::string& file, const LaserMapping& mapping,
+                                 const LaserOptions& options);
 Result<LaserReport> parse_rtl(std::string_view text, const std::string& file, const LaserOptions& options);
 Result<LaserReport> parse_ren(std::string_view text, const std::string& file, const LaserOptions& options);
 Result<LaserReport> parse_pos(std::string_view text, const std::string& file, const LaserOptions& options);

@@ -35,6 +35,7 @@ Result<Table> table_from_model(const analysis::Model& model, const ModelTableOpt
     axis.offset_um = error.offset_um;
     axis.max_um = options.max_um;
     axis.max_um_per_s = options.max_um_per_s;
+    axis.max_um_per_K = options.max_um_per_K;
     for (const auto& term : error.terms) axis.terms.push_back({term.sensor, term.um_per_K, term.reference_C, 0.0});
   }
   if (table.axes.empty()) {

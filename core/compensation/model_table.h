@@ -14,6 +14,7 @@ struct ModelTableOptions {
   std::string machine;
   double max_um = 200.0;
   double max_um_per_s = 2.0;
+  double max_um_per_K = 50.0;
 };
 
 /// The table of the model's errors dX_um, dY_um, dZ_um (other errors are left out with a warning). A dynamic model

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/compensation/minimum_link.h"
+#include "core/compensation/window_fit.h"
 
 namespace zerodrift::compensation {
 namespace {
@@ -73,57 +74,49 @@ struct Points {
   const std::vector<double>& e;
 };
 
-/// Sums of the first n points, point by point (Welford), so that one pass tells for every n whether it would pass.
-class GrowingFit {
+/// The published loop: where dropping the last of n points until the rest passes comes to an end.
+class Dropping {
  public:
-  void add(double x, double e) {
-    ++m_n;
-    const double dx = x - m_mean_x;
-    const double de = e - m_mean_e;
-    m_mean_x += dx / m_n;
-    m_mean_e += de / m_n;
-    m_sxx += dx * (x - m_mean_x);
-    m_sxe += dx * (e - m_mean_e);
-    m_see += de * (e - m_mean_e);
-    m_low = m_n == 1.0 ? e : std::min(m_low, e);
-    m_high = m_n == 1.0 ? e : std::max(m_high, e);
-  }
-  /// |r| at least the threshold, compared as squares: r is 0 where a spread is 0.
-  bool accepted(const SegmentationOptions& options) const {
-    if (m_n <= 2.0) return true;
-    const double limit = options.threshold * options.threshold;
-    if (options.criterion != Criterion::coordinates) {
-      return m_high - m_low <= options.resolution_um || (m_see > 0.0 && m_sxe * m_sxe >= limit * m_sxx * m_see);
-    }
-    const double sxy = m_sxx + 1e-3 * m_sxe;
-    const double syy = m_sxx + 2e-3 * m_sxe + 1e-6 * m_see;
-    return syy > 0.0 && sxy * sxy >= limit * m_sxx * syy;
+  Dropping(const Points& points, const SegmentationOptions& options)
+      : m_points(points), m_options(options), m_fit(points.x, second_of(points, options)) {}
+
+  std::size_t kept(std::size_t first, std::size_t n) {
+    if (n <= 2) return n;
+    const std::size_t flat = m_options.criterion == Criterion::coordinates ? 0 : flat_count(first, n);
+    if (flat == n) return n;
+    return std::max({std::size_t{2}, flat, m_fit.largest_count(first, n, m_options.threshold)});
   }
 
  private:
-  double m_n = 0.0;
-  double m_mean_x = 0.0;
-  double m_mean_e = 0.0;
-  double m_sxx = 0.0;
-  double m_sxe = 0.0;
-  double m_see = 0.0;
-  double m_low = 0.0;
-  double m_high = 0.0;
-};
-
-/// Where dropping the last of n points until the rest passes comes to an end: the largest count that passes.
-std::size_t points_kept(const Points& points, std::size_t first, std::size_t n, const SegmentationOptions& options) {
-  GrowingFit growing;
-  std::size_t kept = 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    growing.add(points.x[first + i], points.e[first + i]);
-    if (growing.accepted(options)) kept = i + 1;
+  static std::vector<double> second_of(const Points& points, const SegmentationOptions& options) {
+    if (options.criterion != Criterion::coordinates) return points.e;
+    std::vector<double> y;
+    for (std::size_t i = 0; i < points.x.size(); ++i) y.push_back(points.x[i] + 1e-3 * points.e[i]);
+    return y;
   }
-  return kept;
-}
+
+  /// Points from the first one on whose errors differ by no more than the resolution.
+  std::size_t flat_count(std::size_t first, std::size_t n) const {
+    double low = m_points.e[first];
+    double high = low;
+    std::size_t count = 0;
+    while (count < n) {
+      low = std::min(low, m_points.e[first + count]);
+      high = std::max(high, m_points.e[first + count]);
+      if (high - low > m_options.resolution_um) break;
+      ++count;
+    }
+    return count;
+  }
+
+  const Points& m_points;
+  const SegmentationOptions& m_options;
+  WindowFit m_fit;
+};
 
 Segmentation published_rule(const Points& points, const SegmentationOptions& options) {
   Segmentation out;
+  Dropping dropping(points, options);
   std::size_t first = 0;
   while (first < points.x.size()) {
     const std::size_t left = points.x.size() - first;
@@ -133,7 +126,7 @@ Segmentation published_rule(const Points& points, const SegmentationOptions& opt
       out.segments.push_back(joint(x0, error_at(out.segments.back(), x0), points.x[first], points.e[first]));
       break;
     }
-    const std::size_t n = points_kept(points, first, start, options);
+    const std::size_t n = dropping.kept(first, start);
     const Fit found = fit(std::span(points.x).subspan(first, n), std::span(points.e).subspan(first, n));
     const double from = points.x[first];
     if (!out.segments.empty()) {

@@ -65,6 +65,7 @@ Status check_axis(const std::string& name, const AxisTable& axis) {
   if (!std::isfinite(axis.offset_um)) return reject("offset_um", axis.offset_um, "a finite number");
   if (!std::isfinite(axis.reference_position_mm)) return reject("x0", axis.reference_position_mm, "a finite number");
   if (!(axis.max_um > 0.0)) return reject("limits.max_um", axis.max_um, "a number above 0");
+  if (!(axis.max_um_per_K > 0.0)) return reject("limits.max_um_per_K", axis.max_um_per_K, "a number above 0");
   if (!(axis.max_um_per_s > 0.0)) return reject("limits.max_um_per_s", axis.max_um_per_s, "a number above 0");
   return {};
 }
@@ -116,6 +117,23 @@ std::vector<std::string> outside_valid_range(const Table& table, const Temperatu
         fmt::format("{} {:.1f} C (valid {:.1f} to {:.1f})", sensor, at->second, range.low_C, range.high_C));
   }
   return outside;
+}
+
+Status check_steepness(const Table& table, double max_um_per_K) {
+  for (const auto& [name, axis] : table.axes) {
+    const double limit = std::min(axis.max_um_per_K, max_um_per_K);
+    const auto steep = [&, &name = name](const std::string& what, double um_per_K) -> Status {
+      if (std::abs(um_per_K) <= limit) return {};
+      return fail(ErrorCode::limit_exceeded, {{"what", fmt::format("the coefficient of {} in axis {}", what, name)},
+                                              {"found", fmt::format("{:.1f} um/K", um_per_K)},
+                                              {"limit", fmt::format("{:g} um/K", limit)}});
+    };
+    for (const auto& term : axis.terms) ZD_CHECK(steep(term.sensor, term.um_per_K));
+    for (const auto& point : axis.points) {
+      ZD_CHECK(steep(fmt::format("the point at {:g} mm", point.position_mm), point.um_per_K));
+    }
+  }
+  return {};
 }
 
 Temperatures reference_temperatures(const Table& table) {

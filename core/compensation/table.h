@@ -54,8 +54,9 @@ struct AxisTable {
   double offset_um = 0.0;
   std::vector<TemperatureTerm> terms;
   double reference_position_mm = 0.0;
-  double max_um = 200.0;      // the compensation is limited to this
-  double max_um_per_s = 2.0;  // and its change to this
+  double max_um = 200.0;       // the compensation is limited to this
+  double max_um_per_s = 2.0;   // and its change to this
+  double max_um_per_K = 50.0;  // no coefficient may be steeper when the table is written to a machine
 };
 
 /// Temperatures of the training data; beyond them a model extrapolates.
@@ -86,6 +87,8 @@ Result<double> error_um(const Table& table, const std::string& axis, double posi
 std::vector<std::string> sensors_of(const Table& table);
 /// Sensors outside their valid range now, as "T3_C 43.1 C (valid 18 to 41)".
 std::vector<std::string> outside_valid_range(const Table& table, const Temperatures& temperatures);
+/// Coefficients steeper than the axis's own limit or this one, as limit_exceeded naming axis and sensor.
+Status check_steepness(const Table& table, double max_um_per_K);
 /// Every sensor at its reference: the state in which temperature terms give nothing.
 Temperatures reference_temperatures(const Table& table);
 

@@ -34,14 +34,15 @@ json axis_to_json(const AxisTable& axis) {
     terms.push_back({{"sensor", t.sensor}, {"um_per_K", t.um_per_K}, {"reference_C", t.reference_C}});
     slopes.push_back(t.slope_um_per_m_per_K);
   }
-  return {{"segments", segments},
-          {"points", points},
-          {"temperature",
-           {{"offset_um", axis.offset_um},
-            {"terms", terms},
-            {"slope_um_per_m_per_K", slopes},
-            {"reference_position_mm", axis.reference_position_mm}}},
-          {"limits", {{"max_um", axis.max_um}, {"max_um_per_s", axis.max_um_per_s}}}};
+  return {
+      {"segments", segments},
+      {"points", points},
+      {"temperature",
+       {{"offset_um", axis.offset_um},
+        {"terms", terms},
+        {"slope_um_per_m_per_K", slopes},
+        {"reference_position_mm", axis.reference_position_mm}}},
+      {"limits", {{"max_um", axis.max_um}, {"max_um_per_s", axis.max_um_per_s}, {"max_um_per_K", axis.max_um_per_K}}}};
 }
 
 json without_crc(const Table& table) {
@@ -108,6 +109,7 @@ AxisTable read_axis(JsonObject& object) {
   if (JsonObject* limits = object.object_if("limits"); limits != nullptr) {
     axis.max_um = limits->number_or("max_um", axis.max_um, positive);
     axis.max_um_per_s = limits->number_or("max_um_per_s", axis.max_um_per_s, positive);
+    axis.max_um_per_K = limits->number_or("max_um_per_K", axis.max_um_per_K, positive);
   }
   return axis;
 }

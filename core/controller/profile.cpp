@@ -87,6 +87,7 @@ Profile read_body(JsonObject& o) {
   if (JsonObject* limits = o.object_if("limits"); limits != nullptr) {
     profile.max_um = limits->number_or("max_um", profile.max_um, positive);
     profile.max_um_per_s = limits->number_or("max_um_per_s", profile.max_um_per_s, positive);
+    profile.max_um_per_K = limits->number_or("max_um_per_K", profile.max_um_per_K, positive);
   }
   o.raw("machine");
   return profile;

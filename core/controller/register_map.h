@@ -69,6 +69,15 @@ struct RegisterMap {
 
 Result<RegisterMap> register_map_from_json(const nlohmann::json& document, const std::string& file,
                                            std::vector<std::string>* warnings = nullptr);
+/// From a list with the columns name, address and, as needed, function, type, count, scale, sign, missing, word_order,
+/// byte_order; numbers from 0, or Modicon's 40001 and 30001. Elements "temperature_C[1]" in a row make one array.
+Result<RegisterMap> register_map_from_csv(std::string_view text, const std::string& file,
+                                          std::vector<std::string>* warnings = nullptr);
+/// A map in either form, told from its content.
+Result<RegisterMap> read_register_list(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
+nlohmann::json to_json(const Register& entry);
+/// With base 0; reads back as the same map.
+nlohmann::json to_json(const RegisterMap& map);
 /// A path to a JSON map, or the name of a shipped one; relative paths are looked up beside `beside` first.
 Result<RegisterMap> load_register_map(const std::string& name_or_path, const std::filesystem::path& beside = {},
                                       std::vector<std::string>* warnings = nullptr);

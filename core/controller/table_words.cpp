@@ -149,7 +149,7 @@ Result<Table> decode_table(std::span<const std::uint16_t> words, const Profile& 
 }
 
 compensation::ModelTableOptions table_options(const Profile& profile) {
-  return {profile.name, profile.max_um, profile.max_um_per_s};
+  return {profile.name, profile.max_um, profile.max_um_per_s, profile.max_um_per_K};
 }
 
 std::uint32_t crc_of_words(std::span<const std::uint16_t> words) {

@@ -22,7 +22,6 @@ constexpr double table_scale_nm = 1000.0;  // values are in um
 constexpr double check_timeout_machine_s = 30.0;
 constexpr int status_active = 3;
 constexpr int status_rejected = 4;
-constexpr double largest_slope_um_per_K = 50.0;  // docs/register-map.md
 
 std::string reason_text(int reason) {
   switch (reason) {
@@ -222,6 +221,12 @@ class Upload {
     enter(UploadState::saving_old, "");
     ZD_CHECK(save_old());
     ZD_CHECK(compare_tables(sample));
+    if (table != nullptr) {
+      ZD_CHECK(compensation::check_steepness(*table, m_machine.profile().max_um_per_K));
+      for (const auto& outside : compensation::outside_valid_range(*table, temperatures_of(sample))) {
+        m_record.warnings.push_back(outside + ": the machine is outside the range the model was made in");
+      }
+    }
     if (m_options.dry_run) return {};
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     if (m_options.keep_old) ZD_CHECK(m_options.keep_old(m_record));
@@ -256,31 +261,28 @@ class Upload {
 
   static int next_sequence(int sequence) { return sequence >= 65535 ? 1 : sequence + 1; }
 
+  compensation::Temperatures temperatures_of(const acquisition::MachineSample& sample) const {
+    const auto& sensors = m_machine.profile().sensors;
+    compensation::Temperatures temperatures{{"ambient_C", sample.ambient_C}};
+    for (std::size_t i = 0; i < sensors.size(); ++i) temperatures[sensors[i].channel] = sample.temperature_C[i];
+    return temperatures;
+  }
+
   /// The difference, and the limits: at the present temperatures no axis may jump by more than the machine takes.
   Status compare_tables(const acquisition::MachineSample& sample) {
     const Profile& profile = m_machine.profile();
     ZD_TRY(const Table new_table, decode_table(m_record.new_words, profile));
     ZD_TRY(m_record.old_table, decode_table(m_record.old_words, profile));
     m_record.old_table.version = m_record.old_sequence;
-    compensation::Temperatures temperatures{{"ambient_C", sample.ambient_C}};
-    for (std::size_t i = 0; i < profile.sensors.size(); ++i) {
-      temperatures[profile.sensors[i].channel] = sample.temperature_C[i];
-    }
-    ZD_TRY(m_record.difference, compensation::difference(m_record.old_table, new_table, temperatures, sample.axes));
+    ZD_TRY(m_record.difference,
+           compensation::difference(m_record.old_table, new_table, temperatures_of(sample), sample.axes));
     for (const auto& axis : m_record.difference) {
       if (axis.largest_um <= profile.max_um) continue;
       return fail(ErrorCode::limit_exceeded, {{"what", "the change of the compensation of axis " + axis.axis},
                                               {"found", fmt::format("{:.1f} um", axis.largest_um)},
                                               {"limit", fmt::format("{:.0f} um", profile.max_um)}});
     }
-    for (const auto& [name, axis] : new_table.axes) {
-      for (const auto& term : axis.terms) {
-        if (std::abs(term.um_per_K) <= largest_slope_um_per_K) continue;
-        return fail(ErrorCode::limit_exceeded, {{"what", "the coefficient of " + term.sensor + " in axis " + name},
-                                                {"found", fmt::format("{:.1f} um/K", term.um_per_K)},
-                                                {"limit", fmt::format("{:.0f} um/K", largest_slope_um_per_K)}});
-      }
-    }
+    ZD_CHECK(compensation::check_steepness(new_table, profile.max_um_per_K));
     return {};
   }
 

@@ -143,6 +143,86 @@ TEST(Laser, RenAndPos) {
   EXPECT_FALSE(pos->warnings.empty());
 }
 
+// Tables of other makers: the names or the numbers tell what the columns are; the wide form has a column a direction.
+TEST(LaserColumns, AreGuessedFromNamesUnitsAndNumbers) {
+  const auto named =
+      preview_laser("Axis report\n\nNo.\tPosition (mm)\tError (um)\n1\t0.0\t0.5\n2\t10.0\t1.5\n3\t20\t2\n", "a.txt");
+  ASSERT_TRUE(named) << describe(named.error());
+  EXPECT_TRUE(named->certain);
+  EXPECT_EQ(named->guess.first_line, 4);
+  EXPECT_EQ(named->guess.columns[1], LaserColumn::position);
+  EXPECT_EQ(named->guess.columns[2], LaserColumn::error);
+  EXPECT_DOUBLE_EQ(named->guess.um_per_error, 1.0);
+  // Bare numbers, blanks between: a row number, targets, errors in mm (they are small).
+  const auto bare = preview_laser("1   0.000  0.0000\n2  50.000  0.0031\n3 100.000 -0.0012\n", "a.txt");
+  ASSERT_TRUE(bare) << describe(bare.error());
+  EXPECT_FALSE(bare->certain);
+  EXPECT_EQ(bare->guess.columns, (std::vector{LaserColumn::ignored, LaserColumn::position, LaserColumn::error}));
+  EXPECT_DOUBLE_EQ(bare->guess.um_per_error, 1000.0);
+  // Actual positions beside the targets; decimal comma.
+  const auto positions = preview_laser("Soll;Ist\n0,0;0,0021\n100,0;100,0042\n200,0;200,0011\n", "a.csv");
+  ASSERT_TRUE(positions) << describe(positions.error());
+  EXPECT_TRUE(positions->guess.decimal_comma);
+  EXPECT_EQ(positions->guess.columns[1], LaserColumn::measured);
+  // In Chinese, as GBK: position, error.
+  const auto gbk = preview_laser("\xCE\xBB\xD6\xC3(mm),\xCE\xF3\xB2\xEE(um)\n0,1\n10,2\n", "a.csv");
+  ASSERT_TRUE(gbk) << describe(gbk.error());
+  EXPECT_EQ(gbk->encoding, "GBK");
+  EXPECT_TRUE(gbk->certain);
+  EXPECT_FALSE(preview_laser("no numbers\nat all\n", "a.txt"));
+}
+
+TEST(LaserColumns, WideFormAndOrderGiveDirections) {
+  const auto wide = parse_laser("Position,Forward error,Reverse error\n0,1,3\n10,2,4\n", "a.csv");
+  ASSERT_TRUE(wide) << describe(wide.error());
+  EXPECT_TRUE(wide->bidirectional());
+  EXPECT_DOUBLE_EQ(points_of(*wide)[1].error_up_um, 2.0);
+  EXPECT_DOUBLE_EQ(points_of(*wide)[1].error_down_um, 4.0);
+  EXPECT_EQ(wide->warnings.size(), 1U);
+  // There and back, twice: the turning point stands twice.
+  std::string order = "Position Error_um\n";
+  for (int cycle = 0; cycle < 2; ++cycle) order += "0 1\n10 2\n20 3\n20 6\n10 5\n0 4\n";
+  const auto both = parse_laser(order, "a.txt");
+  ASSERT_TRUE(both) << describe(both.error());
+  const auto points = points_of(*both);
+  EXPECT_DOUBLE_EQ(points[0].error_up_um, 1.0);
+  EXPECT_DOUBLE_EQ(points[0].error_down_um, 4.0);
+  EXPECT_DOUBLE_EQ(points[2].error_up_um, 3.0);
+  EXPECT_DOUBLE_EQ(points[2].error_down_um, 6.0);
+}
+
+TEST(LaserColumns, ASettledMappingIsKeptAndUsed) {
+  LaserOptions options;
+  options.mapping = LaserMapping{};
+  options.mapping->separator = ' ';
+  options.mapping->columns = {LaserColumn::position, LaserColumn::ignored, LaserColumn::error};
+  options.mapping->um_per_error = 1000.0;
+  options.mapping->negated = true;
+  const auto report = parse_laser("0 99 0.001\n10 98 0.002\n", "a.dat", options);
+  ASSERT_TRUE(report) << describe(report.error());
+  EXPECT_DOUBLE_EQ(points_of(*report)[1].error_up_um, -2.0);
+  const auto back = mapping_from_text(text_of(*options.mapping), 3);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(text_of(*back), text_of(*options.mapping));
+  EXPECT_FALSE(mapping_from_text(text_of(*options.mapping), 4));
+  EXPECT_FALSE(mapping_from_text("nonsense", 3));
+  const auto bad = parse_laser("0 99 0.001\n10 98 x\n", "a.dat", options);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().context.at("line"), "2");
+}
+
+TEST(Laser, OneAxisOfAFileWithSeveral) {
+  const std::string text = "axis,position_mm,error_um\nX,0,1\nX,10,2\nY,0,3\nY,10,4\n";
+  EXPECT_EQ(parse_laser(text, "a.csv").error().code, ErrorCode::data_does_not_fit);
+  LaserOptions options;
+  options.axis = "y";
+  const auto report = parse_laser(text, "a.csv", options);
+  ASSERT_TRUE(report) << describe(report.error());
+  EXPECT_EQ(report->axis, "Y");
+  EXPECT_EQ(report->axes, (std::vector<std::string>{"X", "Y"}));
+  EXPECT_DOUBLE_EQ(points_of(*report)[1].error_up_um, 4.0);
+}
+
 // A case small enough to do by hand: two targets, two runs each way.
 TEST(Positioning, ByHand) {
   const auto report = parse_laser(
@@ -221,11 +301,9 @@ TEST(Positioning, ARealAxis) {
   const std::string data = folder != nullptr ? folder : std::string(ZERODRIFT_SOURCE_DIR) + "/../shared/data";
   const auto text = read_file(data + "/axis-positioning/axis_b02.csv");
   if (!text) GTEST_SKIP() << "recordings not found in " << data;
-  std::string one_axis = text->substr(0, text->find('\n') + 1);
-  for (std::size_t at = text->find("\nX,"); at != std::string::npos; at = text->find("\nX,", at + 1)) {
-    one_axis += text->substr(at + 1, text->find('\n', at + 1) - at);
-  }
-  const auto report = parse_laser(one_axis, "axis_b02.csv");
+  LaserOptions axis_x;
+  axis_x.axis = "X";
+  const auto report = parse_laser(*text, "axis_b02.csv", axis_x);
   ASSERT_TRUE(report) << describe(report.error());
   EXPECT_EQ(report->axis, "X");
   EXPECT_EQ(report->targets_mm.size(), 9U);

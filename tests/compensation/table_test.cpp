@@ -61,6 +61,17 @@ TEST(Table, MissingAndDeadSensorsAreNamed) {
   EXPECT_EQ(sensors_of(table), (std::vector<std::string>{"T3_C", "ambient_C"}));
 }
 
+TEST(Table, SteepCoefficientsAreNamed) {
+  Table table = sample();
+  EXPECT_TRUE(check_steepness(table, 50.0));
+  table.axes["Z"].max_um_per_K = 1.0;
+  const auto steep = check_steepness(table, 50.0);
+  ASSERT_FALSE(steep);
+  EXPECT_EQ(steep.error().code, ErrorCode::limit_exceeded);
+  EXPECT_NE(steep.error().context.at("what").find("axis Z"), std::string::npos);
+  EXPECT_EQ(table_from_json(to_json(table), "t.json")->axes.at("Z").max_um_per_K, 1.0);
+}
+
 TEST(Table, JsonRoundTripAndCheckSum) {
   const Table table = sample();
   const auto document = to_json(table);

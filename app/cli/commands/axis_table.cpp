@@ -99,6 +99,7 @@ Result<CommandOutput> make_table(const TableOptions& options) {
   compensation::LaserOptions how;
   how.negate = options.negate;
   how.max_points = options.max_points;
+  how.axis = options.axis;
   ZD_TRY(how.columns, columns_from(options.columns));
   ZD_TRY(const auto report, compensation::read_laser(options.laser, how));
   output.warnings = report.warnings;
@@ -215,7 +216,7 @@ void add_axis_table(Cli& cli) {
                       "Largest residual for the criterion tolerance");
   command->add_option("--out", options->out, "Table file to write")->required();
   command->add_option("--statistics", options->statistics, "JSON to write: ISO 230-2 and VDI 3441 figures");
-  command->add_option("--axis", options->axis, "Axis of the report; default: as it says, else X")
+  command->add_option("--axis", options->axis, "Axis of the report, or which one of a report with several; default: as it says, else X")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command->add_option("--column", options->columns, "COLUMN=NAME: read a column of the CSV as another name");
   command->add_option("--max-points", options->max_points, "Most targets an axis may have");
