@@ -191,4 +191,27 @@ TEST(Exports, SiemensLeadscrewForm) {
   EXPECT_DOUBLE_EQ(out->loss_um, 0.0);
 }
 
+// What is loaded first where the sign is not certain: one place moves by -5 um, the rest stays.
+TEST(Exports, OnePointOfEveryFormat) {
+  Table table;
+  for (int i = 0; i <= 10; ++i) table.axes["X"].points.push_back({50.0 * i, 3.0 * i, 2.0 * i, 0.1});
+  table.axes["X"].terms = {{"T1_C", 2.0, 20.0, 5.0}};
+  for (const auto& format : export_formats()) {
+    ExportOptions options;
+    options.temperatures = {{"T1_C", 35.0}};
+    const auto out = write_one_point(format, table, options);
+    ASSERT_TRUE(out) << format.id << ": " << describe(out.error());
+    ASSERT_EQ(out->confirm.size(), 1U);
+    EXPECT_NE(out->confirm.front().find("-5.0 um"), std::string::npos);
+    const auto back = format.read(out->files.front().text, options);
+    ASSERT_TRUE(back) << format.id;
+    const auto at = [&](double x) { return error_um(back->axes.at("X"), x, Approach::up, {}).value(); };
+    EXPECT_NEAR(at(250.0), 5.0, 1e-6) << format.id;
+    if (!format.capabilities.temperature) {
+      EXPECT_NEAR(at(200.0), 0.0, 1e-6) << format.id;
+      EXPECT_NEAR(at(500.0), 0.0, 1e-6) << format.id;
+    }
+  }
+}
+
 }  // namespace zerodrift::controller

@@ -216,7 +216,9 @@ void add_axis_table(Cli& cli) {
                       "Largest residual for the criterion tolerance");
   command->add_option("--out", options->out, "Table file to write")->required();
   command->add_option("--statistics", options->statistics, "JSON to write: ISO 230-2 and VDI 3441 figures");
-  command->add_option("--axis", options->axis, "Axis of the report, or which one of a report with several; default: as it says, else X")
+  command
+      ->add_option("--axis", options->axis,
+                   "Axis of the report, or which one of a report with several; default: as it says, else X")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command->add_option("--column", options->columns, "COLUMN=NAME: read a column of the CSV as another name");
   command->add_option("--max-points", options->max_points, "Most targets an axis may have");

@@ -14,6 +14,7 @@ struct Options {
   std::string format;
   std::string out;
   std::string temperatures;
+  bool one_point = false;
   controller::ExportOptions how;
 };
 
@@ -37,7 +38,8 @@ Result<CommandOutput> run(Options options, const TaskContext&) {
   ZD_TRY(const auto* format, controller::export_format(options.format));
   ZD_TRY(const auto table, compensation::read_table_file(options.table, &output.warnings));
   ZD_TRY(options.how.temperatures, temperatures_from(options.temperatures));
-  ZD_TRY(const auto exported, format->write(table, options.how));
+  ZD_TRY(const auto exported, options.one_point ? controller::write_one_point(*format, table, options.how)
+                                                : format->write(table, options.how));
   nlohmann::json files = nlohmann::json::array();
   for (const auto& file : exported.files) {
     ZD_CHECK(write_file(options.out + file.suffix, file.text));
@@ -47,7 +49,10 @@ Result<CommandOutput> run(Options options, const TaskContext&) {
   output.text += fmt::format("sign: {}\nlargest difference from the table: {:.3f} um\n", format->capabilities.sign,
                              exported.loss_um);
   for (const auto& loss : exported.losses) output.text += "lost: " + loss + "\n";
-  for (const auto& doubt : exported.confirm) output.text += "confirm on one point before the rest: " + doubt + "\n";
+  for (const auto& doubt : exported.confirm) {
+    output.text +=
+        (options.one_point ? "expect: " : "confirm on one point (--one-point) before the rest: ") + doubt + "\n";
+  }
   output.text.pop_back();
   output.json = {{"format", format->id},
                  {"files", files},
@@ -76,6 +81,7 @@ void add_export(Cli& cli) {
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command->add_option("--at", options->temperatures,
                       "Temperatures the file holds for, T1_C=25,T2_C=30; default: references");
+  command->add_flag("--one-point", options->one_point, "A file that moves the axis at one place by 5 um, to try first");
   command->add_option("--max-points", options->how.max_points, "Points an axis may have on this controller")
       ->check(CLI::Range(4, 100000));
   command->add_flag("--cec", options->how.sinumerik_cec, "sinumerik-leadscrew: two CEC tables, one a direction");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/cli/command.h"
+#include "app/cli/commands/machine_map.h"
 #include "app/text/error_text.h"
 #include "core/controller/modbus_machine.h"
 #include "core/vision/camera.h"
@@ -108,13 +109,35 @@ Result<CommandOutput> run(const std::string& file, const TaskContext& context) {
 
 void add_machine_check(Cli& cli) {
   using namespace machine_check_command;
-  auto file = std::make_shared<std::string>();
-  CLI::App* machine = cli.add("machine", "Look at the connected machine",
-                              [file](const TaskContext& context) { return run(*file, context); });
-  CLI::App* check = machine->add_subcommand("check", "Connect and list sensors, axes, cameras and the switch");
+  struct Chosen {
+    std::string profile;
+    MapOptions map;
+    CLI::App* make = nullptr;
+    CLI::App* list = nullptr;
+  };
+  auto chosen = std::make_shared<Chosen>();
+  CLI::App* machine = cli.add("machine", "Look at the connected machine", [chosen](const TaskContext& context) {
+    if (chosen->make->parsed()) return make_map(chosen->map);
+    if (chosen->list->parsed()) return list_registers(chosen->map);
+    return run(chosen->profile, context);
+  });
+  const auto with_json = [&](CLI::App* command) {
+    command->add_flag("--json", cli.json_output, "Print the result as JSON on stdout");
+    return command;
+  };
+  CLI::App* check =
+      with_json(machine->add_subcommand("check", "Connect and list sensors, axes, cameras and the switch"));
+  check->add_option("--profile", chosen->profile, "Connection profile")->required();
+  chosen->list = with_json(machine->add_subcommand("registers", "List every register with its decoded value"));
+  chosen->list->add_option("--profile", chosen->map.profile, "Connection profile")->required();
+  chosen->list->add_option("--map", chosen->map.list, "Another map than the profile's: JSON, or a CSV list");
+  chosen->make = with_json(machine->add_subcommand("map", "Make a register map from a list of registers"));
+  chosen->make
+      ->add_option("--list", chosen->map.list, "CSV with name, address and, as needed, function, type, count, ...")
+      ->required();
+  chosen->make->add_option("--name", chosen->map.name, "Name of the map; default: of the file");
+  chosen->make->add_option("--out", chosen->map.out, "Register map to write")->required();
   machine->require_subcommand(1);
-  check->add_option("--profile", *file, "Connection profile")->required();
-  check->add_flag("--json", cli.json_output, "Print the result as JSON on stdout");
 }
 
 }  // namespace zerodrift::cli

@@ -56,6 +56,11 @@ struct ExportFormat {
   Result<compensation::Table> (*read)(std::string_view text, const ExportOptions& options);
 };
 
+/// Before a file whose sign or form is to be confirmed: the same format with one axis moved at one place by a few um.
+/// What must be seen stands in `confirm`.
+Result<Exported> write_one_point(const ExportFormat& format, const compensation::Table& table,
+                                 const ExportOptions& options);
+
 /// linuxcnc, sinumerik-thermal, sinumerik-leadscrew, fanuc, heidenhain
 const std::vector<ExportFormat>& export_formats();
 Result<const ExportFormat*> export_format(const std::string& id);

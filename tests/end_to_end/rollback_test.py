@@ -1,0 +1,78 @@
+"""An upload taken back from the command line, on the virtual machine at the speed of a real one: the table before is
+active, whole and known within 5 s, for a small and for a full table; twice taken back is two tables back; and what was
+not written from here is not taken back.
+
+Usage: rollback_test.py"""
+
+import json
+import os
+import time
+
+from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
+
+
+def table(name, size_um, points):
+    axis = {"temperature": {"offset_um": size_um, "reference_position_mm": 0, "terms": [
+                {"sensor": "T1_C", "um_per_K": 0.3, "reference_C": 21.0}]},
+            "points": [{"position_mm": 2.0 * i, "error_up_um": size_um * (i % 7) / 7, "error_down_um": 0.5}
+                       for i in range(points)],
+            "limits": {"max_um": 150, "max_um_per_s": 2}}
+    return {"format": "zerodrift-table/1", "machine": name, "version": 1, "axes": {"X": axis}, "valid": {"T1_C": [-50, 90]}}
+
+
+def words(profile, folder):
+    _, out, _ = cli("read-back", "--profile", profile, "--out", os.path.join(folder, "back.json"), "--json")
+    return json.loads(out)["words"]
+
+
+def rolled_back(profile):
+    start = time.monotonic()
+    _, out, _ = cli("rollback", "--profile", profile, "--yes", "--json")
+    whole_s = time.monotonic() - start
+    record = json.loads(out)
+    assert record["state"] == "done", record["state"]
+    steps = {step["state"]: step["time"] for step in record["steps"]}
+    return whole_s, record, steps
+
+
+def test(folder):
+    os.environ["ZERODRIFT_STATE_DIR"] = os.path.join(folder, "state")
+    with VirtualMachine(folder, 1, 3) as machine:
+        with open(machine.profile) as file:
+            name = json.load(file)["name"]
+        small = write_json(os.path.join(folder, "small.json"), table(name, 3.0, 4))
+        full = write_json(os.path.join(folder, "full.json"), table(name, 6.0, 240))
+        code, _, err = cli("rollback", "--profile", machine.profile, "--yes", check=False)
+        assert code == 1 and err.strip(), "there is nothing to go back to, and it says so"
+        empty = words(machine.profile, folder)
+        cli("push", "--profile", machine.profile, "--table", small, "--yes")
+        first = words(machine.profile, folder)
+        code, _, _ = cli("rollback", "--profile", machine.profile, check=False)
+        assert code == 1 and words(machine.profile, folder) == first, "without --yes nobody is asked here: refused"
+        cli("push", "--profile", machine.profile, "--table", full, "--yes")
+        second = words(machine.profile, folder)
+        assert len(second) > 1900 and second != first
+        for wanted, what in ((first, "full -> small"), (empty, "small -> none")):
+            seconds, record, steps = rolled_back(machine.profile)
+            print(f"{what}: {seconds:.2f} s in all, ramp included; {len(record['new_words'])} registers")
+            back = words(machine.profile, folder)
+            assert back == wanted or (not wanted and len(back) <= 2), "the table before is not what is active"
+            assert seconds < 5.0, f"{seconds:.2f} s"
+        code, _, _ = cli("rollback", "--profile", machine.profile, "--yes", check=False)
+        assert code == 1, "nothing is left to go back to"
+        # A table that came from elsewhere in between: the history of this computer does not fit it.
+        cli("push", "--profile", machine.profile, "--table", small, "--yes")
+        own = os.environ["ZERODRIFT_STATE_DIR"]
+        os.environ["ZERODRIFT_STATE_DIR"] = os.path.join(folder, "another")
+        cli("push", "--profile", machine.profile, "--table", full, "--yes")
+        # The larger table back to the one before, from the computer that wrote it.
+        seconds, _, _ = rolled_back(machine.profile)
+        assert seconds < 5.0 and words(machine.profile, folder) == first
+        cli("push", "--profile", machine.profile, "--table", full, "--yes")
+        os.environ["ZERODRIFT_STATE_DIR"] = own
+        code, _, err = cli("rollback", "--profile", machine.profile, "--yes", check=False)
+        assert code == 1 and "not written from here" in err, err
+        assert words(machine.profile, folder) == second
+
+
+run_in_folder(test)
