@@ -30,7 +30,7 @@ class Eye {
  public:
   explicit Eye(const controller::Profile& profile) : m_profile(profile) {}
 
-  Result<MachineLook> look() {
+  Result<MachineLook> look(const controller::RegisterMap* watched) {
     if (!m_machine) {
       ZD_TRY(m_machine, controller::ModbusMachine::open(m_profile));
       m_machine->link().set_attempts(2);
@@ -45,6 +45,7 @@ class Eye {
     if (!m_first) m_first = {after, seen.sample.machine_time_s};
     const double host_s = seconds_between(m_first->host, after) * m_profile.time_factor;
     seen.clock_difference_s = (seen.sample.machine_time_s - m_first->machine_s) - host_s;
+    if (watched != nullptr) seen.registers = controller::read_all(m_machine->link(), *watched);
     return seen;
   }
 
@@ -84,6 +85,16 @@ void MachineMonitor::stop() {
   m_thread = {};
 }
 
+void MachineMonitor::watch(std::shared_ptr<const controller::RegisterMap> map) {
+  const std::lock_guard lock(m_lock);
+  m_watched = std::move(map);
+}
+
+std::shared_ptr<const controller::RegisterMap> MachineMonitor::watched() const {
+  const std::lock_guard lock(m_lock);
+  return m_watched;
+}
+
 void MachineMonitor::work(const std::stop_token& stop, const controller::Profile& profile) {
   Eye eye(profile);
   do {
@@ -91,7 +102,8 @@ void MachineMonitor::work(const std::stop_token& stop, const controller::Profile
       eye.forget();
       continue;
     }
-    const auto seen = eye.look();
+    const auto map = watched();
+    const auto seen = eye.look(map.get());
     if (!seen) eye.forget();
     QMetaObject::invokeMethod(
         this,

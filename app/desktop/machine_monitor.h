@@ -5,10 +5,12 @@
 #include <QObject>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "core/acquisition/machine_io.h"
 #include "core/controller/profile.h"
+#include "core/controller/register_view.h"
 
 namespace zerodrift::desktop {
 
@@ -16,7 +18,8 @@ struct MachineLook {
   acquisition::MachineIdentity identity;
   acquisition::MachineSample sample;
   double round_trip_ms = 0.0;
-  double clock_difference_s = 0.0;  // machine clock gained on the host's since the first look
+  double clock_difference_s = 0.0;                   // machine clock gained on the host's since the first look
+  std::vector<controller::RegisterValue> registers;  // of the map that is watched
 };
 
 class MachineMonitor : public QObject {
@@ -29,6 +32,8 @@ class MachineMonitor : public QObject {
   void start(const controller::Profile& profile);
   void stop();
   void pause(bool paused) { m_paused = paused; }
+  /// Reads every register of this map with each look; null: none.
+  void watch(std::shared_ptr<const controller::RegisterMap> map);
   bool running() const { return m_thread.joinable(); }
 
  Q_SIGNALS:
@@ -38,7 +43,11 @@ class MachineMonitor : public QObject {
  private:
   void work(const std::stop_token& stop, const controller::Profile& profile);
 
+  std::shared_ptr<const controller::RegisterMap> watched() const;
+
   std::atomic<bool> m_paused = false;
+  mutable std::mutex m_lock;
+  std::shared_ptr<const controller::RegisterMap> m_watched;
   std::jthread m_thread;
 };
 

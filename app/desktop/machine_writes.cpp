@@ -9,6 +9,7 @@
 #include "core/controller/table_words.h"
 #include "core/flow/steps/audited.h"
 #include "core/flow/steps/inputs.h"
+#include "core/flow/steps/upload_step.h"
 
 namespace zerodrift::desktop {
 
@@ -31,7 +32,7 @@ json body_of(const UploadRecord& record, const compensation::Table& table) {
           {"crc32", fmt::format("{:08x}", record.crc)},
           {"registers", record.new_words.size()},
           {"largest_change_um", largest_um},
-          {"difference", json::array()},
+          {"difference", flow::table_difference(record.old_table, table)},
           {"states", states},
           {"sign_check", nullptr},
           {"record", controller::to_json(record)},
@@ -53,7 +54,8 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   entry.machine = flow::machine_text(identity.name, identity.serial);
   entry.action = "roll back table";
   entry.subject = "compensation table";
-  entry.old_value = "the active table";
+  ZD_TRY(const auto active, controller::read_active(*devices.machine));
+  entry.old_value = fmt::format("version {}, {} registers", active.sequence, active.words.size());
   entry.new_value = compensation::to_json(table).dump();
   controller::UploadOptions options;
   options.observer = observer;
@@ -88,7 +90,10 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
     record = controller::check_signs(*devices.machine, *source, {}, context);
     return record.result;
   };
-  ZD_CHECK(flow::audited(job, entry, check));
+  const Status done = flow::audited(job, entry, check);
+  // What was seen is worth showing just when it is wrong; without it there is only the error.
+  if (!done && record.axes.empty()) return fail(done.error());
+  if (!done) record.result = done;
   return record;
 }
 

@@ -16,7 +16,8 @@ Result<commissioning::NewArtefact> roll_back(commissioning::Job& job, const cont
                                              const std::function<void(const controller::UploadStep&)>& observer,
                                              const TaskContext& context);
 
-/// Small test offsets, watched by the camera or the probes.
+/// Small test offsets, watched by the camera or the probes. A check that failed is a record too, with the failure in
+/// it.
 Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const controller::Profile& profile,
                                               const TaskContext& context);
 

@@ -130,7 +130,7 @@ QString stage_text(UploadState state) {
     case UploadState::reading_back:
       return words_for("Read back and compared");
     case UploadState::announcing:
-      return words_for("Count, scale and check sum announced");
+      return words_for("Count and check sum announced");
     case UploadState::committing:
       return words_for("Committed");
     case UploadState::waiting:
@@ -222,25 +222,23 @@ ui::SignCheckResult sign_of(const controller::SignCheckRecord& record) {
 ui::SignCheckResult sign_of(const json& sign_check) {
   ui::SignCheckResult result;
   if (!sign_check.is_object()) return result;
-  const auto seen = [](const json& row, std::size_t axis) {
-    const json& values = row.at("seen_um");
+  const auto number = [](const json& row, const char* key, std::size_t axis) {
+    const json values = row.value(key, json::array());
     return values.size() > axis && values[axis].is_number() ? values[axis].get<double>() : 0.0;
   };
-  // Two of the axes make the picture: the commanded moves and what was seen of them, each along its own axis.
   for (const auto& row : sign_check.value("axes", json::array())) {
-    if (!row.value("watched", false)) continue;
-    result.measured = true;
-    const std::string axis = row.value("axis", "");
-    if (axis == "Z") {
-      result.commandedUp_um = row.value("commanded_um", 0.0);
-      result.seenUp_um = seen(row, 2);
-    } else if (axis == "X") {
-      result.commandedRight_um = row.value("commanded_um", 0.0);
-      result.seenRight_um = seen(row, 0);
-    }
+    ui::SignCheckAxis axis;
+    axis.axis = QString::fromStdString(row.value("axis", ""));
+    const std::size_t own = axis.axis == QStringLiteral("X") ? 0 : axis.axis == QStringLiteral("Y") ? 1 : 2;
+    axis.commanded_um = row.value("commanded_um", 0.0);
+    axis.watched = row.value("watched", false);
+    axis.seen_um = number(row, "seen_um", own);
+    axis.sigma_um = number(row, "sigma_um", own);
+    result.measured = result.measured || axis.watched;
+    result.axes.append(axis);
   }
   const bool passed = sign_check.value("passed", false);
-  result.word = passed ? words_for("same direction") : words_for("opposite: sign error");
+  result.word = passed ? words_for("same direction and size") : words_for("not as commanded");
   result.judgement = passed ? ui::Judgement::ok : ui::Judgement::bad;
   return result;
 }
@@ -252,22 +250,29 @@ QVector<ui::TableVersion> history_of(const std::vector<controller::FormerTable>&
     if (!table || table->axes.empty()) return words_for("no compensation");
     QStringList axes;
     for (const auto& [name, axis] : table->axes) axes << QString::fromStdString(name);
-    return words_for("axes %1, %2 registers").arg(axes.join(QStringLiteral(", "))).arg(words.size());
+    return words_for("%1, %2 registers").arg(axes.join(QLatin1Char(' '))).arg(words.size());
   };
   QVector<ui::TableVersion> rows;
+  // The history says when and by whom a table was replaced: that is when, and by whom, the next one was written.
+  const auto written = [](const controller::FormerTable* before, ui::TableVersion& row) {
+    if (before == nullptr) return;
+    const auto time = QDateTime::fromString(QString::fromStdString(before->time), Qt::ISODate);
+    row.when = QLocale().toString(time.toLocalTime(), QStringLiteral("d MMM HH:mm"));
+    row.who = QString::fromStdString(before->who);
+  };
   ui::TableVersion now;
   now.version = active.sequence;
   now.what = words_of(active.words);
   now.active = true;
+  const bool from_here = !tables.empty() && tables.back().replaced_by_crc == controller::crc_of_words(active.words);
+  if (from_here) written(&tables.back(), now);
   rows.append(now);
-  for (auto table = tables.rbegin(); table != tables.rend(); ++table) {
+  for (std::size_t i = tables.size(); i-- > 0;) {
     ui::TableVersion row;
-    row.version = table->sequence;
-    const auto time = QDateTime::fromString(QString::fromStdString(table->time), Qt::ISODate);
-    row.when = QLocale().toString(time.toLocalTime(), QStringLiteral("d MMM HH:mm"));
-    row.what = words_of(table->words);
-    row.who = QString::fromStdString(table->who);
-    row.restorable = table == tables.rbegin();  // one goes back step by step
+    row.version = tables[i].sequence;
+    row.what = words_of(tables[i].words);
+    written(i > 0 ? &tables[i - 1] : nullptr, row);
+    row.restorable = i + 1 == tables.size() && from_here;  // one goes back step by step
     rows.append(row);
   }
   return rows;

@@ -18,7 +18,7 @@ QVector<ui::AxisTable> axes_of(const compensation::Table& old_table, const compe
 double steepest_um_per_K(const compensation::Table& table);
 /// All stages of the transaction, filled up to the newest step; `failed` when it ended there.
 QVector<ui::Stage> stages_of(const std::vector<controller::UploadStep>& steps, bool running, bool failed);
-/// The axis that moved most of those commanded, as two arrows.
+/// What was commanded and what was seen, axis by axis.
 ui::SignCheckResult sign_of(const controller::SignCheckRecord& record);
 /// The same from the artefact's JSON.
 ui::SignCheckResult sign_of(const nlohmann::json& sign_check);

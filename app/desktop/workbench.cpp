@@ -100,6 +100,20 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
   return {};
 }
 
+Status Workbench::setRegisterMap(const std::filesystem::path& path) {
+  if (!m_profile) return fail(ErrorCode::step_blocked, {{"step", "machine"}, {"needs", "a connection profile"}});
+  auto document = m_profileDocument;
+  document["controller"]["register_map"] = path.string();
+  ZD_TRY(auto profile, controller::profile_from_json(document, m_profile->file));
+  m_profile = std::move(profile);
+  m_profileDocument = std::move(document);
+  const bool connect_again = connected();
+  m_look.reset();
+  Q_EMIT profileChanged();
+  if (connect_again) connectMachine();
+  return {};
+}
+
 void Workbench::connectMachine() {
   if (m_profile) m_monitor.start(*m_profile);
 }

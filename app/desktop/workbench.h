@@ -49,6 +49,10 @@ class Workbench : public QObject {
   Status loadProfile(const std::filesystem::path& path);
   const std::optional<controller::Profile>& profile() const { return m_profile; }
   const nlohmann::json& profileDocument() const { return m_profileDocument; }
+  /// Another register map for this profile, from now on and in what the job keeps; a connection is made anew.
+  Status setRegisterMap(const std::filesystem::path& path);
+  /// Every register of this map is read with each look at the machine; null: none.
+  void watchRegisters(std::shared_ptr<const controller::RegisterMap> map) { m_monitor.watch(std::move(map)); }
   void connectMachine();
   void disconnectMachine();
   bool connected() const { return m_look != nullptr; }

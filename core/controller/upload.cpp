@@ -99,7 +99,7 @@ class Transfer {
     ZD_CHECK(m_machine.write_words("table_staging", 0, m_words));
     m_enter(UploadState::reading_back, "");
     ZD_CHECK(compare("table_staging"));
-    m_enter(UploadState::announcing, fmt::format("sequence {}", m_sequence));
+    m_enter(UploadState::announcing, fmt::format("version {}", m_sequence));
     ZD_CHECK(announce());
     if (context.cancelled()) return fail(ErrorCode::cancelled);
     m_enter(UploadState::committing, "");

@@ -7,8 +7,14 @@
 #include <QTest>
 
 #include "app/desktop/application.h"
+#include "app/desktop/map_editor.h"
 #include "app/desktop/physics_search.h"
 #include "app/desktop/physics_view.h"
+#include "app/desktop/steps/axis_errors_presenter.h"
+#include "app/desktop/upload_view.h"
+#include "core/controller/table_words.h"
+#include "ui/pages/axis_page.h"
+#include "ui/pages/machine_page.h"
 #include "ui/widgets/empty_state.h"
 
 using zerodrift::desktop::Application;
@@ -78,6 +84,94 @@ class DesktopTest : public QObject {
     forged.seal[0] = forged.seal[0] == '0' ? '1' : '0';
     QVERIFY(!open_trial(forged)->kept);
     QVERIFY(!make_trial(QStringLiteral("/no/such/program"), 5, {}).has_value());
+  }
+
+  /// A list of registers becomes the draft, is edited, saved, and then is what the profile uses.
+  void registerMap() {
+    using namespace zerodrift;
+    Application application(*m_theme);
+    const auto file = [&](const char* name, const QByteArray& content) {
+      QFile out(m_folder.filePath(QString::fromLatin1(name)));
+      if (out.open(QIODevice::WriteOnly)) out.write(content);
+      return out.fileName();
+    };
+    const QString profile = file("profile.json", R"({"format": "zerodrift-profile/1", "name": "M", "controller":
+      {"kind": "modbus-tcp", "host": "127.0.0.1", "port": 1}})");
+    QVERIFY(application.bench().loadProfile(profile.toStdString()).has_value());
+    auto* page = qobject_cast<ui::MachinePage*>(application.presenters().front()->page());
+    QVERIFY(page->state().registers.size() > 40);  // the shipped map
+    QVERIFY(!page->state().mapChanged);
+    auto* editor = page->findChild<desktop::MapEditor*>();
+    QVERIFY(editor != nullptr);
+    const QString list = file("plc.csv", "name,address,type,scale\ntemperature_C[1],40011,INT,0.1\nM7,3,WORD,\n");
+    QVERIFY(editor->import(list).has_value());
+    QCOMPARE(page->state().registers.size(), 2);
+    QVERIFY(page->state().mapChanged);
+    QVERIFY(page->state().mapNotes.contains(QStringLiteral("table")));
+    Q_EMIT page->registerEdited(0, ui::RegisterTable::name, QStringLiteral("ambient_C"));  // M7, at address 3
+    Q_EMIT page->registerEdited(1, ui::RegisterTable::scale, QStringLiteral("-0.25"));
+    Q_EMIT page->registerEdited(1, ui::RegisterTable::order, QStringLiteral("CDAB"));
+    Q_EMIT page->registerEdited(1, ui::RegisterTable::address, QStringLiteral("far"));  // refused, and says so
+    QVERIFY(!page->problem().sentence.isEmpty());
+    QCoreApplication::processEvents();
+    const QString saved = m_folder.filePath(QStringLiteral("own.json"));
+    QVERIFY(editor->save(saved).has_value());
+    QVERIFY(!page->state().mapChanged);
+    QCOMPARE(application.bench().profile()->controller.register_map, saved.toStdString());
+    const auto map = controller::load_register_map(saved.toStdString());
+    QVERIFY(map.has_value());
+    QCOMPARE(map->registers.at("temperature_C").address, 10);
+    QCOMPARE(map->registers.at("temperature_C").sign, -1);
+    QCOMPARE(map->registers.at("temperature_C").scale, 0.25);
+    QVERIFY(!map->registers.at("temperature_C").high_word_first);
+    QCOMPARE(map->registers.at("ambient_C").address, 3);
+  }
+
+  /// Two axes in one file, another maker's names: read, shown, and the second axis on request.
+  void laserTable() {
+    using namespace zerodrift;
+    Application application(*m_theme);
+    auto* presenter = qobject_cast<desktop::AxisErrorsPresenter*>(application.presenters().back());
+    presenter->setAsking(false);
+    const auto write = [&](const char* name, const QByteArray& content) {
+      QFile out(m_folder.filePath(QString::fromLatin1(name)));
+      if (out.open(QIODevice::WriteOnly)) out.write(content);
+      return out.fileName();
+    };
+    QVERIFY(
+        presenter->load(write("two.csv", "axis,position_mm,error_um\nX,0,1\nX,10,2\nX,20,2\nY,0,3\nY,10,9\nY,20,4\n")));
+    auto* page = qobject_cast<ui::AxisPage*>(presenter->page());
+    QCOMPARE(page->state().axes, (QStringList{QStringLiteral("X"), QStringLiteral("Y")}));
+    QCOMPARE(page->state().mean_um, (QVector<double>{1, 2, 2}));
+    Q_EMIT page->axisChosen(1);
+    QCOMPARE(page->state().axis, QStringLiteral("Y"));
+    QCOMPARE(page->state().mean_um, (QVector<double>{3, 9, 4}));
+    QVERIFY(!page->state().optimal.isEmpty());
+    QVERIFY(presenter->load(
+        write("other.txt", "Pos (mm)\tForward error (mm)\tReverse error (mm)\n0\t0.001\t0.003\n10\t0.002\t0.004\n")));
+    QCOMPARE(page->state().mean_um, (QVector<double>{2, 3}));
+    QCOMPARE(page->state().runs.size(), 2);
+    QVERIFY(!presenter->load(write("bare.txt", "a\tb\n0\t1\n1\t2\n")));  // it cannot be told, and nobody is asked here
+    QVERIFY(!page->problem().sentence.isEmpty());
+  }
+
+  /// When and by whom each version was written, and one that can be gone back to.
+  void tableHistory() {
+    using namespace zerodrift;
+    controller::Profile profile;
+    const std::vector<std::uint16_t> empty = {1, 0};
+    const std::vector<std::uint16_t> now = {1, 0, 0};
+    const std::vector<controller::FormerTable> former = {
+        {"2026-11-20T08:00:00Z", "anna", 0, empty, 1},
+        {"2026-11-21T09:00:00Z", "ben", 1, empty, controller::crc_of_words(now)}};
+    const auto rows = desktop::history_of(former, {now, 2, 0}, profile);
+    QCOMPARE(rows.size(), 3);
+    QVERIFY(rows[0].active && rows[0].who == QStringLiteral("ben"));
+    QVERIFY(rows[1].restorable && rows[1].version == 1 && rows[1].who == QStringLiteral("anna"));
+    QVERIFY(!rows[2].restorable && rows[2].when.isEmpty());
+    const auto foreign = desktop::history_of(former, {empty, 7, 0}, profile);
+    QVERIFY(!foreign[1].restorable);
+    QVERIFY(foreign[0].who.isEmpty());
   }
 
   void damagedJob_data() {

@@ -21,7 +21,7 @@ def test(folder):
         made = os.path.join(folder, "plc.json")
         _, out, err = cli("machine", "map", "--list", listed, "--out", made, "--json")
         result = json.loads(out)
-        assert result["registers"] == 5, result
+        assert result["registers"] == 6, result
         assert result["missing"]["temperatures"] == [] and "table_commit" in result["missing"]["table"]
         assert "M7" in err, err
         with open(machine.profile) as file:

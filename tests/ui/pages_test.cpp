@@ -20,6 +20,7 @@
 #include "ui/shell/main_window.h"
 #include "ui/shell/theme.h"
 #include "ui/widgets/channel_table.h"
+#include "ui/widgets/column_dialog.h"
 #include "ui/widgets/empty_state.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/machine_drawing.h"
@@ -33,6 +34,9 @@ class PagesTest : public QObject {
   void figuresAreJudgedWithWords();
   void emptyPagesSayHowToGetThere();
   void machineStartsJobsAndSelectsSensors();
+  void registersAreEdited();
+  void warmthIsJudgedByItsChange();
+  void columnsAreTold();
   void compensationOnLocksStart();
   void calibrationNeedsConfirmation();
   void planIsEditedByFieldsAndTimeline();
@@ -101,6 +105,70 @@ void PagesTest::machineStartsJobsAndSelectsSensors() {
   Q_EMIT drawing->selected("T7_C");
   QCOMPARE(page.findChild<ChannelTable*>()->selectedId(), QString("T7_C"));
   QVERIFY(selected.count() >= 1);
+}
+
+void PagesTest::registersAreEdited() {
+  MachinePage page;
+  shown(&page);
+  samples::fillMachine(&page, "registers");
+  QSignalSpy edited(&page, &MachinePage::registerEdited);
+  QSignalSpy seen(&page, &MachinePage::registersShown);
+  auto* table = page.findChild<QTableWidget*>("registers");
+  QCOMPARE(table->rowCount(), 6);
+  QCOMPARE(table->item(4, RegisterTable::value)->text().left(6), QString("20.250"));
+  table->item(4, RegisterTable::scale)->setText("-0.1");
+  QCOMPARE(edited.count(), 1);
+  QCOMPARE(edited[0][0].toInt(), 4);
+  QCOMPARE(edited[0][2].toString(), QString("-0.1"));
+  page.showView(0);
+  QCOMPARE(seen.last()[0].toBool(), false);
+  // New values leave the rows as they are and tell nobody.
+  MachineState state = page.state();
+  state.registers[4].value = "21.000";
+  page.setState(state);
+  QCOMPARE(edited.count(), 1);
+  QCOMPARE(table->item(4, RegisterTable::value)->text(), QString("21.000"));
+}
+
+void PagesTest::warmthIsJudgedByItsChange() {
+  MachinePage page;
+  samples::fillMachine(&page, "filled");
+  MachineState state = page.state();
+  const auto word = [&] {
+    page.setState(state);
+    return page.findChildren<FigureCard*>()[1]->figure();
+  };
+  state.rest.spread_K = 3.1;
+  state.rest.warmest = "T14";
+  state.rest.apart_K = 2.9;
+  QCOMPARE(word().judgement, Judgement::warn);  // not watched for long enough
+  QVERIFY(page.primaryAction().enabled);
+  state.rest.change_K_h = 6.0;
+  state.rest.quickest = "T14";
+  QCOMPARE(word().judgement, Judgement::warn);
+  QVERIFY(word().limit.contains("6.0"));
+  QVERIFY(page.sentence().contains("T14"));
+  state.rest.change_K_h = 0.2;  // it stands there for ever: that is no reason to wait
+  QCOMPARE(word().judgement, Judgement::ok);
+  QVERIFY(word().limit.contains("T14"));
+  QVERIFY(page.sentence().contains("2.9"));
+}
+
+void PagesTest::columnsAreTold() {
+  ColumnChoice choice;
+  choice.roles = {0, 1, 2};
+  ColumnDialog dialog({"No.", "Pos", ""}, {{"1", "0", "0.5"}, {"2", "10", "0.7"}}, choice);
+  QSignalSpy changed(&dialog, &ColumnDialog::changed);
+  QCOMPARE(dialog.choice(), choice);
+  dialog.findChild<QComboBox*>("role2")->setCurrentIndex(3);
+  dialog.findChild<QComboBox*>("errorUnit")->setCurrentIndex(1);
+  dialog.findChild<QCheckBox*>("negated")->setChecked(true);
+  QCOMPARE(changed.count(), 3);
+  QCOMPARE(dialog.choice().roles, (QVector<int>{0, 1, 3}));
+  QCOMPARE(dialog.choice().errorUnit, 1);
+  QVERIFY(dialog.choice().negated);
+  dialog.setVerdict("no position", false);
+  QVERIFY(dialog.findChild<QLabel*>("verdict")->text().contains("position"));
 }
 
 void PagesTest::compensationOnLocksStart() {

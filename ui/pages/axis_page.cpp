@@ -11,6 +11,23 @@
 #include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
+namespace {
+
+constexpr int side_width = 372;
+constexpr int fewest_row = 1;
+
+double largest_residual(const QVector<AxisSegment>& segments) {
+  double largest = std::nan("");
+  for (const AxisSegment& one : segments) largest = std::fmax(largest, one.largestResidual_um);
+  return largest;
+}
+
+/// Segments that were fitted; joints between them do not count.
+qsizetype fitted(const QVector<AxisSegment>& segments) {
+  return std::count_if(segments.begin(), segments.end(), [](const AxisSegment& one) { return one.points > 0; });
+}
+
+}  // namespace
 
 AxisPage::AxisPage(QWidget* parent) : Page("axis_errors", parent) {
   auto* row = new QHBoxLayout;
@@ -19,7 +36,7 @@ AxisPage::AxisPage(QWidget* parent) : Page("axis_errors", parent) {
   auto* right = new QVBoxLayout;
   right->setSpacing(16);
   m_figureCard = new Card(this);
-  m_figureCard->setFixedWidth(372);
+  m_figureCard->setFixedWidth(side_width);
   m_figureCard->setBodyMargins(1, 0, 1, 6);
   m_standard = new ToggleSegment(m_figureCard);
   m_figureCard->tools()->addWidget(m_standard);
@@ -62,15 +79,15 @@ Card* AxisPage::makePlotCard() {
 
 Card* AxisPage::makeRuleCard() {
   m_ruleCard = new Card(this);
-  m_ruleCard->setFixedWidth(372);
-  m_rule = new ToggleSegment(m_ruleCard);
-  m_ruleCard->tools()->addWidget(m_rule);
+  m_ruleCard->setFixedWidth(side_width);
+  m_rivals = new DataTable(m_ruleCard);
+  m_rivals->setFitted(true);
   m_criterion = new QComboBox(m_ruleCard);
   m_criterion->setObjectName("criterion");
   m_limit = new QDoubleSpinBox(m_ruleCard);
   m_limit->setObjectName("criterionLimit");
   m_start = new QSpinBox(m_ruleCard);
-  m_start->setRange(2, 100);
+  m_start->setRange(2, 20000);
   m_format = new QComboBox(m_ruleCard);
   m_format->setObjectName("format");
   auto* grid = new QGridLayout;
@@ -88,6 +105,7 @@ Card* AxisPage::makeRuleCard() {
   grid->setColumnStretch(1, 1);
   m_check = new WrapLabel(m_ruleCard);
   m_check->setProperty("role", "caption");
+  m_ruleCard->body()->addWidget(m_rivals);
   m_ruleCard->body()->addLayout(grid);
   m_ruleCard->body()->addWidget(m_check);
   const auto changed = [this] {
@@ -106,8 +124,9 @@ Card* AxisPage::makeRuleCard() {
   connect(m_limit, &QDoubleSpinBox::editingFinished, this, changed);
   connect(m_start, &QSpinBox::editingFinished, this, changed);
   connect(m_format, &QComboBox::activated, this, &AxisPage::formatChosen);
-  connect(m_rule, &ToggleSegment::currentChanged, this, [this](int index) {
-    m_state.useOptimal = index == 1;
+  connect(m_rivals, &DataTable::rowSelected, this, [this](int row) {
+    if (row < 0 || m_filling || m_state.useOptimal == (row == fewest_row)) return;
+    m_state.useOptimal = row == fewest_row;
     refresh();
     Q_EMIT ruleChosen(m_state.useOptimal);
   });
@@ -145,7 +164,11 @@ PageAction AxisPage::primary() const {
 
 QVector<PageAction> AxisPage::secondary() const {
   if (m_state.axis.isEmpty()) return {};
-  return {{"open", tr("Open laser file")}, {"export", tr("Export")}};
+  QVector<PageAction> actions = {{"open", tr("Open laser file")}};
+  if (m_state.columnsAsked) actions.append({"columns", tr("Columns")});
+  if (!m_state.formatConfirm.isEmpty()) actions.append({"onePoint", tr("Export one point")});
+  actions.append({"export", tr("Export")});
+  return actions;
 }
 
 QVector<Figure> AxisPage::figures() const {
@@ -155,12 +178,9 @@ QVector<Figure> AxisPage::figures() const {
     then.judgement = m_state.after_um < m_state.before_um ? Judgement::ok : Judgement::bad;
     then.word = then.judgement == Judgement::ok ? tr("better") : tr("worse");
   }
-  double largest = NAN;
-  for (const AxisSegment& s : segments()) largest = std::fmax(largest, s.largestResidual_um);
-  Figure count =
-      figureOf(tr("Segments"), static_cast<double>(segments().size()), 0, {},
-               tr("other rule: %1").arg(m_state.useOptimal ? m_state.published.size() : m_state.optimal.size()));
-  Figure residual = figureAtMost(tr("Largest residual"), largest, 2, "µm", m_state.tolerance_um);
+  Figure count = figureOf(tr("Segments"), static_cast<double>(fitted(segments())), 0, {},
+                          m_state.useOptimal ? tr("fewest") : tr("as published"));
+  Figure residual = figureAtMost(tr("Largest residual"), largest_residual(segments()), 2, "µm", m_state.tolerance_um);
   Figure thereAndBack = figureAtMost(tr("There and back"), m_state.roundTrip_nm, 2, "nm", 1.0);
   thereAndBack.tip = tr("Forward of inverse against the position itself, largest over the travel.");
   return {now, then, count, residual, thereAndBack};
@@ -196,11 +216,7 @@ void AxisPage::render() {
 
 void AxisPage::renderRule() {
   m_ruleCard->setTitle(tr("Cut into segments"));
-  {
-    const QSignalBlocker quiet(m_rule);
-    m_rule->setItems({tr("As published"), tr("Fewest")});
-    m_rule->setCurrentIndex(m_state.useOptimal ? 1 : 0);
-  }
+  renderRivals();
   const QStringList names = {tr("Criterion"),
                              m_state.criterion == SegmentCriterion::tolerance ? tr("Tolerance") : tr("Threshold"),
                              tr("First points"), tr("Format")};
@@ -224,20 +240,46 @@ void AxisPage::renderRule() {
     check.append(tr("On coordinates r is about 1 whatever the error: it hardly cuts."));
   }
   check.append(m_state.formatLoss.isEmpty() ? tr("The format loses nothing.")
-                                            : tr("Lost in this format: %1").arg(m_state.formatLoss));
+                                            : tr("Lost in this format: %1.").arg(m_state.formatLoss));
+  if (!std::isnan(m_state.formatLoss_um)) {
+    check.append(tr("Largest difference %1 µm.").arg(m_state.formatLoss_um, 0, 'f', 3));
+  }
+  if (!m_state.formatConfirm.isEmpty()) check.append(tr("Confirm on one point first: %1.").arg(m_state.formatConfirm));
   m_check->setText(check.join(' '));
+}
+
+void AxisPage::renderRivals() {
+  m_rivals->setColumns({{tr("Rule"), 0, false, {}},
+                        {tr("Segments"), 78, true, {}},
+                        {tr("Largest residual"), 118, true, tr("Of a measured point, µm")}});
+  QVector<QVector<DataCell>> rows;
+  for (const bool optimal : {false, true}) {
+    const QVector<AxisSegment>& segments = optimal ? m_state.optimal : m_state.published;
+    const bool used = optimal == m_state.useOptimal;
+    DataCell name{optimal ? tr("Fewest within %1 µm").arg(m_state.tolerance_um) : tr("As published")};
+    name.judged = used;
+    name.judgement = used ? Judgement::ok : Judgement::none;
+    name.strong = used;
+    DataCell count{QString::number(fitted(segments))};
+    const double residual = largest_residual(segments);
+    DataCell largest{std::isnan(residual) ? QStringLiteral("–") : QString::number(residual, 'f', 2) + " µm"};
+    rows.append({name, count, largest});
+  }
+  m_rivals->setRows(rows);
+  m_rivals->selectRow(m_state.useOptimal ? fewest_row : 0);
 }
 
 void AxisPage::renderLegend() {
   const bool cut = m_views->currentIndex() == 1;
   if (cut) {
-    m_legend->setItems({{tr("mean, upwards"), colors().muted, false, false, true},
+    m_legend->setItems({{tr("mean of both"), colors().muted, false, false, true},
                         {tr("segments used"), colors().accent},
                         {tr("the other rule"), mix(colors().panel, colors().warn, 0.7), true}});
   } else {
     m_legend->setItems({{tr("mean upwards"), axisColor(2)},
                         {tr("mean downwards"), axisColor(0)},
-                        {tr("± 2 s"), colors().muted, false, true},
+                        {tr("mean ± 2 s"), colors().muted, true, true},
+                        {tr("reversal B"), mix(colors().panel, colors().text, 0.5)},
                         {tr("single runs"), colors().muted, false, false, true}});
   }
 }
@@ -254,7 +296,16 @@ void AxisPage::renderMeasurement() {
       low.append(mean[i] - 2.0 * sigma[i]);
       high.append(mean[i] + 2.0 * sigma[i]);
     }
-    if (!low.isEmpty()) m_measurement->setBand(id, m_state.position_mm, low, high, color);
+    if (low.isEmpty()) return;
+    m_measurement->setBand(id, m_state.position_mm, low, high, color);
+    PartStyle edge;
+    edge.unit = "µm";
+    edge.tag = tr("Mean ± 2 s");
+    edge.color = color;
+    edge.width = 1.0;
+    edge.dashed = true;
+    m_measurement->setPart(id + "low", m_state.position_mm, low, edge);
+    m_measurement->setPart(id + "high", m_state.position_mm, high, edge);
   };
   const QColor up = axisColor(2);
   const QColor down = axisColor(0);
@@ -281,6 +332,36 @@ void AxisPage::renderMeasurement() {
   style.tag = tr("Mean downwards");
   style.color = down;
   if (!m_state.meanDown_um.isEmpty()) m_measurement->setPart("2down", m_state.position_mm, m_state.meanDown_um, style);
+  renderLimits();
+}
+
+/// The reversal at each target as a bar between the means, and what A spans.
+void AxisPage::renderLimits() {
+  QVector<double> x;
+  QVector<double> y;
+  double low = INFINITY;
+  double high = -INFINITY;
+  const auto reach = [&](const QVector<double>& mean, const QVector<double>& sigma, qsizetype i) {
+    low = std::min(low, mean[i] - 2.0 * sigma.value(i));
+    high = std::max(high, mean[i] + 2.0 * sigma.value(i));
+  };
+  const bool both = m_state.meanDown_um.size() == m_state.position_mm.size();
+  for (qsizetype i = 0; i < std::min(m_state.position_mm.size(), m_state.meanUp_um.size()); ++i) {
+    reach(m_state.meanUp_um, m_state.sigmaUp_um, i);
+    if (!both) continue;
+    reach(m_state.meanDown_um, m_state.sigmaDown_um, i);
+    x.append({m_state.position_mm[i], m_state.position_mm[i], std::nan("")});
+    y.append({m_state.meanUp_um[i], m_state.meanDown_um[i], std::nan("")});
+  }
+  PartStyle style;
+  style.unit = "µm";
+  style.tag = tr("Reversal");
+  style.color = mix(colors().panel, colors().text, 0.5);
+  style.width = 1.0;
+  if (!x.isEmpty()) m_measurement->setPart("1reversal", x, y, style);
+  if (low > high || m_state.position_mm.size() > 200) return m_measurement->setLimits({});
+  const QString a = tr("A = %1 µm").arg(high - low, 0, 'f', 1);
+  m_measurement->setLimits({{high, a, Judgement::none}, {low, {}, Judgement::none}});
 }
 
 void AxisPage::renderSegments() {
@@ -289,26 +370,30 @@ void AxisPage::renderSegments() {
   m_segmentPlot->setAxisLabels(tr("position / mm"), tr("error / µm"));
   PartStyle style;
   style.unit = "µm";
-  style.tag = tr("Mean upwards");
+  style.tag = tr("Mean of both directions");
   style.color = c.muted;
   style.line = false;
   style.points = true;
   style.pointSize = 5;
-  m_segmentPlot->setPart("0points", m_state.position_mm, m_state.meanUp_um, style);
+  m_segmentPlot->setPart("0points", m_state.position_mm, m_state.mean_um, style);
   const auto draw = [&](const QString& id, const QVector<AxisSegment>& list, const QColor& color, double width,
                         bool dashed) {
     PartStyle line;
     line.unit = "µm";
+    line.tag = tr("Segments");
     line.color = color;
     line.width = width;
     line.dashed = dashed;
-    for (int i = 0; i < list.size(); ++i) {
-      line.tag = tr("Segment %1").arg(i + 1);
+    QVector<double> x;
+    QVector<double> y;
+    for (const AxisSegment& one : list) {
       // The error along a segment: measured - commanded.
-      const auto error_um = [&](double x) { return ((list[i].a - 1.0) * x + list[i].b_mm) * 1000.0; };
-      m_segmentPlot->setPart(id + QStringLiteral("%1").arg(i, 3, 10, QChar('0')), {list[i].from_mm, list[i].to_mm},
-                             {error_um(list[i].from_mm), error_um(list[i].to_mm)}, line);
+      for (const double at : {one.from_mm, one.to_mm}) {
+        x.append(at);
+        y.append(((one.a - 1.0) * at + one.b_mm) * 1000.0);
+      }
     }
+    m_segmentPlot->setPart(id, x, y, line);
   };
   draw("1other", m_state.useOptimal ? m_state.published : m_state.optimal, mix(c.panel, c.warn, 0.7), 1.2, true);
   draw("2chosen", segments(), c.accent, 2.2, false);
@@ -338,7 +423,7 @@ void AxisPage::renderTables() {
   rows.clear();
   for (const AxisSegment& s : segments()) {
     rows.append({DataCell{QString::number(s.from_mm, 'f', 1)}, DataCell{QString::number(s.to_mm, 'f', 1)},
-                 DataCell{QString::number(s.points)},
+                 DataCell{s.points == 0 ? tr("joint") : QString::number(s.points)},
                  DataCell{std::isnan(s.r) ? QStringLiteral("–") : QString::number(s.r, 'f', 4)},
                  DataCell{QString::number(s.largestResidual_um, 'f', 2) + " µm"}});
   }

@@ -57,6 +57,7 @@ struct AxisState {
   QVector<LaserRun> runs{};
   QVector<double> position_mm{};
   QVector<double> meanUp_um{}, meanDown_um{};
+  QVector<double> mean_um{};  // of both directions: what is cut into segments
   QVector<double> sigmaUp_um{}, sigmaDown_um{};
   QVector<StandardFigure> iso{};
   QVector<StandardFigure> vdi{};
@@ -69,11 +70,14 @@ struct AxisState {
   bool useOptimal = true;
   double roundTrip_nm = std::numeric_limits<double>::quiet_NaN();  // forward(inverse(p)) - p, largest
   bool monotonic = true;
+  bool columnsAsked = false;                                    // the file's columns can be told anew
   double before_um = std::numeric_limits<double>::quiet_NaN();  // bidirectional accuracy now
   double after_um = std::numeric_limits<double>::quiet_NaN();   // expected with the table
   QStringList formats{};
   int format = 0;
-  QString formatLoss{};
+  QString formatLoss{};  // what the format cannot hold
+  double formatLoss_um = std::numeric_limits<double>::quiet_NaN();
+  QString formatConfirm{};  // what is to be confirmed on one point first
 };
 
 class AxisPage : public Page {
@@ -90,7 +94,7 @@ class AxisPage : public Page {
   QString sentence() const override;
   /// Upload.
   PageAction primary() const override;
-  /// "open", "export".
+  /// "open", "columns", "onePoint", "export".
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
@@ -106,6 +110,8 @@ class AxisPage : public Page {
   Card* makePlotCard();
   Card* makeRuleCard();
   void renderRule();
+  void renderRivals();
+  void renderLimits();
   void renderLegend();
   void renderMeasurement();
   void renderSegments();
@@ -127,7 +133,7 @@ class AxisPage : public Page {
   DataTable* m_standardTable;
   DataTable* m_segmentTable;
   QStackedWidget* m_tables;
-  ToggleSegment* m_rule;
+  DataTable* m_rivals;
   QComboBox* m_criterion;
   QDoubleSpinBox* m_limit;
   QSpinBox* m_start;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ui/pages/machine_start.h"
 #include "ui/widgets/card.h"
 #include "ui/widgets/channel_table.h"
 #include "ui/widgets/figure_card.h"
@@ -16,34 +17,6 @@ QString htmlColor(const QColor& color) {
   return color.name();
 }
 
-/// A job in the list: its name, below it how far it is.
-class TwoLines : public QStyledItemDelegate {
- public:
-  using QStyledItemDelegate::QStyledItemDelegate;
-
-  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-    const Colors& c = colors();
-    painter->save();
-    painter->setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
-    const bool over = option.state & (QStyle::State_MouseOver | QStyle::State_Selected);
-    if (over) {
-      painter->setPen(Qt::NoPen);
-      painter->setBrush(c.soft(c.accent));
-      painter->drawRoundedRect(option.rect, 4, 4);
-    }
-    drawIcon(*painter, QRectF(option.rect.x() + 8, option.rect.center().y() - 11, 22, 22), Icon::file, c.muted);
-    const QRect inside = option.rect.adjusted(42, 4, -8, -4);
-    const QString text = index.data().toString();
-    painter->setFont(uiFont(13, QFont::DemiBold));
-    painter->setPen(c.text);
-    painter->drawText(inside, Qt::AlignTop, text.section('\n', 0, 0));
-    painter->setFont(uiFont(12));
-    painter->setPen(c.muted);
-    painter->drawText(inside, Qt::AlignBottom, text.section('\n', 1));
-    painter->restore();
-  }
-};
-
 /// The number in a channel's tag, which fits a disc: "T12" -> "12".
 QString shortTag(const QString& tag) {
   QString digits;
@@ -57,71 +30,16 @@ QString shortTag(const QString& tag) {
 
 MachinePage::MachinePage(QWidget* parent) : Page("machine", parent) {
   m_views = new QStackedWidget(this);
-  m_start = makeStart();
+  m_start = new MachineStart(this);
+  connect(m_start, &MachineStart::newJobRequested, this, &MachinePage::newJobRequested);
+  connect(m_start, &MachineStart::openJobRequested, this, &MachinePage::openJobRequested);
+  connect(m_start, &MachineStart::sampleRequested, this, &MachinePage::sampleRequested);
+  connect(m_start, &MachineStart::virtualMachineRequested, this, &MachinePage::virtualMachineRequested);
   m_machine = makeMachine();
   m_views->addWidget(m_start);
   m_views->addWidget(m_machine);
   content()->addWidget(m_views, 1);
   refresh();
-}
-
-QWidget* MachinePage::makeStart() {
-  auto* view = new QWidget(this);
-  m_startCard = new Card(view);
-  const QVector<Icon> icons = {Icon::plus, Icon::folder, Icon::chart, Icon::machine};
-  for (int i = 0; i < icons.size(); ++i) {
-    auto* button = new QPushButton(lineIcon(icons[i]), {}, m_startCard);
-    button->setObjectName(QStringList({"startNew", "startOpen", "startSample", "startVirtual"})[i]);
-    button->setProperty("big", true);
-    button->setIconSize({20, 20});
-    button->setStyleSheet("text-align: left");
-    auto* note = new WrapLabel(m_startCard);
-    note->setProperty("role", "muted");
-    m_startCard->body()->addWidget(button);
-    m_startCard->body()->addWidget(note);
-    m_startCard->body()->addSpacing(8);
-    m_startButtons.append(button);
-    m_startNotes.append(note);
-  }
-  m_startCard->body()->addStretch();
-  connect(m_startButtons[0], &QPushButton::clicked, this, &MachinePage::newJobRequested);
-  connect(m_startButtons[1], &QPushButton::clicked, this, [this] { Q_EMIT openJobRequested({}); });
-  connect(m_startButtons[2], &QPushButton::clicked, this, &MachinePage::sampleRequested);
-  connect(m_startButtons[3], &QPushButton::clicked, this, &MachinePage::virtualMachineRequested);
-
-  m_recentCard = new Card(view);
-  m_recent = new QListWidget(m_recentCard);
-  m_recent->setObjectName("recentJobs");
-  m_recent->setSpacing(1);
-  m_noRecent = new WrapLabel(m_recentCard);
-  m_noRecent->setProperty("role", "muted");
-  m_recentCard->body()->addWidget(m_noRecent);
-  m_recentCard->body()->addWidget(m_recent, 1);
-  m_recentCard->body()->addStretch();
-  connect(m_recent, &QListWidget::itemActivated, this,
-          [this](QListWidgetItem* item) { Q_EMIT openJobRequested(item->data(Qt::UserRole).toString()); });
-  connect(m_recent, &QListWidget::itemClicked, this,
-          [this](QListWidgetItem* item) { Q_EMIT openJobRequested(item->data(Qt::UserRole).toString()); });
-
-  m_recent->setItemDelegate(new TwoLines(m_recent));
-
-  m_wayCard = new Card(view);
-  for (int i = 0; i < 9; ++i) {
-    auto* line = new QLabel(m_wayCard);
-    line->setTextFormat(Qt::RichText);
-    m_wayCard->body()->addWidget(line);
-    m_way.append(line);
-  }
-  auto* right = new QVBoxLayout;
-  right->setSpacing(16);
-  right->addWidget(m_recentCard, 1);
-  right->addWidget(m_wayCard);
-  auto* all = new QHBoxLayout(view);
-  all->setContentsMargins(0, 0, 0, 0);
-  all->setSpacing(16);
-  all->addWidget(m_startCard, 2);
-  all->addLayout(right, 3);
-  return view;
 }
 
 QWidget* MachinePage::makeMachine() {
@@ -135,16 +53,9 @@ QWidget* MachinePage::makeMachine() {
   m_drawingCard->tools()->addWidget(m_profile);
   m_drawingCard->tools()->addWidget(m_view);
   m_drawing = new MachineDrawing(m_drawingCard);
-  m_registers = new QTableWidget(0, 5, m_drawingCard);
-  m_registers->setObjectName("registers");
-  m_registers->verticalHeader()->hide();
-  m_registers->verticalHeader()->setDefaultSectionSize(26);
-  m_registers->setShowGrid(false);
-  m_registers->horizontalHeader()->setSectionResizeMode(3, QHeaderView::Stretch);
-  m_registers->setSelectionBehavior(QAbstractItemView::SelectRows);
   m_drawingViews = new QStackedWidget(m_drawingCard);
   m_drawingViews->addWidget(m_drawing);
-  m_drawingViews->addWidget(m_registers);
+  m_drawingViews->addWidget(makeRegisters());
   m_parts = new WrapLabel(m_drawingCard);
   m_parts->setObjectName("partHealth");
   m_parts->setTextFormat(Qt::RichText);
@@ -153,19 +64,20 @@ QWidget* MachinePage::makeMachine() {
 
   m_sensorCard = new Card(view);
   m_sensorCard->setBodyMargins(1, 0, 1, 6);
-  m_sensorCard->setFixedWidth(416);
+  m_sensorCard->setMinimumWidth(416);
+  m_sensorCard->setMaximumWidth(468);
   m_table = new ChannelTable(m_sensorCard);
-  m_table->setColumnWidths(70, 130);
+  m_table->setColumnWidths(68, 104);
   m_sensorCard->body()->addWidget(m_table);
 
   auto* all = new QHBoxLayout(view);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(16);
-  all->addWidget(m_drawingCard, 1);
-  all->addWidget(m_sensorCard);
+  all->addWidget(m_drawingCard, 3);
+  all->addWidget(m_sensorCard, 2);
 
   connect(m_profile, &QComboBox::activated, this, &MachinePage::profileChosen);
-  connect(m_view, &ToggleSegment::currentChanged, m_drawingViews, &QStackedWidget::setCurrentIndex);
+  connect(m_view, &ToggleSegment::currentChanged, this, &MachinePage::viewShown);
   connect(m_drawing, &MachineDrawing::selected, this, [this](const QString& id) {
     m_table->select(id);
     Q_EMIT sensorSelected(id);
@@ -174,12 +86,46 @@ QWidget* MachinePage::makeMachine() {
     m_drawing->select(id);
     Q_EMIT sensorSelected(id);
   });
-  connect(m_registers, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
-    if (m_filling) return;
-    const int row = item->row();
-    Q_EMIT registerEdited(row, m_registers->item(row, 3)->text(), m_registers->item(row, 0)->text().toInt());
-  });
   return view;
+}
+
+QWidget* MachinePage::makeRegisters() {
+  auto* panel = new QWidget(m_drawingCard);
+  m_registers = new RegisterTable(panel);
+  m_mapNotes = new WrapLabel(panel);
+  m_mapNotes->setProperty("role", "caption");
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  const QStringList names = {"mapImport", "mapAdd", "mapRemove", "mapSave"};
+  for (const QString& name : names) {
+    auto* button = new QPushButton(panel);
+    button->setObjectName(name);
+    row->addWidget(button);
+    m_mapButtons.append(button);
+  }
+  row->addWidget(m_mapNotes, 1);
+  auto* all = new QVBoxLayout(panel);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(m_registers, 1);
+  all->addLayout(row);
+  connect(m_registers, &RegisterTable::edited, this, &MachinePage::registerEdited);
+  connect(m_registers, &RegisterTable::rowSelected, this, [this] { renderRegisters(); });
+  connect(m_mapButtons[0], &QPushButton::clicked, this, &MachinePage::registersImportRequested);
+  connect(m_mapButtons[1], &QPushButton::clicked, this, &MachinePage::registerAdded);
+  connect(m_mapButtons[2], &QPushButton::clicked, this, [this] { Q_EMIT registerRemoved(m_registers->currentRow()); });
+  connect(m_mapButtons[3], &QPushButton::clicked, this, &MachinePage::registersSaveRequested);
+  return panel;
+}
+
+void MachinePage::showView(int index) {
+  m_view->setCurrentIndex(index);
+}
+
+void MachinePage::viewShown(int index) {
+  m_drawingViews->setCurrentIndex(index);
+  m_sensorCard->setVisible(index == 0);  // the registers need the room
+  m_parts->setVisible(index == 0 && m_state.connected && !m_state.parts.isEmpty());
+  Q_EMIT registersShown(index == 1);
 }
 
 void MachinePage::setState(const MachineState& state) {
@@ -200,6 +146,17 @@ QString MachinePage::sentence() const {
   if (!m_state.connected) return tr("Choose the connection profile and connect to the controller.");
   if (m_state.compensationOn)
     return tr("Switch the compensation off: with it on, nothing can be measured for the model.");
+  const RestState& rest = m_state.rest;
+  if (!std::isnan(rest.change_K_h) && std::abs(rest.change_K_h) > rest.changeLimit_K_h) {
+    return tr("%1 still changes by %2 K/h. You may start; the run is best when nothing changes any more.")
+        .arg(rest.quickest)
+        .arg(rest.change_K_h, 0, 'f', 1);
+  }
+  if (rest.spread_K > rest.spreadLimit_K && !std::isnan(rest.change_K_h)) {
+    return tr("%1 stands %2 K apart from the others and rests there: that does no harm. Start when all sensors live.")
+        .arg(rest.warmest)
+        .arg(std::abs(rest.apart_K), 0, 'f', 1);
+  }
   return tr("Check that every sensor is alive and the machine is at rest and of even temperature.");
 }
 
@@ -235,74 +192,49 @@ QVector<Figure> MachinePage::figures() const {
     sensors.judgement = all ? Judgement::ok : Judgement::warn;
     sensors.word = all ? tr("all") : tr("%n to check", nullptr, static_cast<int>(m_state.sensors.size() - alive));
   }
-  Figure spread = figureAtMost(tr("Spread at rest"), m_state.spread_K, 2, "K", m_state.spreadLimit_K);
-  if (spread.judgement == Judgement::ok) spread.word = tr("even");
-  if (spread.judgement == Judgement::bad) spread.word = tr("still warm");
-  spread.tip = tr("Warmest sensor minus coldest. The run must start from an even temperature.");
   Figure clock = figureAtMost(tr("Clock difference"), m_state.clockDifference_s, 1, "s", m_state.clockLimit_s);
   clock.tip = tr("Controller's clock minus this computer's.");
-  return {sensors, spread, figureAtMost(tr("Round trip"), m_state.roundTrip_ms, 1, "ms", m_state.roundTripLimit_ms),
-          clock};
+  return {sensors, restFigure(),
+          figureAtMost(tr("Round trip"), m_state.roundTrip_ms, 1, "ms", m_state.roundTripLimit_ms), clock};
+}
+
+Figure MachinePage::restFigure() const {
+  const RestState& rest = m_state.rest;
+  Figure figure = figureAtMost(tr("Spread at rest"), rest.spread_K, 2, "K", rest.spreadLimit_K);
+  if (figure.judgement == Judgement::none) return figure;
+  const bool even = rest.spread_K <= rest.spreadLimit_K;
+  const bool watched = !std::isnan(rest.change_K_h);
+  const bool steady = watched && std::abs(rest.change_K_h) <= rest.changeLimit_K_h;
+  figure.judgement = even || steady ? Judgement::ok : Judgement::warn;
+  figure.word = even ? tr("even") : steady ? tr("steady") : watched ? tr("still settling") : tr("uneven");
+  if (!even)
+    figure.limit =
+        tr("%1 %2 K").arg(rest.warmest, (rest.apart_K > 0 ? "+" : "") + QString::number(rest.apart_K, 'f', 1));
+  if (watched && !steady) {
+    figure.limit =
+        tr("%1 %2 K/h").arg(rest.quickest, (rest.change_K_h > 0 ? "+" : "") + QString::number(rest.change_K_h, 'f', 1));
+  }
+  figure.tip = tr("Warmest sensor minus coldest. It forbids nothing: a sensor by a motor that always holds is always "
+                  "warmer. What "
+                  "counts is that nothing changes any more (%1 K/h) when the run begins.")
+                   .arg(rest.changeLimit_K_h);
+  return figure;
 }
 
 void MachinePage::render() {
   setFigures(figures());
   m_views->setCurrentWidget(m_state.jobOpen ? m_machine : m_start);
-  renderStart();
+  m_start->setState(m_state.recent, m_state.sampleAvailable);
   renderMachine();
   renderParts();
   renderRegisters();
 }
 
-void MachinePage::renderStart() {
-  m_startCard->setTitle(tr("Start"));
-  m_recentCard->setTitle(tr("Recent jobs"));
-  const QStringList names = {tr("New job"), tr("Open job"), tr("Open the sample job"),
-                             tr("Connect to the virtual machine")};
-  const QStringList notes = {
-      tr("One file holds the whole commissioning: measurements, model, tables, report."),
-      tr("Go on where the job stopped; also after a crash."),
-      tr("A finished commissioning to look around in. Nothing needs to be connected."),
-      tr("A five-axis machine in software, with controller and cameras, to try everything without risk."),
-  };
-  for (int i = 0; i < names.size(); ++i) {
-    m_startButtons[i]->setText(names[i]);
-    m_startNotes[i]->setText(notes[i]);
-  }
-  m_startButtons[2]->setVisible(m_state.sampleAvailable);
-  m_startNotes[2]->setVisible(m_state.sampleAvailable);
-  m_wayCard->setTitle(tr("The way through"));
-  const QStringList way = {
-      tr("Machine") + '|' + tr("connect, see that all sensors live and the machine is cold"),
-      tr("Calibrate") + '|' + tr("teach the camera what a micrometre is"),
-      tr("Warm-up") + '|' + tr("record temperatures and errors while the machine warms"),
-      tr("Sensors") + '|' + tr("keep the few that carry the error"),
-      tr("Fit") + '|' + tr("make the model and judge it on what it has not seen"),
-      tr("Physics") + '|' + tr("find what the simulation lacks"),
-      tr("Upload") + '|' + tr("write the table as one transaction, old one saved"),
-      tr("Verify") + '|' + tr("prove on the machine that the error is gone"),
-      tr("Report") + '|' + tr("hand it over, every figure traceable"),
-  };
-  for (int i = 0; i < way.size(); ++i) {
-    m_way[i]->setText(QStringLiteral("<b>%1&nbsp; %2</b> &nbsp;<span style='color:%3'>%4</span>")
-                          .arg(i + 1)
-                          .arg(way[i].section('|', 0, 0), htmlColor(colors().muted), way[i].section('|', 1)));
-  }
-  m_noRecent->setText(tr("No jobs yet. Jobs that you make or open are listed here."));
-  m_noRecent->setVisible(m_state.recent.isEmpty());
-  m_recent->setVisible(!m_state.recent.isEmpty());
-  m_recent->clear();
-  for (const RecentJob& job : m_state.recent) {
-    auto* item = new QListWidgetItem(job.name + '\n' + job.detail, m_recent);
-    item->setData(Qt::UserRole, job.path);
-    item->setToolTip(job.path);
-    item->setSizeHint({100, 46});
-  }
-}
-
 void MachinePage::renderMachine() {
-  m_drawingCard->setTitle(m_state.machineName.isEmpty() ? tr("Machine") : m_state.machineName);
-  m_drawingCard->setSubtitle(m_state.connected ? m_state.address : tr("not connected"));
+  // The name stands in the list of profiles beside it.
+  m_drawingCard->setTitle(m_state.connected ? m_state.address.section(QStringLiteral(", "), 0, 0)
+                                            : tr("Not connected"));
+  m_drawingCard->setToolTip(m_state.address);
   m_view->setItems({tr("Drawing"), tr("Registers")});
   {
     const QSignalBlocker quiet(m_profile);
@@ -329,7 +261,9 @@ void MachinePage::renderMachine() {
     const QString value = live ? tr("%1 °C").arg(s.value_C, 0, 'f', 2) : QStringLiteral("–");
     QString state = s.state;
     if (live && s.judgement == Judgement::ok) {
-      state = tr("%1 s  ±%2 K").arg(s.age_s, 0, 'f', 1).arg(s.noise_K, 0, 'f', 2);
+      state = std::isnan(s.age_s) ? QString() : tr("%1 s").arg(s.age_s, 0, 'f', 0);
+      // The noise takes a few readings.
+      if (!std::isnan(s.noise_K)) state += tr("  ±%1 K").arg(s.noise_K, 0, 'f', 2);
     }
     rows.append({s.id,
                  s.tag + QStringLiteral("  ") + s.label,
@@ -362,28 +296,23 @@ void MachinePage::renderParts() {
                           part.value.toHtmlEscaped().replace(' ', "&nbsp;")));
   }
   m_parts->setText(words.join(" &nbsp;&nbsp; "));
-  m_parts->setVisible(m_state.connected && !words.isEmpty());
+  m_parts->setVisible(m_state.connected && !words.isEmpty() && m_view->currentIndex() == 0);
 }
 
 void MachinePage::renderRegisters() {
-  m_filling = true;
-  m_registers->setHorizontalHeaderLabels({tr("Address"), tr("Type"), tr("Access"), tr("Meaning"), tr("Value now")});
-  m_registers->setRowCount(static_cast<int>(m_state.registers.size()));
-  for (int row = 0; row < m_state.registers.size(); ++row) {
-    const RegisterRow& r = m_state.registers[row];
-    const QStringList texts = {QString::number(r.address), r.type, r.access, r.meaning, r.value};
-    for (int column = 0; column < texts.size(); ++column) {
-      auto* item = m_registers->item(row, column);
-      if (item == nullptr) {
-        item = new QTableWidgetItem;
-        if (column != 0 && column != 3) item->setFlags(item->flags() & ~Qt::ItemIsEditable);
-        m_registers->setItem(row, column, item);
-      }
-      // A cell that is being edited keeps what the user types.
-      if (item->text() != texts[column] && !m_registers->isPersistentEditorOpen(item)) item->setText(texts[column]);
-    }
+  const QStringList texts = {tr("Import"), tr("Add"), tr("Remove"), tr("Save")};
+  const QStringList tips = {tr("Registers from a CSV list or a map file"), tr("A register more"),
+                            tr("Take the selected register out"), tr("Save the map and use it")};
+  for (int i = 0; i < texts.size(); ++i) {
+    m_mapButtons[i]->setText(texts[i]);
+    m_mapButtons[i]->setToolTip(tips[i]);
   }
-  m_filling = false;
+  m_mapButtons[2]->setEnabled(m_registers->currentRow() >= 0);
+  m_mapButtons[3]->setEnabled(m_state.mapChanged);
+  m_mapNotes->setText(m_state.mapNotes);
+  m_registers->setHeaders();
+  m_registers->setNames(m_state.registerNames);
+  m_registers->setRows(m_state.registers);
 }
 
 }  // namespace zerodrift::ui

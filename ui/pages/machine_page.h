@@ -5,15 +5,15 @@
 #include <QVector>
 #include <limits>
 
+#include "ui/pages/machine_start.h"
 #include "ui/pages/page.h"
 #include "ui/widgets/colors.h"
+#include "ui/widgets/register_table.h"
 
 class QComboBox;
 class QLabel;
-class QListWidget;
 class QPushButton;
 class QStackedWidget;
-class QTableWidget;
 
 namespace zerodrift::ui {
 
@@ -21,12 +21,6 @@ class Card;
 class ChannelTable;
 class MachineDrawing;
 class ToggleSegment;
-
-struct RecentJob {
-  QString path{};
-  QString name{};    // "VMC-850 #3"
-  QString detail{};  // "Warm-up recorded, 20 Nov 2026"
-};
 
 struct SensorHealth {
   QString id{};         // channel: "T1_C"
@@ -48,12 +42,16 @@ struct PartHealth {
   Judgement judgement = Judgement::none;
 };
 
-struct RegisterRow {
-  int address = 0;
-  QString type{};
-  QString access{};
-  QString meaning{};
-  QString value{};  // decoded, live
+/// How the machine stands before a run. The spread alone says little: a sensor by a motor that always holds is always
+/// warmer. What matters is whether anything still changes.
+struct RestState {
+  double spread_K = std::numeric_limits<double>::quiet_NaN();  // largest - smallest temperature
+  double spreadLimit_K = 1.0;
+  QString warmest{};                                             // the sensor farthest from the middle
+  double apart_K = std::numeric_limits<double>::quiet_NaN();     // from the middle one, with sign
+  QString quickest{};                                            // the sensor that changes fastest
+  double change_K_h = std::numeric_limits<double>::quiet_NaN();  // NaN: not watched for long enough
+  double changeLimit_K_h = 1.0;
 };
 
 struct MachineState {
@@ -69,8 +67,10 @@ struct MachineState {
   QVector<SensorHealth> sensors{};
   QVector<PartHealth> parts{};
   QVector<RegisterRow> registers{};
-  double spread_K = std::numeric_limits<double>::quiet_NaN();  // largest - smallest temperature at rest
-  double spreadLimit_K = 1.0;
+  QStringList registerNames{};  // what a register may be
+  QString mapNotes{};           // "plc.json, changed; no table"
+  bool mapChanged = false;
+  RestState rest{};
   double roundTrip_ms = std::numeric_limits<double>::quiet_NaN();
   double roundTripLimit_ms = 100.0;
   double clockDifference_s = std::numeric_limits<double>::quiet_NaN();
@@ -86,6 +86,8 @@ class MachinePage : public Page {
   void setState(const MachineState& state);
   const MachineState& state() const { return m_state; }
   void selectSensor(const QString& id);
+  /// 0 drawing, 1 registers.
+  void showView(int index);
 
   QString title() const override;
   QString sentence() const override;
@@ -102,42 +104,41 @@ class MachinePage : public Page {
   void profileImportRequested();
   void profileChosen(int index);
   void sensorSelected(const QString& id);
-  void registerEdited(int row, const QString& meaning, int address);
+  void registersShown(bool shown);
+  void registerEdited(int row, int column, const QString& text);
+  void registerAdded();
+  void registerRemoved(int row);
+  void registersImportRequested();
+  void registersSaveRequested();
 
  protected:
   void render() override;
 
  private:
-  QWidget* makeStart();
   QWidget* makeMachine();
-  void renderStart();
+  QWidget* makeRegisters();
+  void viewShown(int index);
   void renderMachine();
   void renderParts();
   void renderRegisters();
   QVector<Figure> figures() const;
+  Figure restFigure() const;
 
   MachineState m_state;
   QStackedWidget* m_views;
-  QWidget* m_start;
+  MachineStart* m_start;
   QWidget* m_machine;
-  Card* m_startCard;
-  Card* m_recentCard;
-  QVector<QPushButton*> m_startButtons;
-  QVector<QLabel*> m_startNotes;
-  QListWidget* m_recent;
-  QLabel* m_noRecent;
-  Card* m_wayCard;
-  QVector<QLabel*> m_way;
   Card* m_drawingCard;
   Card* m_sensorCard;
   MachineDrawing* m_drawing;
-  QTableWidget* m_registers;
+  RegisterTable* m_registers;
+  QLabel* m_mapNotes;
+  QVector<QPushButton*> m_mapButtons;  // import, add, remove, save
   QStackedWidget* m_drawingViews;
   ToggleSegment* m_view;
   QComboBox* m_profile;
   QLabel* m_parts;
   ChannelTable* m_table;
-  bool m_filling = false;
 };
 
 }  // namespace zerodrift::ui

@@ -11,6 +11,11 @@
 #include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
+namespace {
+
+constexpr int side_width = 396;
+
+}  // namespace
 
 UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
   auto* row = new QHBoxLayout;
@@ -54,7 +59,7 @@ Card* UploadPage::makeTable() {
 
 Card* UploadPage::makeWriting() {
   m_writeCard = new Card(this);
-  m_writeCard->setFixedWidth(372);
+  m_writeCard->setFixedWidth(side_width);
   m_side = new ToggleSegment(m_writeCard);
   m_writeCard->tools()->addWidget(m_side);
   auto* stagePanel = new QWidget(m_writeCard);
@@ -80,7 +85,7 @@ Card* UploadPage::makeWriting() {
 
 Card* UploadPage::makeSign() {
   m_signCard = new Card(this);
-  m_signCard->setFixedWidth(372);
+  m_signCard->setFixedWidth(side_width);
   m_signCard->setBodyMargins(12, 0, 12, 8);
   m_sign = new SignCheck(m_signCard);
   m_signCard->body()->addWidget(m_sign);
@@ -101,7 +106,7 @@ QString UploadPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   if (m_state.writing) return tr("The table is being written. It becomes active as a whole or not at all.");
   if (m_state.written)
-    return tr("Version %1 is active in %2. Now prove it.").arg(m_state.newVersion).arg(m_state.machineName);
+    return tr("Version %1 is active in %2. Now prove it.").arg(m_state.newVersion.value_or(0)).arg(m_state.machineName);
   return tr("Compare the old table with the new one, let the camera check the sign, then write.");
 }
 
@@ -130,15 +135,22 @@ QVector<PageAction> UploadPage::secondary() const {
 }
 
 QVector<Figure> UploadPage::figures() const {
-  Figure version =
-      figureOf(tr("Version"), m_state.newVersion, 0, tr("new"), tr("in the machine: %1").arg(m_state.oldVersion));
+  const QString before = !m_state.oldVersion        ? QString()
+                         : *m_state.oldVersion == 0 ? tr("none")
+                                                    : QString::number(*m_state.oldVersion);
+  Figure version = figureOf(tr("Version"), m_state.newVersion ? *m_state.newVersion : std::nan(""), 0,
+                            m_state.written ? tr("active") : tr("to write"));
+  if (!before.isEmpty())
+    version.limit = m_state.written ? tr("before: %1").arg(before) : tr("in the machine: %1").arg(before);
+  if (!m_state.newVersion) version.limit = tr("the machine is not read yet");
   Figure size = figureAtMost(tr("Registers"), m_state.registers, 0, {}, m_state.capacity);
   if (size.judgement == Judgement::ok) size.word = tr("fits");
+  if (std::isnan(m_state.registers)) size.limit = tr("of %1").arg(m_state.capacity, 0, 'f', 0);
   Figure sign = figureOf(tr("Sign"), NAN, 0, {});
   sign.value =
       m_state.sign.measured ? (m_state.sign.judgement == Judgement::bad ? tr("wrong") : tr("right")) : QString();
   sign.judgement = m_state.sign.judgement;
-  sign.word = m_state.sign.measured ? tr("seen by the camera") : tr("not checked");
+  sign.word = m_state.sign.measured ? tr("seen by the camera") : tr("not checked yet");
   return {version, figureAtMost(tr("Largest change"), m_state.largestChange_um, 1, "µm", m_state.changeLimit_um),
           figureAtMost(tr("Steepest term"), m_state.steepest_um_per_K, 2, tr("µm/K"), m_state.steepestLimit_um_per_K),
           size, sign};
@@ -235,21 +247,28 @@ void UploadPage::renderAxis() {
 
 void UploadPage::renderTransaction() {
   m_stages->setStages(m_state.stages);
-  m_writeCard->setSubtitle(std::isnan(m_state.ramp_percent) ? QString()
+  m_writeCard->setSubtitle(std::isnan(m_state.ramp_percent) ? m_state.stagesNote
                                                             : tr("ramp %1 %").arg(m_state.ramp_percent, 0, 'f', 0));
 }
 
 void UploadPage::renderHistory() {
-  m_history->setColumns({{tr("Version"), 66, true, {}}, {tr("When"), 104, false, {}}, {tr("What"), 0, false, {}}});
+  m_history->setColumns({{tr("Version"), 58, true, {}},
+                         {tr("Written"), 96, false, {}},
+                         {tr("By"), 64, false, {}},
+                         {tr("What"), 0, false, {}}});
   QVector<QVector<DataCell>> rows;
   for (const TableVersion& version : m_state.history) {
     DataCell number{QString::number(version.version)};
     number.strong = version.active;
-    DataCell what{version.active ? tr("active: %1").arg(version.what) : version.what};
+    DataCell what{version.what};
     what.judged = version.active;
     what.judgement = version.active ? Judgement::ok : Judgement::none;
-    what.tip = version.who;
-    rows.append({number, DataCell{version.when}, what});
+    what.tip = version.active ? tr("active: %1").arg(version.what) : version.what;
+    DataCell who{version.who};
+    who.tip = version.who;
+    const QString unknown = QStringLiteral("–");
+    if (who.text.isEmpty()) who.text = unknown;
+    rows.append({number, DataCell{version.when.isEmpty() ? unknown : version.when}, who, what});
   }
   m_history->setRows(rows);
   const int row = m_history->currentRow();

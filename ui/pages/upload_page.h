@@ -4,6 +4,7 @@
 
 #include <QStringList>
 #include <limits>
+#include <optional>
 
 #include "ui/pages/page.h"
 #include "ui/widgets/sign_check.h"
@@ -52,8 +53,8 @@ struct TableVersion {
 struct UploadState {
   QString blocked{};
   QString machineName{};
-  int oldVersion = 0;
-  int newVersion = 0;
+  std::optional<int> oldVersion{};  // in the machine before; 0: none was there
+  std::optional<int> newVersion{};  // nothing while the machine was not read yet
   QVector<AxisTable> axes{};
   QStringList lost{};   // what the controller cannot express
   QString expressed{};  // "temperature terms and points; 412 of 2000 registers"
@@ -65,6 +66,7 @@ struct UploadState {
   double capacity = 2000.0;
   double ramp_percent = std::numeric_limits<double>::quiet_NaN();
   QVector<Stage> stages{};
+  QString stagesNote{};  // "dry run 10:32"
   SignCheckResult sign{};
   QVector<TableVersion> history{};
   bool compensationOn = false;

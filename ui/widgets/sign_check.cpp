@@ -5,78 +5,101 @@
 namespace zerodrift::ui {
 namespace {
 
-void arrow(QPainter& painter, const QPointF& from, const QPointF& to, const QColor& color, double width) {
+constexpr double row_height = 28.0;
+constexpr double name_width = 18.0;
+constexpr double text_width = 158.0;
+
+void arrow(QPainter& painter, double from, double to, double y, const QColor& color, double width) {
   painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.drawLine(from, to);
-  const QPointF way = to - from;
-  const double length = std::hypot(way.x(), way.y());
-  if (length < 4.0) return;
-  const QPointF along = way / length;
-  const QPointF across(-along.y(), along.x());
-  painter.drawPolyline(QPolygonF({to - 9 * along + 5 * across, to, to - 9 * along - 5 * across}));
+  painter.drawLine(QPointF(from, y), QPointF(to, y));
+  const double way = to - from;
+  if (std::abs(way) < 5.0) return;
+  const double back = way > 0 ? -5.0 : 5.0;
+  painter.drawPolyline(QPolygonF({{to + back, y - 3.5}, {to, y}, {to + back, y + 3.5}}));
+}
+
+QString um(double value) {
+  return (value > 0 ? "+" : "") + QString::number(value, 'f', 1);
 }
 
 }  // namespace
 
 SignCheck::SignCheck(QWidget* parent) : QWidget(parent) {
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 }
 
 void SignCheck::setResult(const SignCheckResult& result) {
   m_result = result;
-  setAccessibleName(tr("Sign check: %1").arg(result.word));
+  QStringList words;
+  for (const SignCheckAxis& axis : result.axes) {
+    words.append(axis.watched ? tr("%1 commanded %2, seen %3").arg(axis.axis, um(axis.commanded_um), um(axis.seen_um))
+                              : tr("%1 not in view").arg(axis.axis));
+  }
+  setAccessibleName(tr("Sign check: %1. %2").arg(result.word, words.join(QStringLiteral("; "))));
   update();
+}
+
+void SignCheck::paintAxis(QPainter& painter, const SignCheckAxis& axis, const QRectF& row, double reach_um) const {
+  const Colors& c = colors();
+  painter.setFont(uiFont(13, QFont::DemiBold));
+  painter.setPen(c.text);
+  painter.drawText(row, Qt::AlignVCenter | Qt::AlignLeft, axis.axis);
+  const QRectF field(row.left() + name_width, row.top() + 2, row.width() - name_width - text_width, row.height() - 4);
+  painter.setPen(c.line);
+  painter.setBrush(c.window);
+  painter.drawRoundedRect(field, 3, 3);
+  const double zero = field.center().x();
+  painter.setPen(QPen(c.line, 1, Qt::DotLine));
+  painter.drawLine(QPointF(zero, field.top()), QPointF(zero, field.bottom()));
+  const QRectF text(field.right() + 10, row.top(), text_width - 10, row.height());
+  painter.setFont(uiFont(12));
+  if (!axis.watched) {
+    painter.setPen(c.muted);
+    painter.drawText(text, Qt::AlignVCenter, tr("not in view"));
+    return;
+  }
+  const double scale = 0.46 * field.width() / reach_um;
+  const QColor seen = m_result.judgement == Judgement::bad ? c.bad : c.ok;
+  arrow(painter, zero, zero + axis.commanded_um * scale, field.center().y() - 5, c.accent, 3.0);
+  arrow(painter, zero, zero + axis.seen_um * scale, field.center().y() + 5, seen, 2.0);
+  painter.setPen(c.text);
+  painter.drawText(text, Qt::AlignVCenter,
+                   QStringLiteral("%1 → %2 ± %3 µm")
+                       .arg(um(axis.commanded_um), um(axis.seen_um), QString::number(axis.sigma_um, 'f', 1)));
 }
 
 void SignCheck::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
   const Colors& c = colors();
-  const double side = std::min(width() * 0.42, height() - 8.0);
-  const QRectF field(4, (height() - side) / 2.0, side, side);
-  painter.setPen(c.line);
-  painter.setBrush(c.window);
-  painter.drawRoundedRect(field, 4, 4);
-  painter.setPen(QPen(c.line, 1, Qt::DotLine));
-  painter.drawLine(QPointF(field.left(), field.center().y()), QPointF(field.right(), field.center().y()));
-  painter.drawLine(QPointF(field.center().x(), field.top()), QPointF(field.center().x(), field.bottom()));
-  painter.setFont(uiFont(11));
-  painter.setPen(c.muted);
-  painter.drawText(field.adjusted(0, 0, -4, -2), Qt::AlignRight | Qt::AlignBottom, m_result.axisRight);
-  painter.drawText(field.adjusted(5, 2, 0, 0), Qt::AlignLeft | Qt::AlignTop, m_result.axisUp);
-  const double reach = std::max({std::hypot(m_result.commandedRight_um, m_result.commandedUp_um),
-                                 std::hypot(m_result.seenRight_um, m_result.seenUp_um), 1e-6});
-  const double scale = 0.4 * side / reach;
-  const auto tip = [&](double right, double up) { return field.center() + QPointF(right * scale, -up * scale); };
-  const QColor seen = m_result.judgement == Judgement::bad ? c.bad : c.ok;
-  if (m_result.measured) {
-    arrow(painter, field.center(), tip(m_result.commandedRight_um, m_result.commandedUp_um), c.accent, 5);
-    arrow(painter, field.center(), tip(m_result.seenRight_um, m_result.seenUp_um), seen, 2.2);
-  }
-  const double left = field.right() + 14;
-  const double room = width() - left;
-  double y = field.top() + 2;
-  const auto line = [&](const QColor& color, const QString& text, bool strong) {
-    painter.setFont(uiFont(12, strong ? QFont::DemiBold : QFont::Normal));
-    painter.setPen(color);
-    const QRectF box(left, y, room, 60);
-    QRectF used;
-    painter.drawText(box, Qt::TextWordWrap, text, &used);
-    y += used.height() + 5;
-  };
   if (!m_result.measured) {
-    line(c.muted, tr("Not checked yet. A small test offset is written and watched by the camera before the table."),
-         false);
+    painter.setFont(uiFont(12));
+    painter.setPen(c.muted);
+    painter.drawText(
+        QRectF(rect()).adjusted(2, 2, -2, -2), Qt::TextWordWrap,
+        tr("Not checked yet. Before the table is written each axis is moved by a few micrometres, watched by "
+           "the camera: a wrong sign or axis stops everything."));
     return;
   }
-  const auto um = [](double value) { return QString::number(value, 'f', 1); };
-  line(c.accent, tr("Commanded %1, %2 µm").arg(um(m_result.commandedRight_um), um(m_result.commandedUp_um)), false);
-  line(seen, tr("Seen %1, %2 ± %3 µm").arg(um(m_result.seenRight_um), um(m_result.seenUp_um), um(m_result.sigma_um)),
-       false);
-  drawJudgement(painter, QRectF(left, y + 2, 13, 13), m_result.judgement);
+  double reach_um = 1e-6;
+  for (const SignCheckAxis& axis : m_result.axes) {
+    reach_um = std::max({reach_um, std::abs(axis.commanded_um), axis.watched ? std::abs(axis.seen_um) : 0.0});
+  }
+  double y = 0.0;
+  for (const SignCheckAxis& axis : m_result.axes) {
+    paintAxis(painter, axis, QRectF(0, y, width(), row_height), reach_um);
+    y += row_height;
+  }
+  drawJudgement(painter, QRectF(0, y + 8, 13, 13), m_result.judgement);
   painter.setFont(uiFont(12, QFont::DemiBold));
   painter.setPen(c.ink(m_result.judgement));
-  painter.drawText(QRectF(left + 20, y, room - 20, 40), Qt::TextWordWrap, m_result.word);
+  const QRectF line(20, y + 4, width() - 20, 22);
+  painter.drawText(line, Qt::AlignVCenter, m_result.word);
+  const int used = painter.fontMetrics().horizontalAdvance(m_result.word) + 12;
+  painter.setFont(uiFont(12));
+  painter.setPen(c.muted);
+  painter.drawText(line.adjusted(used, 0, 0, 0), Qt::AlignVCenter | Qt::AlignRight,
+                   painter.fontMetrics().elidedText(m_result.note, Qt::ElideRight, std::max(0, width() - 20 - used)));
 }
 
 }  // namespace zerodrift::ui

@@ -5,20 +5,21 @@
 namespace zerodrift::ui {
 namespace {
 
-constexpr int rowHeight = 24;
+constexpr int tallest_row = 24;
+constexpr int lowest_row = 19;
 
 }  // namespace
 
 StepList::StepList(QWidget* parent) : QWidget(parent) {
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
 }
 
 QSize StepList::sizeHint() const {
-  return {280, rowHeight * static_cast<int>(m_stages.size())};
+  return {280, tallest_row * static_cast<int>(m_stages.size())};
 }
 
 QSize StepList::minimumSizeHint() const {
-  return {180, rowHeight * static_cast<int>(m_stages.size())};
+  return {180, lowest_row * static_cast<int>(m_stages.size())};
 }
 
 void StepList::setStages(const QVector<Stage>& stages) {
@@ -41,6 +42,9 @@ void StepList::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
   const Colors& c = colors();
+  // In a low window the rows move together.
+  const int rows = std::max(1, static_cast<int>(m_stages.size()));
+  const int rowHeight = std::clamp(height() / rows, lowest_row, tallest_row);
   for (int i = 0; i < m_stages.size(); ++i) {
     const Stage& stage = m_stages[i];
     const QPointF centre(8, rowHeight * (i + 0.5));

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "app/desktop/column_question.h"
+#include "app/desktop/table_export.h"
 #include "core/base/file.h"
 #include "core/base/resources.h"
 #include "core/compensation/axis_map.h"
@@ -22,15 +24,18 @@ using compensation::Segmentation;
 namespace {
 
 constexpr int round_trip_points = 2000;
+constexpr std::size_t largest_file = std::size_t{256} << 20;
 constexpr const char* table_format = "zerodrift-table";
 
 double error_of(const compensation::Segment& segment, double position_mm) {
   return ((segment.a - 1.0) * position_mm + segment.b_mm) * 1000.0;
 }
 
+/// Each point is looked at once: both lists ascend.
 QVector<ui::AxisSegment> segments_of(const Segmentation& cut, const std::vector<double>& position_mm,
                                      const std::vector<double>& error_um) {
   QVector<ui::AxisSegment> rows;
+  std::size_t next = 0;
   for (const auto& segment : cut.segments) {
     ui::AxisSegment row;
     row.from_mm = segment.from_mm;
@@ -39,10 +44,10 @@ QVector<ui::AxisSegment> segments_of(const Segmentation& cut, const std::vector<
     row.b_mm = segment.b_mm;
     row.r = segment.r;
     row.points = segment.points;
-    for (std::size_t i = 0; i < position_mm.size(); ++i) {
-      if (position_mm[i] < segment.from_mm || position_mm[i] > segment.to_mm) continue;
+    // A point on a joint belongs to the segment that ends there.
+    for (; next < position_mm.size() && position_mm[next] <= segment.to_mm; ++next) {
       row.largestResidual_um =
-          std::max(row.largestResidual_um, std::abs(error_um[i] - error_of(segment, position_mm[i])));
+          std::max(row.largestResidual_um, std::abs(error_um[next] - error_of(segment, position_mm[next])));
     }
     rows.append(row);
   }
@@ -79,7 +84,14 @@ AxisErrorsPresenter::AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page) :
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
     if (action == QStringLiteral("open")) open();
-    if (action == QStringLiteral("export")) exportTable();
+    if (action == QStringLiteral("columns")) askAgain();
+    if (action == QStringLiteral("onePoint")) exportTable(true);
+    if (action == QStringLiteral("export")) exportTable(false);
+  });
+  connect(page, &ui::AxisPage::axisChosen, this, [this](int index) {
+    if (index < 0 || index >= static_cast<int>(m_report.axes.size())) return;
+    m_how.axis = m_report.axes[static_cast<std::size_t>(index)];
+    read();
   });
 }
 
@@ -90,8 +102,44 @@ void AxisErrorsPresenter::open() {
 }
 
 bool AxisErrorsPresenter::load(const QString& path) {
+  auto bytes = read_file(path.toStdString(), largest_file);
+  if (!bytes) {
+    show(bytes.error());
+    return false;
+  }
+  m_file = path;
+  m_bytes = std::move(*bytes);
+  m_how = {};
+  const auto preview = compensation::preview_laser(m_bytes, path.toStdString());
+  m_preview = preview ? std::optional(*preview) : std::nullopt;
+  if (m_preview) m_how.mapping = remembered_mapping(*m_preview);
+  if (m_how.mapping) bench().log(LogKind::note, tr("Columns as for the last file of this make"));
+  return read();
+}
+
+bool AxisErrorsPresenter::read() {
   m_page->clearProblem();
-  auto report = compensation::read_laser(path.toStdString());
+  auto report = compensation::parse_laser(m_bytes, m_file.toStdString(), m_how);
+  if (!report && report.error().code == ErrorCode::data_does_not_fit && m_how.axis.empty()) {
+    // Several axes in one file: the first of them first.
+    auto first = m_how;
+    for (const char* axis : {"X", "Y", "Z"}) {
+      first.axis = axis;
+      if (auto one = compensation::parse_laser(m_bytes, m_file.toStdString(), first)) {
+        m_how = first;
+        report = std::move(one);
+        break;
+      }
+    }
+  }
+  const bool other_form =
+      !report && (report.error().code == ErrorCode::csv_bad_header ||
+                  report.error().code == ErrorCode::csv_cell_count || report.error().code == ErrorCode::csv_bad_number);
+  if (other_form && m_preview && m_asking) {
+    m_how.mapping = ask_columns(m_page, m_bytes, m_file.toStdString(), *m_preview);
+    if (!m_how.mapping) return false;
+    report = compensation::parse_laser(m_bytes, m_file.toStdString(), m_how);
+  }
   if (!report) {
     show(report.error());
     return false;
@@ -103,10 +151,21 @@ bool AxisErrorsPresenter::load(const QString& path) {
     m_position_mm.push_back(point.position_mm);
     m_error_um.push_back(0.5 * (point.error_up_um + point.error_down_um));
   }
-  bench().log(LogKind::note, tr("Laser report %1").arg(path));
+  bench().log(LogKind::note, tr("Laser report %1").arg(m_file));
   for (const auto& warning : m_report.warnings) bench().log(LogKind::warning, QString::fromStdString(warning));
+  if (!m_report.warnings.empty()) {
+    m_page->setProblem({ui::ProblemKind::note, QString::fromStdString(m_report.warnings.front()), {}, {}});
+  }
   cut();
   return !m_position_mm.empty();
+}
+
+void AxisErrorsPresenter::askAgain() {
+  if (!m_preview) return;
+  const auto mapping = ask_columns(m_page, m_bytes, m_file.toStdString(), *m_preview);
+  if (!mapping) return;
+  m_how.mapping = mapping;
+  read();
 }
 
 void AxisErrorsPresenter::cut() {
@@ -159,7 +218,15 @@ compensation::Table AxisErrorsPresenter::table() const {
 void AxisErrorsPresenter::use() {
   nlohmann::json notes = nlohmann::json::array();
   for (const auto& note : chosen().notes) notes.push_back(note);
-  const nlohmann::json body = {{"table", compensation::to_json(table())},
+  // The axes of earlier reports stay; this one takes the place of its own.
+  compensation::Table all = table();
+  if (const auto before = bench().body("axis_table"); before.is_object()) {
+    const auto kept = compensation::table_from_json(before.at("table"), "the axis table");
+    if (kept && (kept->machine == all.machine || kept->machine.empty())) {
+      for (const auto& [name, axis] : kept->axes) all.axes.try_emplace(name, axis);
+    }
+  }
+  const nlohmann::json body = {{"table", compensation::to_json(all)},
                                {"statistics", compensation::to_json(compensation::positioning_figures(m_report))},
                                {"file", QFileInfo(QString::fromStdString(m_report.file)).fileName().toStdString()},
                                {"largest_residual_um", chosen().largest_residual_um},
@@ -171,32 +238,11 @@ void AxisErrorsPresenter::use() {
   Q_EMIT pageRequested(QStringLiteral("upload"));
 }
 
-void AxisErrorsPresenter::exportTable() {
+void AxisErrorsPresenter::exportTable(bool one_point) {
   const auto& formats = controller::export_formats();
-  if (m_format == 0) {
-    const QString path = QFileDialog::getSaveFileName(
-        m_page, tr("Save table"), QDir::homePath() + QStringLiteral("/axis.json"), tr("Tables (*.json)"));
-    if (path.isEmpty()) return;
-    if (const Status written = compensation::write_table_file(path.toStdString(), table()); !written)
-      show(written.error());
-    return;
-  }
-  const auto& format = formats.at(static_cast<std::size_t>(m_format - 1));
-  const auto made = format.write(table(), {});
-  if (!made) {
-    show(made.error());
-    return;
-  }
-  const QString path = QFileDialog::getSaveFileName(m_page, tr("Export"), QDir::homePath());
-  if (path.isEmpty()) return;
-  for (const auto& file : made->files) {
-    if (const Status written = write_file(path.toStdString() + file.suffix, file.text); !written) {
-      show(written.error());
-      return;
-    }
-  }
-  for (const auto& line : made->confirm) bench().log(LogKind::warning, QString::fromStdString(line));
-  bench().log(LogKind::good, tr("Exported: %1").arg(path));
+  const auto complain = [this](const Error& error) { show(error); };
+  const auto* format = m_format == 0 ? nullptr : &formats.at(static_cast<std::size_t>(m_format - 1));
+  export_with_question(m_page, bench(), table(), format, one_point, complain);
 }
 
 void AxisErrorsPresenter::fillMeasurement(ui::AxisState& state) const {
@@ -219,6 +265,7 @@ void AxisErrorsPresenter::fillMeasurement(ui::AxisState& state) const {
     state.runs.append(run);
   }
   state.position_mm = QVector<double>(m_position_mm.begin(), m_position_mm.end());
+  state.mean_um = QVector<double>(m_error_um.begin(), m_error_um.end());
   state.fileNotes = tr("%1: %n target(s)", nullptr, static_cast<int>(m_report.targets_mm.size()))
                         .arg(QFileInfo(QString::fromStdString(m_report.file)).fileName()) +
                     QStringLiteral(", ") + tr("%n run(s)", nullptr, static_cast<int>(runs.size()));
@@ -310,6 +357,10 @@ void AxisErrorsPresenter::fillFormat(ui::AxisState& state) const {
   QStringList losses;
   for (const auto& loss : made->losses) losses << QString::fromStdString(loss);
   state.formatLoss = losses.join(QStringLiteral("; "));
+  state.formatLoss_um = made->loss_um;
+  QStringList confirm;
+  for (const auto& line : made->confirm) confirm << QString::fromStdString(line);
+  state.formatConfirm = confirm.join(QStringLiteral("; "));
 }
 
 void AxisErrorsPresenter::refresh() {
@@ -317,6 +368,14 @@ void AxisErrorsPresenter::refresh() {
   if (!m_position_mm.empty()) {
     state.axis = QString::fromStdString(axisName());
     state.axes = {state.axis};
+    if (m_report.axes.size() > 1) {
+      state.axes.clear();
+      for (std::size_t i = 0; i < m_report.axes.size(); ++i) {
+        state.axes << QString::fromStdString(m_report.axes[i]);
+        if (m_report.axes[i] == m_report.axis) state.chosenAxis = static_cast<int>(i);
+      }
+    }
+    state.columnsAsked = m_how.mapping.has_value() || !m_report.warnings.empty();
     state.file = QString::fromStdString(m_report.file);
     fillMeasurement(state);
     fillFigures(state);

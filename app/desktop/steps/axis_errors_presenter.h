@@ -20,12 +20,16 @@ class AxisErrorsPresenter : public Presenter {
   void refresh() override;
   void tour(std::function<void(bool good)> done) override;
   bool load(const QString& path);
+  /// In the tour nobody is there to be asked for columns.
+  void setAsking(bool asking) { m_asking = asking; }
 
  private:
   void open();
   void cut();
   void use();
-  void exportTable();
+  void exportTable(bool one_point);
+  bool read();
+  void askAgain();
   void fillMeasurement(ui::AxisState& state) const;
   void fillFigures(ui::AxisState& state) const;
   void fillSegments(ui::AxisState& state) const;
@@ -36,6 +40,11 @@ class AxisErrorsPresenter : public Presenter {
   compensation::Table table() const;
 
   ui::AxisPage* m_page;
+  QString m_file;
+  std::string m_bytes;  // of the file: its columns may be told anew
+  compensation::LaserOptions m_how;
+  std::optional<compensation::LaserPreview> m_preview;
+  bool m_asking = true;
   compensation::LaserReport m_report;
   std::vector<double> m_position_mm;
   std::vector<double> m_error_um;

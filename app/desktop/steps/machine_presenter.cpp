@@ -19,6 +19,10 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t readings_kept = 30;
 constexpr int jobs_remembered = 8;
+constexpr double course_s = 900.0;  // of the machine: how far back the change of temperatures is looked at
+constexpr double course_least_s = 180.0;
+constexpr std::size_t course_least = 20;
+constexpr std::size_t course_most = 900;
 
 double noise_of(const std::deque<std::vector<double>>& readings, std::size_t sensor) {
   // From differences of neighbours, so that a slow drift is no noise.
@@ -33,10 +37,45 @@ double noise_of(const std::deque<std::vector<double>>& readings, std::size_t sen
   return count < 3 ? unknown : std::sqrt(squares / (2.0 * count));
 }
 
+/// Kelvin an hour by least squares over the course; NaN while it is too short, or while the sensor was silent.
+double slope_K_h(const std::deque<std::pair<double, std::vector<double>>>& course, std::size_t sensor) {
+  if (course.size() < course_least || course.back().first - course.front().first < course_least_s) return unknown;
+  double mean_t = 0.0;
+  double mean_T = 0.0;
+  const auto n = static_cast<double>(course.size());
+  for (const auto& [time_s, values] : course) {
+    mean_t += time_s / n;
+    mean_T += values[sensor] / n;
+  }
+  double tt = 0.0;
+  double tT = 0.0;
+  for (const auto& [time_s, values] : course) {
+    tt += (time_s - mean_t) * (time_s - mean_t);
+    tT += (time_s - mean_t) * (values[sensor] - mean_T);
+  }
+  return 3600.0 * tT / tt;
+}
+
+double median_of(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }), values.end());
+  if (values.empty()) return unknown;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+QString tag_of(const MachineLook& look, std::size_t sensor) {
+  const auto& sensors = look.identity.sensors;
+  const QString id = sensor < sensors.size() ? QString::fromStdString(sensors[sensor].channel)
+                                             : QStringLiteral("T%1_C").arg(sensor + 1);
+  return QString(id).remove(QStringLiteral("_C"));
+}
+
 }  // namespace
 
 MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, DemoMachine& demo)
-    : Presenter(bench, page), m_page(page), m_demo(demo) {
+    : Presenter(bench, page), m_page(page), m_demo(demo), m_map(new MapEditor(bench, page)) {
+  connect(m_map, &MapEditor::draftChanged, this, &MachinePresenter::refresh);
+  connect(m_map, &MapEditor::refused, this, [this](const Error& error) { show(error); });
   connect(page, &ui::MachinePage::newJobRequested, this, &MachinePresenter::chooseNewJob);
   connect(page, &ui::MachinePage::openJobRequested, this, [this](const QString& path) {
     if (path.isEmpty()) {
@@ -61,6 +100,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   connect(&bench, &Workbench::machineLost, this, [this](const Error& error) {
     m_connecting = false;
     m_readings.clear();
+    m_course.clear();
     show(error);
     refresh();
   });
@@ -191,7 +231,18 @@ void MachinePresenter::looked() {
   m_connecting = false;
   const auto& look = bench().look();
   if (!look) return;
-  if (!m_readings.empty() && m_readings.back().size() != look->sample.temperature_C.size()) m_readings.clear();
+  if (!m_readings.empty() && m_readings.back().size() != look->sample.temperature_C.size()) {
+    m_readings.clear();
+    m_course.clear();
+  }
+  const double now_s = look->sample.machine_time_s;
+  if (!m_course.empty() && now_s <= m_course.back().first) m_course.clear();  // another machine, or it began anew
+  m_course.emplace_back(now_s, look->sample.temperature_C);
+  // On a quick machine a few looks are hours: then as many as a slope needs.
+  while (m_course.size() > course_most ||
+         (m_course.size() > course_least && now_s - m_course.front().first > course_s)) {
+    m_course.pop_front();
+  }
   m_readings.push_back(look->sample.temperature_C);
   if (m_readings.size() > readings_kept) m_readings.pop_front();
   refresh();
@@ -228,47 +279,82 @@ void MachinePresenter::refresh() {
     state.profile = 0;
     state.machineName = QString::fromStdString(profile->name);
   }
-  if (const auto& look = bench().look()) {
-    double low = unknown;
-    double high = unknown;
-    const auto& sensors = look->identity.sensors;
-    for (std::size_t i = 0; i < look->sample.temperature_C.size(); ++i) {
-      ui::SensorHealth health;
-      const bool known = i < sensors.size();
-      health.id = known ? QString::fromStdString(sensors[i].channel) : QStringLiteral("T%1_C").arg(i + 1);
-      health.tag = QString(health.id).remove(QStringLiteral("_C"));
-      health.label = known ? QString::fromStdString(sensors[i].label) : QString();
-      health.place = known ? QString::fromStdString(sensors[i].place) : QString();
-      health.value_C = look->sample.temperature_C[i];
-      health.age_s = 0.0;
-      health.noise_K = noise_of(m_readings, i);
-      const bool dead = std::isnan(health.value_C);
-      const bool stuck = !dead && m_readings.size() >= 20 && health.noise_K == 0.0;
-      health.judgement = dead ? ui::Judgement::bad : stuck ? ui::Judgement::warn : ui::Judgement::ok;
-      health.state = dead ? tr("No signal") : stuck ? tr("Stuck") : tr("OK");
-      if (!dead) {
-        low = std::isnan(low) ? health.value_C : std::min(low, health.value_C);
-        high = std::isnan(high) ? health.value_C : std::max(high, health.value_C);
-      }
-      state.sensors.append(health);
-    }
-    state.spread_K = high - low;
-    state.roundTrip_ms = look->round_trip_ms;
-    state.clockDifference_s = std::round(10.0 * look->clock_difference_s) / 10.0 + 0.0;  // no "-0.0"
-    for (const auto& [axis, position] : look->sample.axes) {
-      const bool turns = axis == "A" || axis == "B" || axis == "C";
-      state.parts.append(
-          {QString::fromStdString(axis), tr("%1 axis").arg(QString::fromStdString(axis)),
-           QStringLiteral("%1 %2").arg(position, 0, 'f', 3).arg(turns ? QStringLiteral("°") : QStringLiteral("mm")),
-           look->sample.referenced ? ui::Judgement::ok : ui::Judgement::warn});
-    }
-    state.parts.append({QStringLiteral("spindle"), tr("Spindle"), tr("%1 rpm").arg(look->sample.spindle_rpm, 0, 'f', 0),
-                        ui::Judgement::ok});
-    state.parts.append({QStringLiteral("switch"), tr("Compensation"),
-                        look->sample.compensation_on ? tr("ON") : tr("OFF"),
-                        look->sample.compensation_on ? ui::Judgement::warn : ui::Judgement::ok});
+  if (bench().look()) {
+    fillSensors(state);
+    fillRest(state);
+    fillParts(state);
   }
+  m_map->fill(state);
   m_page->setState(state);
+}
+
+void MachinePresenter::fillSensors(ui::MachineState& state) {
+  const auto& look = *bench().look();
+  const auto& sensors = look.identity.sensors;
+  const QDateTime now = QDateTime::currentDateTime();
+  for (std::size_t i = 0; i < look.sample.temperature_C.size(); ++i) {
+    ui::SensorHealth health;
+    const bool known = i < sensors.size();
+    health.tag = tag_of(look, i);
+    health.id = health.tag + QStringLiteral("_C");
+    health.label = known ? QString::fromStdString(sensors[i].label) : QString();
+    health.place = known ? QString::fromStdString(sensors[i].place) : QString();
+    health.value_C = look.sample.temperature_C[i];
+    health.noise_K = noise_of(m_readings, i);
+    const bool dead = std::isnan(health.value_C);
+    if (!dead) m_alive[health.id] = now;
+    if (m_alive.contains(health.id)) health.age_s = 1e-3 * static_cast<double>(m_alive[health.id].msecsTo(now));
+    const bool stuck = !dead && m_readings.size() >= 20 && health.noise_K == 0.0;
+    health.judgement = dead ? ui::Judgement::bad : stuck ? ui::Judgement::warn : ui::Judgement::ok;
+    health.state = dead ? tr("No signal") : stuck ? tr("Stuck") : tr("OK");
+    state.sensors.append(health);
+  }
+  state.roundTrip_ms = look.round_trip_ms;
+  state.clockDifference_s = std::round(10.0 * look.clock_difference_s) / 10.0 + 0.0;  // no "-0.0"
+}
+
+void MachinePresenter::fillRest(ui::MachineState& state) const {
+  const auto& look = *const_cast<MachinePresenter*>(this)->bench().look();
+  const auto& now_C = look.sample.temperature_C;
+  const double middle_C = median_of(now_C);
+  double low = unknown;
+  double high = unknown;
+  ui::RestState& rest = state.rest;
+  for (std::size_t i = 0; i < now_C.size(); ++i) {
+    if (std::isnan(now_C[i])) continue;
+    low = std::fmin(low, now_C[i]);
+    high = std::fmax(high, now_C[i]);
+    const double apart_K = now_C[i] - middle_C;
+    if (std::isnan(rest.apart_K) || std::abs(apart_K) > std::abs(rest.apart_K)) {
+      rest.apart_K = apart_K;
+      rest.warmest = tag_of(look, i);
+    }
+    const double slope = slope_K_h(m_course, i);
+    if (std::isnan(slope)) continue;
+    if (std::isnan(rest.change_K_h) || std::abs(slope) > std::abs(rest.change_K_h)) {
+      rest.change_K_h = slope;
+      rest.quickest = tag_of(look, i);
+    }
+  }
+  rest.spread_K = high - low;
+}
+
+void MachinePresenter::fillParts(ui::MachineState& state) const {
+  const auto& look = *const_cast<MachinePresenter*>(this)->bench().look();
+  const auto& sample = look.sample;
+  for (const auto& [axis, position] : sample.axes) {
+    const bool turns = axis == "A" || axis == "B" || axis == "C";
+    state.parts.append(
+        {QString::fromStdString(axis), tr("%1 axis").arg(QString::fromStdString(axis)),
+         QStringLiteral("%1 %2").arg(position, 0, 'f', 3).arg(turns ? QStringLiteral("°") : QStringLiteral("mm")),
+         sample.referenced ? ui::Judgement::ok : ui::Judgement::warn});
+  }
+  if (!std::isnan(sample.spindle_rpm)) {
+    state.parts.append(
+        {QStringLiteral("spindle"), tr("Spindle"), tr("%1 rpm").arg(sample.spindle_rpm, 0, 'f', 0), ui::Judgement::ok});
+  }
+  state.parts.append({QStringLiteral("switch"), tr("Compensation"), sample.compensation_on ? tr("ON") : tr("OFF"),
+                      sample.compensation_on ? ui::Judgement::warn : ui::Judgement::ok});
 }
 
 void MachinePresenter::tour(std::function<void(bool good)> done) {

@@ -1,16 +1,19 @@
 #pragma once
 // The machine page: the job file, the connection profile, the health list, Start commissioning.
 
+#include <QDateTime>
 #include <QHash>
 #include <QVector>
 #include <deque>
 
 #include "app/desktop/demo_machine.h"
+#include "app/desktop/map_editor.h"
 #include "app/desktop/presenter.h"
 
 namespace zerodrift::ui {
 class MachinePage;
-}
+struct MachineState;
+}  // namespace zerodrift::ui
 
 namespace zerodrift::desktop {
 
@@ -37,12 +40,19 @@ class MachinePresenter : public Presenter {
   void looked();
   void remember(const QString& path);
   QString connectionText() const;
+  void fillSensors(ui::MachineState& state);
+  void fillRest(ui::MachineState& state) const;
+  void fillParts(ui::MachineState& state) const;
 
   ui::MachinePage* m_page;
   DemoMachine& m_demo;
   bool m_connecting = false;
+  MapEditor* m_map;
   // The last readings of each sensor, for its noise.
   std::deque<std::vector<double>> m_readings;
+  // And over minutes of the machine's time, for what still changes.
+  std::deque<std::pair<double, std::vector<double>>> m_course;
+  QHash<QString, QDateTime> m_alive;  // when a sensor last had a value
   std::function<void()> m_whenReady;
 };
 

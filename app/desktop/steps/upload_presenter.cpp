@@ -1,13 +1,13 @@
 #include "app/desktop/steps/upload_presenter.h"
 
-#include <QDir>
-#include <QFileDialog>
+#include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "app/desktop/ask.h"
 #include "app/desktop/machine_writes.h"
+#include "app/desktop/table_export.h"
 #include "app/desktop/upload_view.h"
 #include "core/base/time_text.h"
 #include "core/controller/table_history.h"
@@ -24,7 +24,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double steepest_limit_um_per_K = 50.0;  // docs/register-map.md
+constexpr int sign_stands_min = 60;  // so long a sign check on the same machine is not repeated
 
 long long id_of_latest(const commissioning::Job& job, const char* kind) {
   const auto latest = job.latest(kind);
@@ -41,6 +41,21 @@ std::vector<controller::UploadStep> steps_from(const json& states) {
     }
   }
   return steps;
+}
+
+QString expressed(const compensation::Table& table) {
+  bool terms = false;
+  bool points = false;
+  for (const auto& [name, axis] : table.axes) {
+    terms = terms || !axis.terms.empty();
+    points = points || !axis.points.empty();
+  }
+  const auto words = [](const char* text) {
+    return QCoreApplication::translate("zerodrift::desktop::UploadPresenter", text);
+  };
+  return terms && points ? words("temperature terms and position points")
+         : points        ? words("position points")
+                         : words("temperature terms");
 }
 
 QString axes_text(const compensation::Table& table) {
@@ -61,7 +76,7 @@ UploadPresenter::UploadPresenter(Workbench& bench, ui::UploadPage* page) : Prese
     }
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
-    if (action == QStringLiteral("dryRun")) preview({});
+    if (action == QStringLiteral("dryRun")) dryRun();
     if (action == QStringLiteral("sign")) checkSign();
     if (action == QStringLiteral("export")) exportTable();
   });
@@ -98,12 +113,77 @@ void UploadPresenter::preview(Done done) {
         if (good) {
           m_preview = std::move(*seen);
           m_previewOf = model;
+          tellForeign();
         }
         m_reading = false;
         refresh();
         if (done) done(good);
         if (const Done after = std::exchange(m_afterPreview, {})) after(good);
       });
+}
+
+void UploadPresenter::tellForeign() {
+  const json body = bench().body("upload");
+  if (!body.is_object() || !m_preview) return;
+  const auto own = body.at("record").value("new_words", std::vector<std::uint16_t>{});
+  const auto& now = m_preview->record.old_words;
+  if (own == now || (own.size() <= 2 && now.size() <= 2)) return;
+  m_page->setProblem(
+      {ui::ProblemKind::warning,
+       tr("The machine holds version %1, which is not the table of this job.").arg(m_preview->record.old_sequence),
+       tr("It was written from elsewhere. Compare before you write; it cannot be rolled back from here."),
+       {}});
+}
+
+void UploadPresenter::dryRun() {
+  preview([this](bool good) {
+    if (!good || !m_preview) return;
+    m_dryRunAt = QDateTime::currentDateTime();
+    m_steps = m_preview->record.steps;
+    const auto& record = m_preview->record;
+    const QString what = tr("%n register(s)", nullptr, static_cast<int>(record.new_words.size()));
+    m_page->setProblem(
+        {ui::ProblemKind::success,
+         tr("The dry run is good: the machine is ready, %1 fit, the largest change now would be %2 µm in %3.")
+             .arg(what)
+             .arg(m_preview->largest_change_um, 0, 'f', 1)
+             .arg(QString::fromStdString(m_preview->largest_change_axis)),
+         tr("Nothing was written, not even the switch."),
+         {}});
+    bench().log(LogKind::good, tr("Dry run: %1, nothing written").arg(what));
+    refresh();
+  });
+}
+
+QString UploadPresenter::machineId() const {
+  const auto& workbench = const_cast<UploadPresenter*>(this)->bench();
+  const auto& profile = workbench.profile();
+  const auto& look = workbench.look();
+  if (!profile) return {};
+  return QString::fromStdString(profile->name) + QLatin1Char('/') +
+         QString::number(look ? look->identity.serial : (m_preview ? m_preview->record.serial : 0U));
+}
+
+void UploadPresenter::noteSign(const controller::SignCheckRecord& record) {
+  m_sign = record;
+  m_signAt = QDateTime::currentDateTime();
+  m_signMachine = machineId();
+}
+
+bool UploadPresenter::signStands() const {
+  return m_sign && m_sign->result && m_signMachine == machineId() &&
+         m_signAt.secsTo(QDateTime::currentDateTime()) < 60 * sign_stands_min;
+}
+
+ui::Stage UploadPresenter::signStage(const ui::SignCheckResult& sign) const {
+  ui::Stage stage{tr("Sign seen by the camera")};
+  if (sign.measured) {
+    stage.state = sign.judgement == ui::Judgement::bad ? ui::StageState::failed : ui::StageState::done;
+    stage.detail = sign.note;
+  } else if (m_writing) {
+    stage.state = m_steps.empty() ? ui::StageState::running : ui::StageState::skipped;
+  }
+  return stage;
 }
 
 bool UploadPresenter::confirmed(const QString& heading, const QString& text) const {
@@ -123,14 +203,19 @@ void UploadPresenter::askAndWrite(Done done) {
     const QString heading =
         tr("Write the table into %1?")
             .arg(tr("%1 (serial %2)").arg(QString::fromStdString(record.machine)).arg(record.serial));
+    const QString signs = m_correction ? QString()
+                          : signStands()
+                              ? tr("The sign was checked at %1.").arg(m_signAt.toString(QStringLiteral("HH:mm")))
+                              : tr("Before that each axis is moved by 10 µm and back, watched by the camera.");
     const QString text =
         tr("Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation "
-           "is off while it is written and on afterwards.")
+           "is off while it is written and on afterwards. %6")
             .arg(axes_text(m_preview->table))
             .arg(m_preview->largest_change_um, 0, 'f', 1)
             .arg(QString::fromStdString(m_preview->largest_change_axis))
             .arg(record.sequence)
-            .arg(record.old_sequence);
+            .arg(record.old_sequence)
+            .arg(signs);
     if (confirmed(heading, text)) {
       write(done);
     } else if (done) {
@@ -160,16 +245,18 @@ void UploadPresenter::write(Done done) {
   m_writing = true;
   m_failed = false;
   m_steps.clear();
+  m_dryRunAt = {};
   refresh();
   flow::UploadStepOptions options;
   options.table = m_correction;
   options.sign_check = !m_correction;
+  if (signStands()) options.checked_signs = m_sign;
   options.observer = observer();
   options.sign_observer = [this](const controller::SignCheckRecord& record) {
     QMetaObject::invokeMethod(
         this,
         [this, record] {
-          m_sign = record;
+          noteSign(record);
           refresh();
         },
         Qt::QueuedConnection);
@@ -214,6 +301,7 @@ void UploadPresenter::rollBack(int version) {
   m_writing = true;
   m_failed = false;
   m_steps.clear();
+  m_dryRunAt = {};
   runStep(
       tr("Going back to version %1").arg(version),
       [profile = *profile, job, watch = observer()](const TaskContext& context) {
@@ -240,7 +328,10 @@ void UploadPresenter::checkSign() {
       tr("Checking the sign"),
       [profile = *profile, job](const TaskContext& context) { return try_signs(*job, profile, context); },
       [this](Result<controller::SignCheckRecord> record) {
-        if (record) m_sign = std::move(*record);
+        if (record) {
+          noteSign(*record);
+          if (!record->result) show(record->result.error());
+        }
         refresh();
       });
 }
@@ -259,14 +350,7 @@ void UploadPresenter::exportTable() {
     }
   }
   if (!table) return;
-  const QString path = QFileDialog::getSaveFileName(
-      m_page, tr("Save table"), QDir::homePath() + QStringLiteral("/table.json"), tr("Tables (*.json)"));
-  if (path.isEmpty()) return;
-  if (const Status written = compensation::write_table_file(path.toStdString(), *table); !written) {
-    show(written.error());
-  } else {
-    bench().log(LogKind::good, tr("Table saved: %1").arg(path));
-  }
+  export_with_question(m_page, bench(), *table, nullptr, false, [this](const Error& error) { show(error); });
 }
 
 bool UploadPresenter::isWritten() const {
@@ -280,6 +364,8 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
   state.oldVersion = record.old_sequence;
   state.newVersion = record.sequence;
   state.largestChange_um = m_preview->largest_change_um;
+  if (!m_dryRunAt.isNull() && !m_writing)
+    state.stagesNote = tr("dry run %1").arg(m_dryRunAt.toString(QStringLiteral("HH:mm")));
   state.registers = static_cast<double>(record.new_words.size());
   state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
   for (const auto& warning : record.warnings) state.lost << QString::fromStdString(warning);
@@ -289,12 +375,14 @@ void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body)
   state.written = isWritten();
   const json record = body.value("record", json::object());
   if (!m_sign) state.sign = sign_of(body.value("sign_check", json()));
-  if (m_preview && !state.written) return;
-  state.newVersion = body.value("version", 0);
+  if (m_preview && (!state.written || m_correction)) return;
+  state.stagesNote.clear();
+  if (const int version = body.value("version", 0); version > 0) state.newVersion = version;
   state.oldVersion = record.value("old_sequence", 0);
   state.largestChange_um = body.value("largest_change_um", std::nan(""));
   state.registers = body.value("registers", std::nan(""));
-  if (m_steps.empty()) state.stages = stages_of(steps_from(body.value("states", json::array())), false, false);
+  if (m_steps.empty() || !m_dryRunAt.isNull())
+    state.stages = stages_of(steps_from(body.value("states", json::array())), false, false);
 }
 
 void UploadPresenter::fillHistory(ui::UploadState& state) const {
@@ -331,11 +419,17 @@ void UploadPresenter::refresh() {
   const auto model = flow::model_of(**artefact);
   const json body = bench().body("upload");
   state.changeLimit_um = profile ? profile->max_um : 200.0;
-  state.steepestLimit_um_per_K = steepest_limit_um_per_K;
+  state.steepestLimit_um_per_K = profile ? profile->max_um_per_K : 50.0;
+  if (const auto& look = bench().look(); look && look->identity.table_capacity_registers > 0) {
+    state.capacity = look->identity.table_capacity_registers;
+  }
   state.writing = m_writing;
   state.machineName = profile ? QString::fromStdString(profile->name) : QString();
   state.stages = stages_of(m_steps, m_writing, m_failed);
-  if (m_sign) state.sign = sign_of(*m_sign);
+  if (m_sign) {
+    state.sign = sign_of(*m_sign);
+    state.sign.note = tr("checked %1").arg(m_signAt.toString(QStringLiteral("HH:mm")));
+  }
   if (m_preview) fillFromPreview(state);
   if (body.is_object()) fillFromArtefact(state, body);
   if (profile && model) {
@@ -343,7 +437,7 @@ void UploadPresenter::refresh() {
     const auto run = warmup ? flow::run_of(*job, *warmup).value_or(recording::Recording{}) : recording::Recording{};
     compensation::Table old_table;
     compensation::Table table;
-    if (m_preview) {
+    if (m_preview && (!state.written || m_correction)) {
       old_table = m_preview->record.old_table;
       table = m_preview->table;
     } else if (state.written) {
@@ -359,9 +453,10 @@ void UploadPresenter::refresh() {
     if (!model->is_static()) {
       state.lost << tr("the model's memory of the past (its static part is written)");
     }
-    state.expressed = tr("temperature terms of %n axis(es)", nullptr, static_cast<int>(table.axes.size()));
+    state.expressed = expressed(table);
   }
   fillHistory(state);
+  if (!m_correction) state.stages.prepend(signStage(state.sign));
   m_page->setState(state);
 }
 

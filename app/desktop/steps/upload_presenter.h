@@ -1,6 +1,7 @@
 #pragma once
 // The upload page: old and new table, the transaction as it passes, the sign check, history with rollback.
 
+#include <QDateTime>
 #include <functional>
 #include <optional>
 
@@ -9,6 +10,8 @@
 
 namespace zerodrift::ui {
 class UploadPage;
+struct SignCheckResult;
+struct Stage;
 struct UploadState;
 }  // namespace zerodrift::ui
 
@@ -36,6 +39,13 @@ class UploadPresenter : public Presenter {
   void write(Done done);
   void rollBack(int version);
   void checkSign();
+  void dryRun();
+  void tellForeign();
+  void noteSign(const controller::SignCheckRecord& record);
+  /// The sign was checked on this machine a short while ago and was right.
+  bool signStands() const;
+  ui::Stage signStage(const ui::SignCheckResult& sign) const;
+  QString machineId() const;
   void exportTable();
   void follow(const controller::UploadStep& step);
   void fillFromPreview(ui::UploadState& state) const;
@@ -49,6 +59,9 @@ class UploadPresenter : public Presenter {
   std::optional<flow::UploadPreview> m_preview;
   std::optional<compensation::Table> m_correction;
   std::optional<controller::SignCheckRecord> m_sign;
+  QDateTime m_signAt;     // when it was checked in this session
+  QString m_signMachine;  // and on which
+  QDateTime m_dryRunAt;
   std::vector<controller::UploadStep> m_steps;
   long long m_previewOf = 0;  // the model it was made from
   Done m_afterPreview;        // asked for while the machine was being read already

@@ -38,12 +38,6 @@ std::map<std::string, std::pair<std::string, std::string>> entries_of(const comp
 }
 
 json body_of(const UploadPreview& preview, const controller::UploadRecord& record, const json& signs) {
-  json difference = json::array();
-  for (const auto& [what, values] : entries_of(record.old_table, preview.table)) {
-    difference.push_back({{"what", what},
-                          {"old", values.first.empty() ? "-" : values.first},
-                          {"new", values.second.empty() ? "-" : values.second}});
-  }
   json states = json::array();
   for (const auto& step : record.steps) {
     const auto since = std::chrono::duration<double>(step.time - record.started).count();
@@ -56,7 +50,7 @@ json body_of(const UploadPreview& preview, const controller::UploadRecord& recor
           {"crc32", fmt::format("{:08x}", record.crc)},
           {"registers", record.new_words.size()},
           {"largest_change_um", preview.largest_change_um},
-          {"difference", difference},
+          {"difference", table_difference(record.old_table, preview.table)},
           {"states", states},
           {"sign_check", signs},
           {"record", controller::to_json(record)},
@@ -68,6 +62,10 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
   ZD_TRY(const auto identity, devices.machine->identify());
   if (!options.sign_check || !identity.accepts_host_offset) {
     out = nullptr;
+    return {};
+  }
+  if (options.checked_signs && options.checked_signs->result) {
+    out = controller::to_json(*options.checked_signs);
     return {};
   }
   context.progress(0.1, "checking the sign");
@@ -89,6 +87,16 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
 }
 
 }  // namespace
+
+json table_difference(const compensation::Table& old_table, const compensation::Table& new_table) {
+  json difference = json::array();
+  for (const auto& [what, values] : entries_of(old_table, new_table)) {
+    difference.push_back({{"what", what},
+                          {"old", values.first.empty() ? "-" : values.first},
+                          {"new", values.second.empty() ? "-" : values.second}});
+  }
+  return difference;
+}
 
 Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
                                      const std::optional<compensation::Table>& table, const TaskContext& context) {

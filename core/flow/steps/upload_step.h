@@ -28,8 +28,13 @@ struct UploadStepOptions {
   std::function<void(const controller::UploadStep&)> observer;
   std::function<void(const controller::SignCheckRecord&)> sign_observer;
   bool sign_check = true;
+  /// A check that passed on this machine a short while ago: it stands for the one before the upload.
+  std::optional<controller::SignCheckRecord> checked_signs;
   std::optional<compensation::Table> table;  // instead of the model's, for a correction
 };
+
+/// [{what, old, new}]: terms, offsets and points of both tables.
+nlohmann::json table_difference(const compensation::Table& old_table, const compensation::Table& new_table);
 
 /// What would be written, against what is there; writes nothing.
 Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,

@@ -45,7 +45,7 @@ void fillMachine(Page* page, const QString& scene) {
   s.address = "Modbus TCP 127.0.0.1:1502, unit 1";
   s.profiles = {"Virtual five-axis", "VMC-850 shop floor", "Import a profile"};
   s.profile = 0;
-  s.spread_K = 0.62;
+  s.rest.spread_K = 0.62;
   s.roundTrip_ms = 1.8;
   s.clockDifference_s = 0.4;
   for (int i = 0; i < 20; ++i) {
@@ -75,9 +75,20 @@ void fillMachine(Page* page, const QString& scene) {
              {"front", "Camera front", "25 frames/s", Judgement::ok},
              {"side", "Camera side", "25 frames/s", Judgement::ok},
              {"switch", "Compensation", "OFF", Judgement::ok}};
-  s.registers = {{0, "uint16", "R", "Magic", "0x5A44"}, {96, "int16", "R", "Ambient air, 1/16 °C", "20.3 °C"}};
+  s.registers = {
+      {"magic", "identity: fixed number", 0, "holding", "uint16", 1, "1", "ABCD", "23108", "5A44", false},
+      {"compensation_state", "compensation switch, 0 or 1", 17, "holding", "uint16", 1, "1", "ABCD", "0", "0000",
+       false},
+      {"position_X_mm", "position X, mm", 20, "holding", "float32", 1, "1", "ABCD", "0.000", "0000 0000", false},
+      {"ambient_C", "room temperature, C", 96, "holding", "int16", 1, "0.0625", "ABCD", "20.312", "0145", false},
+      {"temperature_C", "temperatures, C, in the profile's order", 100, "holding", "int16", 20, "0.0625", "ABCD",
+       "20.250, 20.188, 20.312, 20.250, 20.375, 20.250, 20.188, 20.250, ... (20)", "0144 0143", false},
+      {"probe_um", "probes X1 X2 Y1 Y2 Z, um", 162, "input", "float32", 5, "-1", "CDAB", "refused", "", true}};
+  s.registerNames = {"ambient_C", "compensation_state", "temperature_C"};
+  s.mapNotes = "zerodrift-virtual";
   machine->setState(s);
   machine->selectSensor("T1_C");
+  machine->showView(scene == "registers" ? 1 : 0);
 }
 
 }  // namespace zerodrift::ui::samples

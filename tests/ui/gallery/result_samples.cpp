@@ -45,7 +45,8 @@ void fillUpload(Page* page, const QString& scene) {
   const bool writing = scene == "writing";
   s.writing = writing;
   const StageState done = writing ? StageState::done : StageState::waiting;
-  s.stages = {{"Compensation off", done, writing ? "confirmed" : ""},
+  s.stages = {{"Sign seen by the camera", StageState::done, "checked 10:32"},
+              {"Compensation off", done, writing ? "confirmed" : ""},
               {"Save the old table", done, writing ? "version 3, 74 registers" : ""},
               {"Write in blocks", done, writing ? "86 registers" : ""},
               {"Read back and compare", writing ? StageState::running : StageState::waiting, {}},
@@ -55,11 +56,8 @@ void fillUpload(Page* page, const QString& scene) {
               {"Compensation on", StageState::waiting, {}},
               {"Ramp to full", StageState::waiting, {}}};
   s.sign.measured = true;
-  s.sign.commandedRight_um = 3;
-  s.sign.commandedUp_um = 8;
-  s.sign.seenRight_um = 3.2;
-  s.sign.seenUp_um = 7.8;
-  s.sign.sigma_um = 0.2;
+  s.sign.axes = {{"X", 10, 9.8, 0.3, true}, {"Y", 10, 10.4, 0.4, true}, {"Z", 10, 10.1, 0.2, true}};
+  s.sign.note = "checked 10:32";
   s.sign.word = "Same direction and size";
   s.sign.judgement = Judgement::ok;
   s.history = {{3, "14 Nov 2026 16:02", "A. Keller", "after spindle exchange", true, false},
@@ -219,6 +217,7 @@ void fillAxis(Page* page, const QString& scene) {
     s.position_mm.append(x);
     s.meanUp_um.append(error);
     s.meanDown_um.append(error - 2.4 - 0.4 * std::cos(x / 150.0));
+    s.mean_um.append(error - 1.2);
     s.sigmaUp_um.append(0.35);
     s.sigmaDown_um.append(0.4);
   }
@@ -262,6 +261,8 @@ void fillAxis(Page* page, const QString& scene) {
   s.roundTrip_nm = 0.12;
   s.formats = {"LinuxCNC", "SINUMERIK 840D", "Fanuc", "Heidenhain"};
   s.formatLoss = "backlash is one value, not one for each position";
+  s.formatLoss_um = 0.31;
+  s.formatConfirm = "the sign";
   axis->setState(s);
   axis->showView(scene == "segments" ? 1 : 0);
 }

@@ -1,0 +1,108 @@
+#include "app/desktop/table_export.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <algorithm>
+
+#include "core/base/file.h"
+
+namespace zerodrift::desktop {
+
+using controller::ExportFormat;
+
+namespace {
+
+QString said(const char* text) {
+  return QCoreApplication::translate("zerodrift::desktop::TableExport", text);
+}
+
+QString id_of(const ExportFormat& format) {
+  return QString::fromUtf8(format.id.data(), static_cast<int>(format.id.size()));
+}
+
+Status write_one(const ExportFormat& format, const compensation::Table& table, const controller::ExportOptions& options,
+                 const QString& path, bool one_point, WrittenExport& out) {
+  ZD_TRY(const auto made,
+         one_point ? controller::write_one_point(format, table, options) : format.write(table, options));
+  for (const auto& file : made.files) {
+    const std::string name = path.toStdString() + file.suffix;
+    ZD_CHECK(write_file(name, file.text));
+    out.files << QString::fromStdString(name);
+  }
+  for (const auto& line : made.losses) out.losses << QString::fromStdString(line);
+  for (const auto& line : made.confirm) out.confirm << QString::fromStdString(line);
+  out.loss_um = std::max(out.loss_um, made.loss_um);
+  return {};
+}
+
+}  // namespace
+
+Result<WrittenExport> write_export(const ExportFormat& format, const compensation::Table& table, const QString& path,
+                                   bool one_point) {
+  const bool one_axis = format.id == "linuxcnc" || format.id == "heidenhain";
+  WrittenExport out;
+  std::vector<std::string> axes;
+  for (const auto& [name, axis] : table.axes) {
+    if (axis.points.size() >= 2) axes.push_back(name);
+  }
+  if (!one_axis || axes.size() < 2) {
+    controller::ExportOptions options;
+    if (one_axis && axes.size() == 1) options.axis = axes.front();
+    ZD_CHECK(write_one(format, table, options, path, one_point, out));
+    return out;
+  }
+  const QFileInfo file(path);
+  for (const auto& axis : axes) {
+    controller::ExportOptions options;
+    options.axis = axis;
+    const QString ending = file.suffix().isEmpty() ? QString() : QLatin1Char('.') + file.suffix();
+    const QString own = file.path() + QLatin1Char('/') + file.completeBaseName() + QLatin1Char('_') +
+                        QString::fromStdString(axis) + ending;
+    ZD_CHECK(write_one(format, table, options, own, one_point, out));
+  }
+  return out;
+}
+
+bool export_with_question(QWidget* parent, Workbench& bench, const compensation::Table& table,
+                          const ExportFormat* format, bool one_point, const std::function<void(const Error&)>& show) {
+  const QString own = said("Zerodrift table (*.json)");
+  QStringList filters = {own};
+  if (format == nullptr) {
+    for (const auto& one : controller::export_formats()) filters << id_of(one) + QStringLiteral(" (*)");
+  } else {
+    filters = {id_of(*format) + QStringLiteral(" (*)")};
+  }
+  QString chosen;
+  const QString name = format == nullptr ? QStringLiteral("/table.json") : QLatin1Char('/') + id_of(*format);
+  const QString path = QFileDialog::getSaveFileName(parent, said("Export"), QDir::homePath() + name,
+                                                    filters.join(QStringLiteral(";;")), &chosen);
+  if (path.isEmpty()) return false;
+  if (format == nullptr && chosen != own) {
+    for (const auto& one : controller::export_formats()) {
+      if (chosen.startsWith(id_of(one) + QLatin1Char(' '))) format = &one;
+    }
+  }
+  if (format == nullptr) {
+    if (const Status written = compensation::write_table_file(path.toStdString(), table); !written) {
+      show(written.error());
+      return false;
+    }
+    bench.log(LogKind::good, said("Table saved: %1").arg(path));
+    return true;
+  }
+  const auto written = write_export(*format, table, path, one_point);
+  if (!written) {
+    show(written.error());
+    return false;
+  }
+  bench.log(LogKind::good, said("Exported: %1").arg(written->files.join(QStringLiteral(", "))));
+  for (const auto& line : written->losses) bench.log(LogKind::warning, said("Lost: %1").arg(line));
+  for (const auto& line : written->confirm) {
+    bench.log(LogKind::warning, (one_point ? said("Expect: %1") : said("Confirm on one point first: %1")).arg(line));
+  }
+  return true;
+}
+
+}  // namespace zerodrift::desktop
