@@ -120,7 +120,10 @@ class Loop {
       return {};
     }
     // The controller's own value counts: its watchdog or switch may have taken the offset out since the last turn.
-    ZD_TRY(const RegisterValues held, m_machine.read_values({"host_offset_um"}));
+    const bool beats = m_machine.map().find("heartbeat") != nullptr;
+    ZD_TRY(const RegisterValues held,
+           beats ? m_machine.read_values({"host_offset_um", "heartbeat"}) : m_machine.read_values({"host_offset_um"}));
+    if (beats) ZD_CHECK(hear(held.at("heartbeat").front()));
     const auto& values = held.at("host_offset_um");
     m_follower.start_from({values.at(0), values.at(1), values.at(2)});
     report.output = m_follower.step(sample.machine_time_s, channels, sample.axes);
@@ -128,6 +131,21 @@ class Loop {
       m_summary.largest_offset_um[i] = std::max(m_summary.largest_offset_um[i], std::abs(report.output.offset_um[i]));
     }
     return m_machine.write_host_offset(report.output.offset_um);
+  }
+
+  /// A controller that answers but no longer beats has stopped: what it says is old, and it applies what it likes.
+  Status hear(double beat) {
+    const double now_s = m_clock.steady().count();
+    if (!m_beat || beat != *m_beat) {
+      m_beats = m_beats || m_beat.has_value();
+      m_beat = beat;
+      m_beat_s = now_s;
+      return {};
+    }
+    const double silence_s = std::max(m_options.silence_s, 3.0 * m_options.period_s);
+    if (!m_beats || now_s - m_beat_s <= silence_s) return {};
+    return fail(ErrorCode::machine_silent,
+                {{"what", "its heartbeat"}, {"timeout_ms", fmt::format("{:.0f}", 1e3 * (now_s - m_beat_s))}});
   }
 
   Status run_to_zero() {
@@ -148,6 +166,9 @@ class Loop {
   SystemClock m_clock;
   CompensatorSummary m_summary;
   double m_last_good_s = 0.0;
+  std::optional<double> m_beat;  // the controller's, as last read
+  double m_beat_s = 0.0;         // when it changed
+  bool m_beats = false;          // it has been seen to change
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
 // The host compensator (C1): once a second or faster it reads the temperatures, lets the model predict and writes the
 // offset, interlocked with the switch. Both sides watch: the host beats a heartbeat, the controller ramps the offset to
-// 0 when it stops. At the end the offset is run to 0. Runs for days in constant memory.
+// 0 when it stops; and when the controller's own heartbeat stands still, a reply or not, nothing more is written to it,
+// as if it were gone. At the end the offset is run to 0. Runs for days in constant memory.
 
 #include <array>
 #include <functional>
@@ -20,6 +21,7 @@ struct HostCompensatorOptions {
   double period_s = 1.0;             // host seconds
   std::optional<double> duration_s;  // host seconds; none: until stopped
   double give_up_s = 60.0;           // host seconds without the machine before it ends with the link's error
+  double silence_s = 3.0;  // host seconds its heartbeat may stand still; a controller that never beats is not watched
   compensation::FollowerOptions follower;
   compensation::Predictor predictor;  // a model that remembers; none: the table predicts
 };

@@ -124,6 +124,40 @@ TEST(HostCompensator, WritesThePredictionAndRunsToZero) {
   EXPECT_DOUBLE_EQ(device.float_at(144), 0.0);
 }
 
+// It answers, but its heartbeat stands: nothing more is written, so that its watchdog can act; it beats again: on we
+// go.
+TEST(HostCompensator, AControllerThatNoLongerBeatsIsNotWrittenTo) {
+  Device device;
+  device.set(17, 1);
+  device.set(100, 16 * 24);
+  auto machine = open(device.profile());
+  std::stop_source stop;
+  HostCompensatorOptions options;
+  options.period_s = 0.02;
+  options.silence_s = 0.1;
+  int turns = 0;
+  int lost = 0;
+  std::uint16_t beat = 0;
+  std::uint16_t at_silence = 0;
+  bool again = false;
+  const auto summary =
+      run_host_compensator(*machine, model(), options, {stop.get_token(), {}}, [&](const CompensatorTurn& turn) {
+        ++turns;
+        if (turns < 20 || turns > 60) device.set(10, ++beat);
+        device.set(9, static_cast<std::uint16_t>(100 * turns));
+        if (turn.link_lost && ++lost == 1) at_silence = device.word(11);
+        if (turns == 60) {
+          EXPECT_GT(lost, 20);
+          EXPECT_EQ(device.word(11), at_silence) << "our heartbeat must stop too";
+        }
+        again = again || (turns > 60 && !turn.link_lost);
+        if (turns == 80) stop.request_stop();
+      });
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_TRUE(again);
+  EXPECT_EQ(summary->lost_turns, lost);
+}
+
 TEST(HostCompensator, IsInterlocked) {
   Device device;
   auto machine = open(device.profile());

@@ -47,6 +47,7 @@ AxisPage::AxisPage(QWidget* parent) : Page("axis_errors", parent) {
   m_tables->addWidget(m_segmentTable);
   m_figureCard->body()->addWidget(m_tables, 1);
   right->addWidget(m_figureCard, 1);
+  right->addWidget(makeExportCard());
   right->addWidget(makeRuleCard());
   row->addLayout(right);
   content()->addLayout(row, 1);
@@ -77,6 +78,19 @@ Card* AxisPage::makePlotCard() {
   return m_plotCard;
 }
 
+Card* AxisPage::makeExportCard() {
+  m_exportCard = new Card(this);
+  m_exportCard->setFixedWidth(side_width);
+  m_format = new QComboBox(m_exportCard);
+  m_format->setObjectName("format");
+  m_exportCard->tools()->addWidget(m_format);
+  m_check = new WrapLabel(m_exportCard);
+  m_check->setProperty("role", "caption");
+  m_exportCard->body()->addWidget(m_check);
+  connect(m_format, &QComboBox::activated, this, &AxisPage::formatChosen);
+  return m_exportCard;
+}
+
 Card* AxisPage::makeRuleCard() {
   m_ruleCard = new Card(this);
   m_ruleCard->setFixedWidth(side_width);
@@ -88,12 +102,10 @@ Card* AxisPage::makeRuleCard() {
   m_limit->setObjectName("criterionLimit");
   m_start = new QSpinBox(m_ruleCard);
   m_start->setRange(2, 20000);
-  m_format = new QComboBox(m_ruleCard);
-  m_format->setObjectName("format");
   auto* grid = new QGridLayout;
   grid->setHorizontalSpacing(10);
   grid->setVerticalSpacing(4);
-  const QVector<QWidget*> fields = {m_criterion, m_limit, m_start, m_format};
+  const QVector<QWidget*> fields = {m_criterion, m_limit, m_start};
   for (int i = 0; i < fields.size(); ++i) {
     auto* name = new QLabel(m_ruleCard);
     name->setProperty("role", "muted");
@@ -103,11 +115,11 @@ Card* AxisPage::makeRuleCard() {
     m_names.append(name);
   }
   grid->setColumnStretch(1, 1);
-  m_check = new WrapLabel(m_ruleCard);
-  m_check->setProperty("role", "caption");
+  m_blind = new WrapLabel(m_ruleCard);
+  m_blind->setProperty("role", "caption");
   m_ruleCard->body()->addWidget(m_rivals);
   m_ruleCard->body()->addLayout(grid);
-  m_ruleCard->body()->addWidget(m_check);
+  m_ruleCard->body()->addWidget(m_blind);
   const auto changed = [this] {
     if (m_filling) return;
     m_state.criterion = static_cast<SegmentCriterion>(m_criterion->currentIndex());
@@ -123,7 +135,6 @@ Card* AxisPage::makeRuleCard() {
   });
   connect(m_limit, &QDoubleSpinBox::editingFinished, this, changed);
   connect(m_start, &QSpinBox::editingFinished, this, changed);
-  connect(m_format, &QComboBox::activated, this, &AxisPage::formatChosen);
   connect(m_rivals, &DataTable::rowSelected, this, [this](int row) {
     if (row < 0 || m_filling || m_state.useOptimal == (row == fewest_row)) return;
     m_state.useOptimal = row == fewest_row;
@@ -206,7 +217,12 @@ void AxisPage::render() {
   m_view->setItems({tr("Measurement"), tr("Segments")});
   m_plotCard->setTitle(tr("Axis %1").arg(m_state.axis));
   m_plotCard->setSubtitle(m_state.fileNotes);
+  m_plotCard->setToolTip(m_state.fileNotes);
+  // The measurement is judged and exported; what is cut is chosen beside its picture.
+  m_ruleCard->setVisible(m_views->currentIndex() == 1);
+  m_exportCard->setVisible(m_views->currentIndex() == 0);
   renderRule();
+  renderExport();
   m_filling = false;
   renderLegend();
   renderMeasurement();
@@ -219,7 +235,7 @@ void AxisPage::renderRule() {
   renderRivals();
   const QStringList names = {tr("Criterion"),
                              m_state.criterion == SegmentCriterion::tolerance ? tr("Tolerance") : tr("Threshold"),
-                             tr("First points"), tr("Format")};
+                             tr("First points")};
   for (int i = 0; i < names.size(); ++i) m_names[i]->setText(names[i]);
   m_criterion->clear();
   m_criterion->addItems({tr("r on coordinates"), tr("r on errors"), tr("tolerance in µm")});
@@ -232,13 +248,18 @@ void AxisPage::renderRule() {
   m_limit->setValue(tolerance ? m_state.tolerance_um : m_state.threshold);
   m_start->setValue(m_state.startPoints);
   m_start->setEnabled(!m_state.useOptimal);
+  const bool blind = m_state.criterion == SegmentCriterion::coordinates;
+  m_blind->setText(blind ? tr("On coordinates r is about 1 whatever the error: it hardly cuts.") : QString());
+  m_blind->setVisible(blind);
+}
+
+void AxisPage::renderExport() {
+  m_exportCard->setTitle(tr("Export as"));
+  m_format->setAccessibleName(tr("Format of the export"));
   m_format->clear();
   m_format->addItems(m_state.formats);
   m_format->setCurrentIndex(m_state.format);
   QStringList check;
-  if (m_state.criterion == SegmentCriterion::coordinates) {
-    check.append(tr("On coordinates r is about 1 whatever the error: it hardly cuts."));
-  }
   check.append(m_state.formatLoss.isEmpty() ? tr("The format loses nothing.")
                                             : tr("Lost in this format: %1.").arg(m_state.formatLoss));
   if (!std::isnan(m_state.formatLoss_um)) {
@@ -250,8 +271,8 @@ void AxisPage::renderRule() {
 
 void AxisPage::renderRivals() {
   m_rivals->setColumns({{tr("Rule"), 0, false, {}},
-                        {tr("Segments"), 78, true, {}},
-                        {tr("Largest residual"), 118, true, tr("Of a measured point, µm")}});
+                        {tr("Segments"), 72, true, {}},
+                        {tr("Residual"), 78, true, tr("Largest of a measured point, µm")}});
   QVector<QVector<DataCell>> rows;
   for (const bool optimal : {false, true}) {
     const QVector<AxisSegment>& segments = optimal ? m_state.optimal : m_state.published;
@@ -276,11 +297,11 @@ void AxisPage::renderLegend() {
                         {tr("segments used"), colors().accent},
                         {tr("the other rule"), mix(colors().panel, colors().warn, 0.7), true}});
   } else {
-    m_legend->setItems({{tr("mean upwards"), axisColor(2)},
-                        {tr("mean downwards"), axisColor(0)},
-                        {tr("mean ± 2 s"), colors().muted, true, true},
+    m_legend->setItems({{tr("mean up"), axisColor(2)},
+                        {tr("mean down"), axisColor(0)},
+                        {tr("± 2 s"), colors().muted, true, true},
                         {tr("reversal B"), mix(colors().panel, colors().text, 0.5)},
-                        {tr("single runs"), colors().muted, false, false, true}});
+                        {tr("runs"), colors().muted, false, false, true}});
   }
 }
 

@@ -109,8 +109,10 @@ class AxisPage : public Page {
  private:
   Card* makePlotCard();
   Card* makeRuleCard();
+  Card* makeExportCard();
   void renderRule();
   void renderRivals();
+  void renderExport();
   void renderLimits();
   void renderLegend();
   void renderMeasurement();
@@ -123,6 +125,7 @@ class AxisPage : public Page {
   Card* m_plotCard;
   Card* m_figureCard;
   Card* m_ruleCard;
+  Card* m_exportCard;
   ToggleSegment* m_axis;
   ToggleSegment* m_view;
   QStackedWidget* m_views;
@@ -140,6 +143,7 @@ class AxisPage : public Page {
   QComboBox* m_format;
   QVector<QLabel*> m_names;
   QLabel* m_check;
+  QLabel* m_blind;
   bool m_filling = false;
 };
 
