@@ -6,7 +6,7 @@ namespace zerodrift::ui {
 namespace {
 
 constexpr int tallest_row = 24;
-constexpr int lowest_row = 19;
+constexpr int lowest_row = 17;
 
 }  // namespace
 

@@ -1,6 +1,5 @@
 #include "app/desktop/steps/upload_presenter.h"
 
-#include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,38 +25,6 @@ namespace {
 
 constexpr int sign_stands_min = 60;  // so long a sign check on the same machine is not repeated
 
-long long id_of_latest(const commissioning::Job& job, const char* kind) {
-  const auto latest = job.latest(kind);
-  return latest && *latest ? (*latest)->id : 0;
-}
-
-std::vector<controller::UploadStep> steps_from(const json& states) {
-  std::vector<controller::UploadStep> steps;
-  for (const auto& entry : states) {
-    for (int i = 0; i <= static_cast<int>(controller::UploadState::restore_failed); ++i) {
-      const auto state = static_cast<controller::UploadState>(i);
-      if (entry.value("state", "") == controller::name_of(state))
-        steps.push_back({state, {}, entry.value("detail", "")});
-    }
-  }
-  return steps;
-}
-
-QString expressed(const compensation::Table& table) {
-  bool terms = false;
-  bool points = false;
-  for (const auto& [name, axis] : table.axes) {
-    terms = terms || !axis.terms.empty();
-    points = points || !axis.points.empty();
-  }
-  const auto words = [](const char* text) {
-    return QCoreApplication::translate("zerodrift::desktop::UploadPresenter", text);
-  };
-  return terms && points ? words("temperature terms and position points")
-         : points        ? words("position points")
-                         : words("temperature terms");
-}
-
 QString axes_text(const compensation::Table& table) {
   QStringList axes;
   for (const auto& [name, axis] : table.axes) axes << QString::fromStdString(name);
@@ -82,6 +49,11 @@ UploadPresenter::UploadPresenter(Workbench& bench, ui::UploadPage* page) : Prese
   });
 }
 
+long long UploadPresenter::latestModel(const commissioning::Job& job) {
+  const auto latest = job.latest("model");
+  return latest && *latest ? (*latest)->id : 0;
+}
+
 void UploadPresenter::enter() {
   refresh();
   // Reading the old table writes nothing: the comparison is there when the page opens.
@@ -100,7 +72,7 @@ void UploadPresenter::preview(Done done) {
     if (done) done(false);
     return;
   }
-  const auto model = id_of_latest(*job, "model");
+  const auto model = latestModel(*job);
   m_reading = true;
   runTask<flow::UploadPreview>(
       tr("Reading the table in the machine"),
@@ -175,20 +147,8 @@ bool UploadPresenter::signStands() const {
          m_signAt.secsTo(QDateTime::currentDateTime()) < 60 * sign_stands_min;
 }
 
-ui::Stage UploadPresenter::signStage(const ui::SignCheckResult& sign) const {
-  ui::Stage stage{tr("Sign seen by the camera")};
-  if (sign.measured) {
-    stage.state = sign.judgement == ui::Judgement::bad ? ui::StageState::failed : ui::StageState::done;
-    stage.detail = sign.note;
-  } else if (m_writing) {
-    stage.state = m_steps.empty() ? ui::StageState::running : ui::StageState::skipped;
-  }
-  return stage;
-}
-
-bool UploadPresenter::confirmed(const QString& heading, const QString& text) const {
-  if (!m_asking) return true;
-  return ask(m_page, heading, text, tr("Write"));
+bool UploadPresenter::confirmed(const QString& heading, const QString& text, const QString& deed) const {
+  return !m_asking || ask(m_page, heading, text, deed);
 }
 
 void UploadPresenter::askAndWrite(Done done) {
@@ -216,7 +176,7 @@ void UploadPresenter::askAndWrite(Done done) {
             .arg(record.sequence)
             .arg(record.old_sequence)
             .arg(signs);
-    if (confirmed(heading, text)) {
+    if (confirmed(heading, text, tr("Write"))) {
       write(done);
     } else if (done) {
       done(false);
@@ -295,7 +255,7 @@ void UploadPresenter::rollBack(int version) {
   auto* job = bench().job();
   if (!profile || job == nullptr || m_writing) return;
   if (!confirmed(tr("Go back to version %1 in %2?").arg(version).arg(QString::fromStdString(profile->name)),
-                 tr("The table that was active before is written again, under a new version number."))) {
+                 tr("The table that was active before is written again, under a new version number."), tr("Go back"))) {
     return;
   }
   m_writing = true;
@@ -321,7 +281,8 @@ void UploadPresenter::checkSign() {
   if (!profile || job == nullptr || m_writing) return;
   if (!confirmed(tr("Move the axes of %1 by 10 µm?").arg(QString::fromStdString(profile->name)),
                  tr("A test offset is written for X, Y and Z, one after the other, watched by the camera and taken "
-                    "back."))) {
+                    "back."),
+                 tr("Move"))) {
     return;
   }
   runTask<controller::SignCheckRecord>(
@@ -351,113 +312,6 @@ void UploadPresenter::exportTable() {
   }
   if (!table) return;
   export_with_question(m_page, bench(), *table, nullptr, false, [this](const Error& error) { show(error); });
-}
-
-bool UploadPresenter::isWritten() const {
-  auto& workbench = const_cast<UploadPresenter*>(this)->bench();
-  if (!workbench.has("upload")) return false;
-  return flow::status_of(*workbench.job(), "upload").state == flow::StepState::current;
-}
-
-void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
-  const auto& record = m_preview->record;
-  state.oldVersion = record.old_sequence;
-  state.newVersion = record.sequence;
-  state.largestChange_um = m_preview->largest_change_um;
-  if (!m_dryRunAt.isNull() && !m_writing)
-    state.stagesNote = tr("dry run %1").arg(m_dryRunAt.toString(QStringLiteral("HH:mm")));
-  state.registers = static_cast<double>(record.new_words.size());
-  state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
-  for (const auto& warning : record.warnings) state.lost << QString::fromStdString(warning);
-}
-
-void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
-  state.written = isWritten();
-  const json record = body.value("record", json::object());
-  if (!m_sign) state.sign = sign_of(body.value("sign_check", json()));
-  if (m_preview && (!state.written || m_correction)) return;
-  state.stagesNote.clear();
-  if (const int version = body.value("version", 0); version > 0) state.newVersion = version;
-  state.oldVersion = record.value("old_sequence", 0);
-  state.largestChange_um = body.value("largest_change_um", std::nan(""));
-  state.registers = body.value("registers", std::nan(""));
-  if (m_steps.empty() || !m_dryRunAt.isNull())
-    state.stages = stages_of(steps_from(body.value("states", json::array())), false, false);
-}
-
-void UploadPresenter::fillHistory(ui::UploadState& state) const {
-  auto& workbench = const_cast<UploadPresenter*>(this)->bench();
-  const auto profile = flow::profile_of(*workbench.job(), "upload");
-  const json machine = workbench.body("machine");
-  if (!profile || !machine.is_object()) return;
-  const auto serial = machine.at("identity").value("serial", 0U);
-  const auto former = controller::TableHistory().read(serial);
-  controller::ActiveTable active;
-  if (m_preview) {
-    active.words = m_preview->record.old_words;
-    active.sequence = m_preview->record.old_sequence;
-  } else if (const json body = workbench.body("upload"); body.is_object()) {
-    active.words = body.at("record").value("new_words", std::vector<std::uint16_t>{});
-    active.sequence = body.value("version", 0);
-  } else {
-    return;
-  }
-  state.history = history_of(former.value_or(std::vector<controller::FormerTable>{}), active, *profile);
-}
-
-void UploadPresenter::refresh() {
-  ui::UploadState state;
-  const auto* job = bench().job();
-  if (job == nullptr || !bench().has("model")) {
-    state.blocked = tr("Fit the model first: the table is made from it.");
-    m_page->setState(state);
-    return;
-  }
-  if (m_previewOf != id_of_latest(*job, "model") && !m_writing) m_preview.reset();
-  const auto profile = flow::profile_of(*job, "upload");
-  const auto artefact = job->latest("model");
-  const auto model = flow::model_of(**artefact);
-  const json body = bench().body("upload");
-  state.changeLimit_um = profile ? profile->max_um : 200.0;
-  state.steepestLimit_um_per_K = profile ? profile->max_um_per_K : 50.0;
-  if (const auto& look = bench().look(); look && look->identity.table_capacity_registers > 0) {
-    state.capacity = look->identity.table_capacity_registers;
-  }
-  state.writing = m_writing;
-  state.machineName = profile ? QString::fromStdString(profile->name) : QString();
-  state.stages = stages_of(m_steps, m_writing, m_failed);
-  if (m_sign) {
-    state.sign = sign_of(*m_sign);
-    state.sign.note = tr("checked %1").arg(m_signAt.toString(QStringLiteral("HH:mm")));
-  }
-  if (m_preview) fillFromPreview(state);
-  if (body.is_object()) fillFromArtefact(state, body);
-  if (profile && model) {
-    const auto warmup = flow::need(*job, "upload", "warmup");
-    const auto run = warmup ? flow::run_of(*job, *warmup).value_or(recording::Recording{}) : recording::Recording{};
-    compensation::Table old_table;
-    compensation::Table table;
-    if (m_preview && (!state.written || m_correction)) {
-      old_table = m_preview->record.old_table;
-      table = m_preview->table;
-    } else if (state.written) {
-      table = compensation::table_from_json(body.at("table"), "the uploaded table").value_or(compensation::Table{});
-      const auto words = body.at("record").value("old_words", std::vector<std::uint16_t>{});
-      old_table = controller::decode_table(words, *profile).value_or(compensation::Table{});
-    } else {
-      table =
-          compensation::table_from_model(*model, controller::table_options(*profile)).value_or(compensation::Table{});
-    }
-    state.axes = axes_of(old_table, table, *profile, run);
-    if (std::isnan(state.steepest_um_per_K)) state.steepest_um_per_K = steepest_um_per_K(table);
-    if (!model->is_static()) {
-      state.lost << tr("the model's memory of the past (its static part is written)");
-    }
-    state.expressed = expressed(table);
-  }
-  fillHistory(state);
-  if (!m_correction) state.stages.prepend(signStage(state.sign));
-  m_page->setState(state);
 }
 
 void UploadPresenter::tour(std::function<void(bool good)> done) {

@@ -35,7 +35,7 @@ class UploadPresenter : public Presenter {
 
   void preview(Done done);
   void askAndWrite(Done done);
-  bool confirmed(const QString& heading, const QString& text) const;
+  bool confirmed(const QString& heading, const QString& text, const QString& deed) const;
   void write(Done done);
   void rollBack(int version);
   void checkSign();
@@ -54,6 +54,7 @@ class UploadPresenter : public Presenter {
   std::function<void(const controller::UploadStep&)> observer();
   /// The artefact is of the model that is there now.
   bool isWritten() const;
+  static long long latestModel(const commissioning::Job& job);
 
   ui::UploadPage* m_page;
   std::optional<flow::UploadPreview> m_preview;
