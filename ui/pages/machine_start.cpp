@@ -1,6 +1,7 @@
 #include "ui/pages/machine_start.h"
 
 #include "ui/widgets/card.h"
+#include "ui/widgets/colors.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/wrap_label.h"
 
