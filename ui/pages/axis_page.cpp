@@ -83,6 +83,7 @@ Card* AxisPage::makeExportCard() {
   m_exportCard->setFixedWidth(side_width);
   m_format = new QComboBox(m_exportCard);
   m_format->setObjectName("format");
+  m_format->setMinimumWidth(190);
   m_exportCard->tools()->addWidget(m_format);
   m_check = new WrapLabel(m_exportCard);
   m_check->setProperty("role", "caption");
