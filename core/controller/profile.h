@@ -69,7 +69,7 @@ struct Profile {
   std::vector<SensorProfile> sensors;  // in the order of the controller's temperature registers
   double max_um = 200.0;
   double max_um_per_s = 2.0;
-  double max_um_per_K = 50.0;  // the steepest coefficient the controller takes
+  double max_um_per_K = 50.0;                     // the steepest coefficient the controller takes
   std::shared_ptr<const nlohmann::json> machine;  // machine description, null if the profile has none
   std::string machine_file;                       // where it came from, for messages
 };
