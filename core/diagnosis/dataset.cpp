@@ -1,6 +1,7 @@
 #include "core/diagnosis/dataset.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace zerodrift::diagnosis {
@@ -33,9 +34,8 @@ MeasuredChannel make_channel(const recording::Channel* source, const physics::Ob
     ++channel.samples;
   }
   const double range = range_of(channel);
-  // What no rod model follows on a machine of shaft, cartridge and housing: smaller, and a machine that lacks nothing
-  // is accused; larger, and weak effects go unseen (docs/proof.md).
-  channel.drift = seen.temperature ? std::hypot(0.022, 0.0028 * range) : std::hypot(0.2, 0.0015 * range);
+  // The most that a good description leaves; how much this one leaves, the evidence says (ordinary_discrepancy).
+  channel.drift = seen.temperature ? std::hypot(0.02, 0.0015 * range) : std::hypot(0.2, 0.0015 * range);
   return channel;
 }
 
@@ -131,6 +131,51 @@ std::vector<Discrepancy> likely_discrepancy(const Dataset& data, const physics::
         if (gain > list[c].gain) list[c] = {factor, time_s, usual + gain, gain};
       }
     }
+  }
+  return list;
+}
+
+std::vector<Discrepancy> ordinary_discrepancy(const Dataset& data, const physics::Prediction& prediction) {
+  static constexpr double factors[] = {0.25, 0.35, 0.5, 0.7, 1.0, 1.4};
+  constexpr std::size_t count = std::size(factors);
+  constexpr double spread = 0.35;  // ln, of a channel about the others of its kind
+  std::vector<std::array<double, count>> likelihood(data.channels.size());
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    if (data.channels[c].samples == 0) continue;
+    MeasuredChannel trial = data.channels[c];
+    for (std::size_t f = 0; f < count; ++f) {
+      trial.drift = factors[f] * data.channels[c].drift;
+      set_gains(trial, data.time_s);
+      likelihood[c][f] = log_likelihood(trial, prediction.channels[c].values);
+    }
+  }
+  // A channel's own best factor beside a common one; for a displacement the common one stands in the middle.
+  const auto best_beside = [&](std::size_t c, double common) {
+    std::size_t best = 0;
+    double largest = -1e300;
+    for (std::size_t f = 0; f < count; ++f) {
+      const double off = std::log(factors[f] / common) / (data.channels[c].temperature ? spread : 2.0 * spread);
+      const double value = likelihood[c][f] - 0.5 * off * off;
+      if (value > largest) largest = value, best = f;
+    }
+    return std::pair{largest, best};
+  };
+  double common = 0.7;
+  double largest = -1e300;
+  for (const double factor : factors) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < data.channels.size(); ++c) {
+      if (data.channels[c].samples > 0 && data.channels[c].temperature) sum += best_beside(c, factor).first;
+    }
+    if (sum > largest) largest = sum, common = factor;
+  }
+  std::vector<Discrepancy> list(data.channels.size());
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    if (data.channels[c].samples == 0) continue;
+    const std::size_t best = best_beside(c, data.channels[c].temperature ? common : 0.7).second;
+    list[c].factor = factors[best];
+    list[c].time_s = data.channels[c].drift_time_s;
+    list[c].log_likelihood = likelihood[c][best];
   }
   return list;
 }

@@ -62,6 +62,10 @@ struct Discrepancy {
   double gain = 0.0;  // of it, against the default
 };
 
+/// The ordinary slow misfit of a model, by evidence: between a quarter of the default and a little more than it,
+/// temperatures alike but for a share of their own, each displacement by itself. A machine that is nearly what its
+/// description says shows weak effects, one that is not accuses nobody.
+std::vector<Discrepancy> ordinary_discrepancy(const Dataset& data, const physics::Prediction& prediction);
 /// For each channel the discrepancy under which its difference to the prediction is most likely: a latent process that
 /// any named effect has to beat, and what is left when one did.
 std::vector<Discrepancy> likely_discrepancy(const Dataset& data, const physics::Prediction& prediction);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/diagnosis/apart.h"
+#include "core/diagnosis/bodies.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/plausible.h"
@@ -41,6 +42,7 @@ Excess excess_under(const physics::Prediction& prediction, const Dataset& data) 
 Diagnoser::Diagnoser(const Machine& machine, const std::vector<Recording>& recordings, const DiagnoseOptions& options,
                      const TaskContext& context)
     : m_machine(machine),
+      m_bodies(with_inner_bodies(machine)),
       m_recordings(recordings),
       m_fitted(thinned(recordings.front(), most_rows)),
       m_options(options),
@@ -56,9 +58,10 @@ Result<Diagnosis> Diagnoser::run() {
                  {"needed", "20"}});
   }
   if (m_lumps_only) {
-    ZD_TRY(m_selection, grow_effects(m_machine, m_data, m_facts, m_limits, m_context));
+    ZD_TRY(m_selection, grow_effects(m_bodies, m_data, m_facts, m_limits, m_context));
   } else {
-    ZD_TRY(m_selection, select_effects(m_machine, m_data, m_facts, m_limits, m_context));
+    ZD_TRY(m_selection, select_effects(m_bodies, m_data, m_facts, m_limits, m_context));
+    m_data = m_selection.best->shared_data();
     ZD_CHECK(choose_drift());
   }
   decide();
@@ -77,18 +80,19 @@ Result<Diagnosis> Diagnoser::run() {
 }
 
 Status Diagnoser::prepare() {
-  const physics::Network network = physics::build_network(m_machine, recording());
+  const physics::Network network = physics::build_network(m_bodies, recording());
   const physics::InputSet inputs = physics::make_inputs(network, recording());
   Dataset data = make_dataset(recording(), network);
   set_timing_noise(data, network, inputs);
   ZD_CHECK(check_scale(m_machine, data, physics::predict(network, inputs, network.start_values())));
   m_data = m_default_data = std::make_shared<Dataset>(std::move(data));
-  m_facts = facts_of(m_machine, recording());
+  m_facts = facts_of(m_bodies, recording());
   m_lumps_only = std::all_of(m_machine.components.begin(), m_machine.components.end(),
                              [](const auto& component) { return component.lump; });
   if (m_lumps_only) {
     m_limits.most_effects = 5;
     m_limits.second_clean = 10.0;
+    m_limits.own_misfit = false;
     m_limits.excess_must_fall = false;  // few parts, long chains of small effects: evidence alone decides
   }
   return {};
@@ -100,6 +104,7 @@ Status Diagnoser::choose_drift() {
   if (excess_of(*m_selection.best).largest <= 3.0) return {};
   const auto discrepancy = likely_discrepancy(*m_default_data, m_selection.best->prediction());
   m_data = std::make_shared<Dataset>(with_discrepancy(*m_default_data, discrepancy));
+  m_wide = true;
   ZD_TRY(m_selection, reconsider(m_selection, m_data, m_facts, m_limits, m_context));
   return {};
 }
@@ -129,7 +134,7 @@ void Diagnoser::decide() {
   // Do the data still ask for more discrepancy than a right model shows? Twenty to one is the least that counts.
   double asked = 0.0;
   for (const auto& channel : likely_discrepancy(*m_default_data, of_best)) {
-    m_out.drift_factor = std::max(m_out.drift_factor, m_data == m_default_data ? 1.0 : channel.factor);
+    m_out.drift_factor = std::max(m_out.drift_factor, m_wide ? channel.factor : 1.0);
     if (channel.factor > 1.0) asked = std::max(asked, channel.gain);
   }
   m_out.excess_before = before.largest;

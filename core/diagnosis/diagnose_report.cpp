@@ -117,7 +117,7 @@ void Diagnoser::locate() {
     if (sensor != nullptr && sensor->component == component.id) m.component = component.id;
     if (component.lump || m.position_mm) continue;
     if (m.component.empty()) m.component = component.id;
-    Model nominal(m_machine, m_default_data);
+    Model nominal(m_bodies, m_default_data);
     nominal.fit({0, 0.05, true});
     const SourceScan scan = scan_sources(nominal, component.id);
     m.position_mm = {scan.from_mm, scan.to_mm};

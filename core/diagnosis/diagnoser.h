@@ -39,7 +39,8 @@ class Diagnoser {
   void details();
   void notes();
 
-  const physics::Machine& m_machine;
+  const physics::Machine& m_machine;  // as described
+  const physics::Machine m_bodies;    // what is fitted: with the insides of its rods
   const std::vector<recording::Recording>& m_recordings;
   const recording::Recording m_fitted;
   DiagnoseOptions m_options;
@@ -47,6 +48,7 @@ class Diagnoser {
   SelectionOptions m_limits;
   std::shared_ptr<const Dataset> m_data, m_default_data;
   bool m_lumps_only = false;
+  bool m_wide = false;  // the data asked for more than the ordinary discrepancy
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;

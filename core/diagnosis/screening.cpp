@@ -201,7 +201,10 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts)
     return false;
   };
   for (const physics::Effect* effect : physics::all_effects()) {
-    for (auto& spec : effect->candidates(base.machine(), facts)) {
+    auto forms = effect->candidates(base.machine(), facts);
+    for (auto& spec : forms) {
+      // What may stand in many forms finds one that fits by chance: its prior is spread over them.
+      spec.log_prior = -std::log(static_cast<double>(forms.size()));
       const bool taken = std::any_of(base.machine().effects.begin(), base.machine().effects.end(),
                                      [&](const EffectSpec& have) { return conflicts(base.machine(), have, spec); });
       if (taken || !measured(spec) || premature(base.machine(), spec)) continue;

@@ -14,6 +14,11 @@ const physics::EffectSpec& last_effect(const Model& model) {
   return model.machine().effects.back();
 }
 
+/// Comparable between models under noises of their own.
+bool by_total(const ModelPtr& a, const ModelPtr& b) {
+  return a->log_evidence_total() > b->log_evidence_total();
+}
+
 bool by_evidence(const ModelPtr& a, const ModelPtr& b) {
   return a->log_evidence() > b->log_evidence();
 }
@@ -106,8 +111,10 @@ class Selector {
 
   Result<Selection> run(const physics::Machine& machine, std::shared_ptr<const Dataset> data) {
     m_result.described = machine.effects.size();
-    m_result.base = std::make_shared<Model>(machine, std::move(data));
+    m_usual = std::move(data);
+    m_result.base = std::make_shared<Model>(machine, m_usual);
     m_result.base->fit({});
+    m_result.base = with_ordinary(m_result.base);
     m_result.best = m_result.base;
     m_context.progress(0.15, "screening");
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
@@ -116,12 +123,12 @@ class Selector {
     m_result.levels.push_back(first);
     m_context.progress(0.5, "refitting");
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-    if (first.empty() || first.front()->log_evidence() - m_result.base->log_evidence() <= m_options.first)
-      return m_result;
-    m_result.best = first.front();
+    const std::vector<ModelPtr> leading = leaders_of(first);
+    if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= m_options.first) return m_result;
+    m_result.best = leading.front();
     for (int level = 2; level <= m_options.most_effects; ++level) {
       const ModelPtr before = m_result.best;
-      add_one(level == 2 ? beam_of(first) : std::vector<ModelPtr>{m_result.best});
+      add_one(level == 2 ? leading : std::vector<ModelPtr>{m_result.best});
       m_context.progress(0.4 + 0.25 * level, "further_effects");
       if (m_context.cancelled()) return fail(ErrorCode::cancelled);
       if (m_result.best == before) break;
@@ -130,6 +137,7 @@ class Selector {
       for (int round = 0; round < 3 && swap_one(true); ++round) {
       }
     }
+    align();
     return m_result;
   }
 
@@ -202,16 +210,49 @@ class Selector {
     return fitted;
   }
 
-  /// The two best first effects of different families.
-  std::vector<ModelPtr> beam_of(const std::vector<ModelPtr>& first) const {
-    std::vector<ModelPtr> beam;
+  static double total_gain(const Model& a, const Model& b) { return a.log_evidence_total() - b.log_evidence_total(); }
+
+  /// Fitted with the ordinary discrepancy that suits it best: how much a model leaves belongs to it. A hidden effect
+  /// makes the misfit without it look large; compared at the best misfit of both, it is not swallowed by that.
+  ModelPtr with_ordinary(const ModelPtr& model) const {
+    if (!m_options.own_misfit || m_usual == nullptr) return model;
+    auto data = std::make_shared<Dataset>(
+        with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
+    auto result = std::make_shared<Model>(model->machine(), data);
+    result->start_from(*model, false);
+    result->gain = model->gain;
+    result->fit({12, 0.05, true});
+    return result;
+  }
+
+  /// The two best first effects of different families, each under its own misfit.
+  std::vector<ModelPtr> leaders_of(const std::vector<ModelPtr>& fits) const {
+    std::vector<ModelPtr> list;
     std::set<std::string> ids;
-    for (const auto& fit : first) {
-      if (fit->log_evidence() <= m_result.base->log_evidence() + m_options.first) break;
-      if (ids.insert(last_effect(*fit).id).second) beam.push_back(fit);
-      if (beam.size() == 2) break;
+    for (const auto& fit : fits) {
+      if (fit->log_evidence() < m_result.base->log_evidence() + 0.3 * m_options.first || list.size() == 2) break;
+      if (ids.insert(last_effect(*fit).id).second) list.push_back(with_ordinary(fit));
     }
-    return beam;
+    std::sort(list.begin(), list.end(), by_total);
+    return list;
+  }
+
+  /// Base and rivals under the final model's misfit, so that they can be told against it.
+  void align() {
+    const auto& data = m_result.best->shared_data();
+    if (!m_options.own_misfit) return;
+    m_result.base = under(*m_result.base, data);
+    const std::size_t size = m_result.best->machine().effects.size();
+    for (auto& level : m_result.levels) {
+      std::vector<ModelPtr> kept;
+      std::set<std::string> ids;
+      for (const auto& fit : level) {
+        if (fit->machine().effects.size() != size || kept.size() == 4) continue;
+        if (ids.insert(last_effect(*fit).id).second) kept.push_back(fit);
+      }
+      in_parallel(kept.size(), [&](std::size_t i) { kept[i] = under(*kept[i], data); });
+      level = std::move(kept);
+    }
   }
 
   /// Another family in the place of one effect, where it is better; with `forms` also another form of the same.
@@ -235,10 +276,16 @@ class Selector {
       if (screened.size() > 60) screened.resize(60);
       for (auto& fit : refine(start, screened, {1, m_options.second_screen, 7})) fits.push_back(std::move(fit));
     }
-    std::sort(fits.begin(), fits.end(), by_evidence);
+    std::sort(fits.begin(), fits.end(), by_total);
     m_result.levels.push_back(fits);
-    const Excess before = excess_of(*m_result.best);
+    std::vector<ModelPtr> leading;
     for (const auto& fit : fits) {
+      if (leading.size() == 2) break;
+      leading.push_back(with_ordinary(fit));
+    }
+    std::sort(leading.begin(), leading.end(), by_total);
+    const Excess before = excess_of(*m_result.best);
+    for (const auto& fit : leading) {
       if (accepted(*fit, before)) {
         m_result.best = fit;
         return;
@@ -250,8 +297,8 @@ class Selector {
   double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
 
   bool accepted(const Model& fit, const Excess& before) const {
-    const double gained = fit.log_evidence() - m_result.best->log_evidence();
-    const double so_far = m_result.best->log_evidence() - m_result.base->log_evidence();
+    const double gained = total_gain(fit, *m_result.best);
+    const double so_far = total_gain(*m_result.best, *m_result.base);
     if (before.largest < 1.6) return gained > least_gain(so_far);
     if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
     if (!m_options.excess_must_fall) return true;
@@ -268,8 +315,9 @@ class Selector {
       for (std::size_t i = m_result.described; i < count; ++i) {
         ModelPtr without = reduced(*m_result.best, i);
         without->fit({15, 0.05, true});
-        const double so_far = without->log_evidence() - m_result.base->log_evidence();
-        if (m_result.best->log_evidence() - without->log_evidence() >= least_gain(so_far)) continue;
+        without = with_ordinary(without);
+        const double so_far = total_gain(*without, *m_result.base);
+        if (total_gain(*m_result.best, *without) >= least_gain(so_far)) continue;
         m_result.best = without;
         add_one({without});
         removed = m_result.best == without;
@@ -281,6 +329,7 @@ class Selector {
   physics::RunFacts m_facts;
   SelectionOptions m_options;
   const TaskContext& m_context;
+  std::shared_ptr<const Dataset> m_usual;  // with default widths
   Selection m_result;
 };
 

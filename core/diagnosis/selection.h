@@ -17,6 +17,7 @@ struct SelectionOptions {
   double second = 25;             // a second effect where it does
   double second_relative = 0.002;
   int most_effects = 3;
+  bool own_misfit = true;        // models are compared at the ordinary misfit that suits each best
   bool excess_must_fall = true;  // a second effect must also remove much of what is slow in some channel
 };
 

@@ -61,6 +61,10 @@ class NetworkBuilder {
   Probe probe_at(const std::string& component, double position_mm) const;
   Probe mean_probe(const std::string& component) const;
   Term& add(Term term);
+  /// Heat of a rod with an inside enters both: `share` (a parameter) of it the inside. A rod of one body takes it whole.
+  void add_heat(const std::string& component, Term term, int share);
+  /// The share for an effect's own heat, -1 where the rod is one body.
+  int heat_share_of_effect(const EffectSpec& spec, int index, const std::string& component);
   void modify_bearing(const std::string& source, BearingModifier modifier);
   /// The source heats a node of its own (contact.first_node) that a link with this law joins to the component.
   void put_body_before(const std::string& source, Term contact);
@@ -74,6 +78,9 @@ class NetworkBuilder {
  private:
   void add_components();
   void add_rod(const Component& component);
+  void add_inner_body(const Component& component, Network::Place& at);
+  void add_contact(const Component& component, const HeatSource& bearing, int rise);
+  Probe length_probe(const Network::Place& at, int first, double factor) const;
   void add_lump(const Component& component);
   void add_initial_state();
   void add_sources();
@@ -91,6 +98,7 @@ class NetworkBuilder {
   std::map<std::string, double> m_initial_C;
   std::map<std::string, std::vector<BearingModifier>> m_modifiers;
   std::map<std::string, Term> m_bodies;
+  std::map<std::string, int> m_heat_share;  // source -> parameter
   double m_mean_initial_C = 20.0;
   int m_room = -1;
 };

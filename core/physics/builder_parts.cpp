@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/physics/builder.h"
+#include "core/physics/effects/laws.h"
 #include "core/physics/initial_state.h"
 
 namespace zerodrift::physics {
@@ -13,7 +13,7 @@ void NetworkBuilder::add_rod(const Component& component) {
   at.first = static_cast<int>(m_network.nodes());
   at.count = m_options.cells;
   at.cell_m = component.length_mm * m_per_mm / at.count;
-  m_network.places.push_back(at);
+  if (component.inner) at.inner_share = component.inner->section_share;
   const Material& m = component.material;
   Parameter k;
   k.key = "conductivity_W_mK";
@@ -27,7 +27,7 @@ void NetworkBuilder::add_rod(const Component& component) {
   c.mean = c.start = m.heat_capacity_J_kgK;
   c.sigma = m_machine.tolerances.heat_capacity;
   m_capacity[component.id] = add_parameter(c);
-  const double section_m2 = component.section_m2();
+  const double section_m2 = (1.0 - at.inner_share) * component.section_m2();
   for (int i = 0; i < at.count; ++i) {
     add_node(m.density_kg_m3 * section_m2 * at.cell_m, m_capacity[component.id], reference_C(component.id));
   }
@@ -38,13 +38,10 @@ void NetworkBuilder::add_rod(const Component& component) {
   for (int i = 0; i + 1 < at.count; ++i)
     conduction.links.push_back({at.first + i, at.first + i + 1, section_m2 / at.cell_m});
   conduction.parameters = {m_conductivity[component.id]};
-  conduction.law = [](const LawPoint& point) {
-    Strength s;
-    s.value = point.values[0];
-    s.by_parameter[0] = 1.0;
-    return s;
-  };
+  conduction.law = proportional_law;
   add(std::move(conduction));
+  if (component.inner) add_inner_body(component, at);
+  m_network.places.push_back(at);
 }
 
 void NetworkBuilder::add_lump(const Component& component) {
@@ -106,17 +103,21 @@ void NetworkBuilder::add_initial_state() {
     level.per_recording = true;
     InitialPart uniform{add_parameter(level), {}};
     for (int i = 0; i < at.count; ++i) uniform.nodes.emplace_back(at.first + i, 1.0);
+    for (int i = 0; i < at.count && at.inner >= 0; ++i) uniform.nodes.emplace_back(at.inner + i, 1.0);
     m_network.initial_parts.push_back(std::move(uniform));
     if (at.cell_m == 0.0) continue;
     Parameter tilt = level;
     tilt.key = "initial_tilt_K";
     InitialPart slope{add_parameter(tilt), {}};
     for (int i = 0; i < at.count; ++i) slope.nodes.emplace_back(at.first + i, (i + 0.5) / at.count - 0.5);
+    for (int i = 0; i < at.count && at.inner >= 0; ++i)
+      slope.nodes.emplace_back(at.inner + i, (i + 0.5) / at.count - 0.5);
     m_network.initial_parts.push_back(std::move(slope));
     const auto profile = warm.find(at.component);
     if (profile == warm.end()) continue;
     for (int i = 0; i < at.count; ++i) {
       m_network.initial_C[at.first + i] = profile_at(profile->second, (i + 0.5) * at.cell_m / m_per_mm);
+      if (at.inner >= 0) m_network.initial_C[at.inner + i] = m_network.initial_C[at.first + i];
     }
     m_network.notes.push_back("warm_start:" + at.component);
   }
@@ -214,14 +215,21 @@ void NetworkBuilder::add_displacements() {
       alpha.sigma = m_machine.tolerances.expansion;
       alpha.logarithmic = true;
       seen.scale = add_parameter(alpha);
-      Probe length_um;
       const auto& at = place(component->id);
       const double cell_um = (at.cell_m == 0.0 ? component->length_mm * m_per_mm : at.cell_m) * 1e6 * displacement.sign;
-      for (int i = 0; i < at.count; ++i) {
-        length_um.emplace_back(at.first + i, cell_um);
-        seen.reference += cell_um * reference_C(component->id);
+      seen.reference = cell_um * at.count * reference_C(component->id);
+      seen.probe = probe(length_probe(at, at.first, cell_um));
+      if (at.inner >= 0) {
+        seen.inner_probe = probe(length_probe(at, at.inner, cell_um));
+        Parameter share;
+        share.key = "inner_growth_share";
+        share.component = component->id;
+        share.mean = share.start = component->inner->growth_share;
+        share.sigma = component->inner->shaft_in_cartridge ? 0.3 : 0.0;
+        share.low = 0.0;
+        share.high = 1.0;
+        seen.inner_share = add_parameter(share);
       }
-      seen.probe = probe(std::move(length_um));
     }
     Parameter offset;
     offset.key = "offset_um";

@@ -20,6 +20,8 @@ void NetworkBuilder::add_source(const Component& component, const HeatSource& so
     add(body->second);
   }
   term.label = component.id + "/" + source.id;
+  const auto split = m_heat_share.find(source.id);
+  const int share = split == m_heat_share.end() || m_bodies.count(source.id) != 0 ? -1 : split->second;
   Parameter scale;
   scale.key = "scale:" + source.id;
   scale.component = component.id;
@@ -44,7 +46,7 @@ void NetworkBuilder::add_source(const Component& component, const HeatSource& so
     }
     const double full = source.full_speed_rpm > 0.0 ? source.full_speed_rpm : m_network.full_speed_rpm;
     term.law = speed_law(source.law, held(source.channel), full);
-    add(std::move(term));
+    add_heat(component.id, std::move(term), share);
     return;
   }
   term.parameters = {add_parameter(scale)};
@@ -64,9 +66,14 @@ void NetworkBuilder::add_source(const Component& component, const HeatSource& so
     }
     term.law = bearing_law(source, held_speed(), m_network.full_speed_rpm, modifiers);
     if (!modifiers.empty()) {
+      // The oil film lies between the two bodies.
+      const auto& at = place(component.id);
+      const double own = at.inner >= 0 && share >= 0 ? 0.5 : 1.0;
       term.law_kind = LawKind::state;
       for (std::size_t i = 0; i < term.weights.size(); ++i) {
-        term.driver.emplace_back(term.first_node + static_cast<int>(i), term.weights[i]);
+        const int node = term.first_node + static_cast<int>(i);
+        term.driver.emplace_back(node, own * term.weights[i]);
+        if (own < 1.0) term.driver.emplace_back(node - at.first + at.inner, (1.0 - own) * term.weights[i]);
       }
     }
   } else if (source.kind == SourceKind::input) {
@@ -74,7 +81,7 @@ void NetworkBuilder::add_source(const Component& component, const HeatSource& so
   } else {
     term.law = friction_law(source.friction_N, held(source.channel));
   }
-  add(std::move(term));
+  add_heat(component.id, std::move(term), share);
 }
 
 void NetworkBuilder::add_sources() {

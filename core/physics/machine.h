@@ -61,6 +61,19 @@ struct HeatSource {
   double scale = 1.0;  // correction of the whole source, written by a refined description
 };
 
+/// A rod is rarely one body: a shaft turns in its cartridge, and even solid steel is warmer where the heat enters than
+/// at its axis. Then the rod's surface is one chain of cells and its inside another, joined along the whole length and
+/// at the bearings; sensors and films sit on the surface, the length follows the inside.
+struct InnerBody {
+  double section_share = 0.5;           // of the rod's section
+  double coupling_W_mK = 500.0;         // per metre of rod, at rest
+  double coupling_rise = 0.0;           // how much more at full speed, relative; grows with the root of the speed
+  double growth_share = 0.5;            // the length is the inside's (1) or the surface's (0)
+  std::map<std::string, double> heat_share;   // heat source -> the part of it that enters the inside
+  std::map<std::string, double> contact_W_K;  // bearing -> across it
+  bool shaft_in_cartridge = false;      // else solid
+};
+
 struct Component {
   std::string id;
   bool lump = false;
@@ -72,6 +85,7 @@ struct Component {
   std::optional<double> heat_capacity_J_K;  // lumps
   std::optional<double> area_mm2;           // lumps: surface towards the room
   std::vector<HeatSource> sources;
+  std::optional<InnerBody> inner;  // rods
   double section_m2() const;
   double perimeter_m() const;
 };
@@ -121,6 +135,7 @@ struct EffectSpec {
   bool candidate = false;  // a hypothesis of the diagnosis: its strength may be 0; else part of the description
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> words;  // component, channel, region, law ...
+  double log_prior = 0.0;                    // of this form among all forms of the effect, natural logarithm
 
   double number_or(const std::string& key, double fallback) const;
   std::string word_or(const std::string& key, const std::string& fallback) const;

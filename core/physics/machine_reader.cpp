@@ -104,6 +104,25 @@ HeatSource read_source(JsonObject& o, const Component& component) {
   return source;
 }
 
+void read_inner_body(JsonObject& o, Component& component) {
+  constexpr NumberRange share{0.0, 1.0, false, "a share from 0 to 1"};
+  InnerBody inner;
+  inner.section_share = o.number("section_share", NumberRange{0.01, 0.99, false, "a share of the section, 0.01 to 0.99"});
+  inner.coupling_W_mK = o.number("coupling_W_mK", positive);
+  inner.coupling_rise = o.number_or("coupling_rise", 0.0, not_negative);
+  inner.growth_share = o.number_or("growth_share", inner.section_share, share);
+  inner.shaft_in_cartridge = o.flag_or("shaft_in_cartridge", false);
+  for (const auto& source : component.sources) {
+    if (JsonObject* part = o.object_if("heat_share"); part != nullptr && part->has(source.id)) {
+      inner.heat_share[source.id] = part->number(source.id, share);
+    }
+    if (JsonObject* part = o.object_if("contact_W_K"); part != nullptr && part->has(source.id)) {
+      inner.contact_W_K[source.id] = part->number(source.id, positive);
+    }
+  }
+  component.inner = std::move(inner);
+}
+
 Component read_component(JsonObject& o) {
   Component component;
   component.id = o.text("id");
@@ -132,6 +151,7 @@ Component read_component(JsonObject& o) {
     component.material.expansion_1_K = m.number("expansion_1_K", expansion_range);
   }
   for (JsonObject& s : o.objects_or_empty("heat_sources")) component.sources.push_back(read_source(s, component));
+  if (JsonObject* inner = component.lump ? nullptr : o.object_if("inner_body")) read_inner_body(*inner, component);
   return component;
 }
 

@@ -36,6 +36,15 @@ void write_component(json& out, const Component& component) {
     material["density_kg_m3"] = component.material.density_kg_m3;
     material["heat_capacity_J_kgK"] = component.material.heat_capacity_J_kgK;
   }
+  if (component.inner) {
+    out["inner_body"] = {{"section_share", component.inner->section_share},
+                         {"coupling_W_mK", component.inner->coupling_W_mK},
+                         {"coupling_rise", component.inner->coupling_rise},
+                         {"growth_share", component.inner->growth_share},
+                         {"heat_share", component.inner->heat_share},
+                         {"contact_W_K", component.inner->contact_W_K},
+                         {"shaft_in_cartridge", component.inner->shaft_in_cartridge}};
+  }
   if (component.material.expansion_1_K != 0.0) out["material"]["expansion_1_K"] = component.material.expansion_1_K;
   for (const auto& source : component.sources) write_source(entry(out["heat_sources"], source.id), source);
 }

@@ -73,13 +73,24 @@ class Observer {
     const std::size_t probes = m_net.probes.size();
     const double scale = seen.scale >= 0 ? m_values[seen.scale] : 1.0;
     const double reference = seen.temperature ? 0.0 : seen.reference;
-    std::vector<double> raw(rows());
+    const bool mixed = seen.inner_probe >= 0;
+    const double share = mixed ? m_values[seen.inner_share] : 0.0;
+    std::vector<double> raw(rows()), inner(mixed ? rows() : 0);
     for (std::size_t k = 0; k < rows(); ++k) {
       raw[k] = m_run.probes[k * probes + seen.probe] - reference;
+      if (mixed) {
+        inner[k] = m_run.probes[k * probes + seen.inner_probe] - reference - raw[k];
+        raw[k] += share * inner[k];
+      }
       out.values[k] = scale * raw[k];
     }
     const double* by = m_run.derivatives.data() + seen.probe * rows() * m_run.columns;
-    for (std::size_t i = 0; i < out.derivatives.size(); ++i) out.derivatives[i] = scale * by[i];
+    for (std::size_t i = 0; i < out.derivatives.size(); ++i) out.derivatives[i] = scale * (1.0 - share) * by[i];
+    if (mixed) {
+      const double* by_inner = m_run.derivatives.data() + seen.inner_probe * rows() * m_run.columns;
+      for (std::size_t i = 0; i < out.derivatives.size(); ++i) out.derivatives[i] += scale * share * by_inner[i];
+      add_column(out, column(seen.inner_share), scale, inner);
+    }
     if (seen.scale >= 0) add_column(out, column(seen.scale), 1.0, raw);
   }
 
@@ -185,9 +196,50 @@ Prediction observe(const Network& network, const InputSet& inputs, const std::ve
   return prediction;
 }
 
+/// Parameters that move node temperatures; offsets, lags, gains and structure terms act on the readings alone.
+static std::vector<bool> thermal_parameters(const Network& network) {
+  std::vector<bool> thermal(network.parameters.size(), false);
+  const auto mark = [&](int parameter) {
+    if (parameter >= 0) thermal[static_cast<std::size_t>(parameter)] = true;
+  };
+  mark(network.hold_parameter);
+  for (const auto& term : network.terms) {
+    for (const int parameter : term.parameters) mark(parameter);
+    mark(term.place_parameter);
+  }
+  for (const auto& part : network.initial_parts) mark(part.parameter);
+  for (const int parameter : network.capacity_parameter) mark(parameter);
+  for (const auto& environment : network.environments) {
+    for (const auto& part : environment.parts) mark(part.parameter);
+  }
+  return thermal;
+}
+
+/// The trajectory with a column for every parameter asked for, those that move no temperature being 0.
+static void widen(Trajectory& run, const std::vector<std::size_t>& target, std::size_t columns) {
+  const std::size_t narrow = run.columns;
+  std::vector<double> wide(narrow == 0 ? 0 : run.derivatives.size() / narrow * columns, 0.0);
+  if (narrow == 0) wide.assign(run.probes.size() * columns, 0.0);
+  for (std::size_t row = 0; narrow > 0 && row < run.derivatives.size() / narrow; ++row) {
+    for (std::size_t c = 0; c < narrow; ++c) wide[row * columns + target[c]] = run.derivatives[row * narrow + c];
+  }
+  run.derivatives = std::move(wide);
+  run.columns = columns;
+}
+
 Prediction predict(const Network& network, const InputSet& inputs, const std::vector<double>& values,
                    const std::vector<int>& parameters, const SimulateOptions& options) {
-  return observe(network, inputs, values, parameters, run_network(network, inputs, values, parameters, options));
+  const std::vector<bool> thermal = thermal_parameters(network);
+  std::vector<int> moving;
+  std::vector<std::size_t> target;
+  for (std::size_t c = 0; c < parameters.size(); ++c) {
+    if (!thermal[static_cast<std::size_t>(parameters[c])]) continue;
+    moving.push_back(parameters[c]);
+    target.push_back(c);
+  }
+  Trajectory run = run_network(network, inputs, values, moving, options);
+  if (moving.size() < parameters.size()) widen(run, target, parameters.size());
+  return observe(network, inputs, values, parameters, run);
 }
 
 }  // namespace zerodrift::physics

@@ -51,7 +51,7 @@ class Stepper {
   void force_term(std::size_t index, double alpha, bool first_stage);
   void force_by(std::size_t index, double factor, bool first_stage, const double* derivative);
   void force_capacity(bool first_stage);
-  std::vector<int> envelope() const;
+  Skyline empty_matrix();
   double driver_derivative(const Term& term, std::size_t column) const;
 
   const Network& m_net;
@@ -64,6 +64,7 @@ class Stepper {
   std::vector<TermNow> m_now;
   std::vector<double> m_environment;
   std::vector<std::vector<std::pair<int, double>>> m_environment_by;  // (column, derivative)
+  std::vector<int> m_rank;  // node -> row of the matrix
   Skyline m_matrix;
   std::vector<FlatLink> m_links;
   std::vector<double> m_film, m_source, m_capacity, m_t, m_before, m_star, m_next, m_r;
@@ -78,16 +79,70 @@ class Stepper {
   Trajectory m_out;
 };
 
-std::vector<int> Stepper::envelope() const {
-  std::vector<int> first(m_n);
-  for (std::size_t i = 0; i < m_n; ++i) first[i] = static_cast<int>(i);
-  for (const auto& term : m_net.terms) {
+/// Breadth first through the links from the node with the fewest: neighbours get rows close to each other (Cuthill and
+/// McKee 1969), so that a chain beside a chain costs a few chains.
+std::vector<int> neighbourly_order(const Network& network) {
+  const std::size_t n = network.nodes();
+  std::vector<std::vector<int>> linked(n);
+  for (const auto& term : network.terms) {
     for (const auto& link : term.links) {
-      const auto [low, high] = std::minmax(link.first, link.second);
-      first[high] = std::min(first[high], low);
+      linked[link.first].push_back(link.second);
+      linked[link.second].push_back(link.first);
     }
   }
-  return first;
+  for (auto& list : linked) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  std::vector<int> order;
+  std::vector<bool> taken(n, false);
+  while (order.size() < n) {
+    int start = -1;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!taken[i] && (start < 0 || linked[i].size() < linked[start].size())) start = static_cast<int>(i);
+    }
+    std::size_t next = order.size();
+    order.push_back(start);
+    taken[start] = true;
+    // Two chains side by side begin with the ends of both, so that they go on in turns.
+    for (const int other : linked[start]) {
+      if (taken[other] || linked[other].size() != linked[start].size()) continue;
+      order.push_back(other);
+      taken[other] = true;
+      break;
+    }
+    for (; next < order.size(); ++next) {
+      for (const int other : linked[order[next]]) {
+        if (taken[other]) continue;
+        taken[other] = true;
+        order.push_back(other);
+      }
+    }
+  }
+  return order;
+}
+
+Skyline Stepper::empty_matrix() {
+  const auto envelope = [&] {
+    std::vector<int> first(m_n);
+    for (std::size_t i = 0; i < m_n; ++i) first[i] = static_cast<int>(i);
+    for (const auto& term : m_net.terms) {
+      for (const auto& link : term.links) {
+        const auto [low, high] = std::minmax(m_rank[link.first], m_rank[link.second]);
+        first[high] = std::min(first[high], low);
+      }
+    }
+    return first;
+  };
+  m_rank.resize(m_n);
+  for (std::size_t i = 0; i < m_n; ++i) m_rank[i] = static_cast<int>(i);
+  std::vector<int> first = envelope();
+  bool chain = true;
+  for (std::size_t i = 0; i < m_n; ++i) chain = chain && static_cast<int>(i) - first[i] <= 1;
+  if (chain) return Skyline(std::move(first));
+  std::vector<int> order = neighbourly_order(m_net);
+  for (std::size_t i = 0; i < m_n; ++i) m_rank[order[i]] = static_cast<int>(i);
+  return Skyline(envelope(), std::move(order));
 }
 
 Stepper::Stepper(const Network& network, const InputSet& inputs, const std::vector<double>& values,
@@ -99,7 +154,7 @@ Stepper::Stepper(const Network& network, const InputSet& inputs, const std::vect
       m_n(network.nodes()),
       m_p(parameters.size()),
       m_column(network.parameters.size(), -1),
-      m_matrix(envelope()) {
+      m_matrix(empty_matrix()) {
   for (std::size_t c = 0; c < m_p; ++c) m_column[parameters[c]] = static_cast<int>(c);
   if (network.hold_parameter >= 0) {
     m_hold = values[network.hold_parameter];
@@ -258,10 +313,10 @@ void Stepper::assemble(double alpha) {
   }
   if (!m_stiffness_changed && alpha == m_last_alpha) return;
   m_matrix.clear();
-  for (std::size_t i = 0; i < m_n; ++i) m_matrix.diagonal(static_cast<int>(i)) = m_capacity[i] + alpha * m_film[i];
+  for (std::size_t i = 0; i < m_n; ++i) m_matrix.diagonal(m_rank[i]) = m_capacity[i] + alpha * m_film[i];
   for (const auto& one : m_links) {
     const double g = alpha * one.conductance;
-    const auto [low, high] = std::minmax(one.first, one.second);
+    const auto [low, high] = std::minmax(m_rank[one.first], m_rank[one.second]);
     m_matrix.diagonal(low) += g;
     m_matrix.diagonal(high) += g;
     m_matrix.below(high, low) -= g;
@@ -411,7 +466,7 @@ void Stepper::force(double alpha, bool first_stage) {
   force_capacity(first_stage);
 }
 
-void Stepper::advance_derivatives(double alpha) {
+ZERODRIFT_WIDE void Stepper::advance_derivatives(double alpha) {
   const std::size_t p = m_p;
   for (std::size_t i = 0; i < m_n; ++i) {
     const double own = m_capacity[i] - alpha * m_film[i];

@@ -4,16 +4,24 @@
 
 namespace zerodrift::physics {
 
-Skyline::Skyline(std::vector<int> first) : m_first(std::move(first)) {
+Skyline::Skyline(std::vector<int> first, std::vector<int> order)
+    : m_first(std::move(first)), m_order(std::move(order)), m_sorted(m_order.size(), 0.0) {
   std::ptrdiff_t total = 0;
   for (int i = 0; i < static_cast<int>(m_first.size()); ++i) {
     m_start.push_back(total);
     total += i - m_first[i];
     m_chain = m_chain && i - m_first[i] <= 1;
+    m_band = m_band && i - m_first[i] <= 2;
   }
   m_below.assign(total, 0.0);
   m_diagonal.assign(m_first.size(), 0.0);
   m_inverse.assign(m_first.size(), 0.0);
+  m_chain = m_chain && m_order.empty();
+  m_band = m_band && !m_chain;
+  if (m_band) {
+    m_near.assign(m_first.size() + 2, 0.0);  // two rows of nothing below the last
+    m_far = m_near;
+  }
   if (m_chain) {
     m_link.assign(m_first.size(), 0.0);
     m_factor.assign(m_first.size(), 0.0);
@@ -48,6 +56,7 @@ void Skyline::factor_chain() {
 void Skyline::factor() {
   if (m_first.empty()) return;
   if (m_chain) return factor_chain();
+  if (m_band) return factor_band();
   const int n = static_cast<int>(m_first.size());
   for (int i = 0; i < n; ++i) {
     double* row = m_below.data() + m_start[i];
@@ -90,7 +99,7 @@ void Skyline::solve_chain(double* x) const {
   if (middle > lower) x[0] -= f[0] * x[1];
 }
 
-void Skyline::solve_chain(double* x, std::size_t columns) const {
+ZERODRIFT_WIDE void Skyline::solve_chain(double* x, std::size_t columns) const {
   const int n = static_cast<int>(m_first.size());
   const int middle = n / 2;
   const auto eliminate = [&](int target, int source, double factor) {
@@ -108,40 +117,111 @@ void Skyline::solve_chain(double* x, std::size_t columns) const {
   for (int i = middle + 1; i < n; ++i) eliminate(i, i - 1, m_factor[i]);
 }
 
-void Skyline::solve(double* x) const {
+void Skyline::factor_band() {
   const int n = static_cast<int>(m_first.size());
-  if (m_chain) return solve_chain(x);
   for (int i = 0; i < n; ++i) {
     const double* row = m_below.data() + m_start[i];
-    for (int j = m_first[i]; j < i; ++j) x[i] -= row[j - m_first[i]] * x[j];
+    const int width = i - m_first[i];
+    const double far = width == 2 ? row[0] : 0.0;  // L_ij D_j
+    double near = width == 2 ? row[1] : width == 1 ? row[0] : 0.0;
+    double pivot = m_diagonal[i];
+    if (far != 0.0) {
+      near -= far * m_near[i - 1];
+      m_far[i] = far * m_inverse[i - 2];
+      pivot -= far * m_far[i];
+    } else {
+      m_far[i] = 0.0;
+    }
+    m_near[i] = i > 0 ? near * m_inverse[i - 1] : 0.0;
+    m_inverse[i] = 1.0 / (pivot - near * m_near[i]);
+  }
+}
+
+void Skyline::solve_band(double* x) const {
+  const int n = static_cast<int>(m_first.size());
+  double before = 0.0, last = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double now = x[i] - m_far[i] * before - m_near[i] * last;
+    x[i] = now;
+    before = last;
+    last = now;
+  }
+  double after = 0.0, next = 0.0;  // rows i + 2 and i + 1
+  for (int i = n - 1; i >= 0; --i) {
+    const double now = x[i] * m_inverse[i] - m_far[i + 2] * after - m_near[i + 1] * next;
+    x[i] = now;
+    after = next;
+    next = now;
+  }
+}
+
+void Skyline::solve(double* given) {
+  const int n = static_cast<int>(m_first.size());
+  if (m_chain) return solve_chain(given);
+  double* x = given;
+  if (!m_order.empty()) {
+    x = m_sorted.data();
+    for (int i = 0; i < n; ++i) x[i] = given[m_order[i]];
+  }
+  if (m_band) {
+    solve_band(x);
+    for (int i = 0; i < n && x != given; ++i) given[m_order[i]] = x[i];
+    return;
+  }
+  for (int i = 0; i < n; ++i) {
+    const double* row = m_below.data() + m_start[i];
+    double sum = x[i];
+    for (int j = m_first[i]; j < i; ++j) sum -= row[j - m_first[i]] * x[j];
+    x[i] = sum;
   }
   for (int i = 0; i < n; ++i) x[i] *= m_inverse[i];
   for (int i = n - 1; i >= 0; --i) {
     const double* row = m_below.data() + m_start[i];
     for (int j = m_first[i]; j < i; ++j) x[j] -= row[j - m_first[i]] * x[i];
   }
+  for (int i = 0; i < n && x != given; ++i) given[m_order[i]] = x[i];
 }
 
-void Skyline::solve(double* x, std::size_t columns) const {
+ZERODRIFT_WIDE void Skyline::solve(double* x, std::size_t columns) const {
   if (m_chain) return solve_chain(x, columns);
   const int n = static_cast<int>(m_first.size());
+  const auto at = [&](int i) { return x + static_cast<std::size_t>(m_order.empty() ? i : m_order[i]) * columns; };
+  if (m_band) {
+    for (int i = 1; i < n; ++i) {
+      double* own = at(i);
+      const double* last = at(i - 1);
+      const double* before = at(std::max(0, i - 2));
+      const double near = m_near[i], far = m_far[i];
+      for (std::size_t c = 0; c < columns; ++c) own[c] -= near * last[c] + far * before[c];
+    }
+    for (int i = n - 1; i >= 0; --i) {
+      double* own = at(i);
+      const double* next = at(std::min(n - 1, i + 1));
+      const double* after = at(std::min(n - 1, i + 2));
+      const double inverse = m_inverse[i], near = m_near[i + 1], far = m_far[i + 2];
+      for (std::size_t c = 0; c < columns; ++c) own[c] = own[c] * inverse - near * next[c] - far * after[c];
+    }
+    return;
+  }
   for (int i = 0; i < n; ++i) {
-    double* target = x + static_cast<std::size_t>(i) * columns;
+    double* target = at(i);
     for (int j = m_first[i]; j < i; ++j) {
       const double factor = m_below[m_start[i] + j - m_first[i]];
-      const double* other = x + static_cast<std::size_t>(j) * columns;
+      if (factor == 0.0) continue;
+      const double* other = at(j);
       for (std::size_t c = 0; c < columns; ++c) target[c] -= factor * other[c];
     }
   }
   for (int i = 0; i < n; ++i) {
-    double* own = x + static_cast<std::size_t>(i) * columns;
+    double* own = at(i);
     for (std::size_t c = 0; c < columns; ++c) own[c] *= m_inverse[i];
   }
   for (int i = n - 1; i >= 0; --i) {
-    const double* own = x + static_cast<std::size_t>(i) * columns;
+    const double* own = at(i);
     for (int j = m_first[i]; j < i; ++j) {
       const double factor = m_below[m_start[i] + j - m_first[i]];
-      double* other = x + static_cast<std::size_t>(j) * columns;
+      if (factor == 0.0) continue;
+      double* other = at(j);
       for (std::size_t c = 0; c < columns; ++c) other[c] -= factor * own[c];
     }
   }

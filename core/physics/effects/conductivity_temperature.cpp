@@ -22,6 +22,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     if (component.lump) return;
     const auto at = builder.place(component.id);
     for (int face = 1; face < at.count; ++face) {
+      // The inside of a rod of two bodies follows nearly the same gradient; one term on the surface stands for both.
       Term term;
       term.kind = TermKind::link;
       term.law_kind = LawKind::state;

@@ -36,16 +36,20 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   p.low = 0.04 * component.length_mm;
   p.high = 0.96 * component.length_mm;
   const auto at = builder.place(id);
-  for (int face = 1; face < at.count; ++face) {
-    Term term;
-    term.kind = TermKind::link;
-    term.law_kind = LawKind::constant;
-    term.label = id + "/contact_resistance";
-    term.links = {{at.first + face - 1, at.first + face, 1.0}};
-    term.parameters = {resistance, place, builder.conductivity(id)};
-    term.law = face_law(face, at.cell_m, component.section_m2());
-    builder.add(std::move(term));
-  }
+  const auto add_joint = [&](int first, double section_share) {
+    for (int face = 1; face < at.count; ++face) {
+      Term term;
+      term.kind = TermKind::link;
+      term.law_kind = LawKind::constant;
+      term.label = id + "/contact_resistance";
+      term.links = {{first + face - 1, first + face, 1.0}};
+      term.parameters = {resistance, place, builder.conductivity(id)};
+      term.law = face_law(face, at.cell_m, section_share * component.section_m2());
+      builder.add(std::move(term));
+    }
+  };
+  add_joint(at.first, 1.0 - at.inner_share);
+  if (at.inner >= 0) add_joint(at.inner, at.inner_share);
 }
 
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {

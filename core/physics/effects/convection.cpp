@@ -17,13 +17,19 @@ void add_end_loss(NetworkBuilder& builder, const Component& component, const Eff
   h.start = spec.number_or(h.key, 0.0);
   const int parameter = builder.add_parameter(h);
   const auto at = builder.place(component.id);
-  for (const int node : {at.first, at.first + at.count - 1}) {
+  std::vector<std::pair<int, double>> ends = {{at.first, 1.0 - at.inner_share},
+                                              {at.first + at.count - 1, 1.0 - at.inner_share}};
+  if (at.inner >= 0) {
+    ends.emplace_back(at.inner, at.inner_share);
+    ends.emplace_back(at.inner + at.count - 1, at.inner_share);
+  }
+  for (const auto& [node, share] : ends) {
     Term term;
     term.kind = TermKind::film;
     term.law_kind = LawKind::constant;
     term.label = component.id + "/end";
     term.first_node = node;
-    term.weights = {component.section_m2()};
+    term.weights = {share * component.section_m2()};
     term.environment = builder.room();
     term.parameters = {parameter};
     term.law = proportional_law;

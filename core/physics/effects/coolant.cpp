@@ -1,6 +1,6 @@
 // Cooling by a liquid while it flows: -c(t) h P (T - T_coolant) over a region. A fluid that the description measures is
 // used with its own temperature and flow; a lump of unknown surface has a conductance instead of a film.
-#include "core/physics/effects/laws.h"
+#include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
 namespace coolant {
@@ -21,6 +21,17 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   }
   if (liquid.series < 0) {
     liquid.parts.push_back({builder.effect_parameter(spec, index, "temperature_C", builder.mean_initial_C()), -1});
+    // A tank without a chiller follows the room, one with a chiller does not.
+    Parameter follows;
+    follows.key = "follows_room";
+    follows.component = spec.word_or("component", "");
+    follows.effect = index;
+    follows.mean = 0.5;
+    follows.start = spec.number_or(follows.key, follows.mean);
+    follows.sigma = spec.candidate ? 0.4 : 0.0;
+    follows.low = 0.0;
+    follows.high = 1.0;
+    liquid.parts.push_back({builder.add_parameter(follows), room_rise_signal(builder)});
   }
   const int environment = builder.environment(std::move(liquid));
   for_components(builder, spec, [&](const Component& component) {
@@ -54,6 +65,8 @@ void add_regions(const Component& component, std::vector<EffectSpec>& list) {
     bearings.push_back(&source);
     region("at_" + source.id, source.from_mm - margin_mm, source.to_mm + margin_mm);
   }
+  region("front_half", 0.5 * component.length_mm, component.length_mm);
+  region("rear_half", 0.0, 0.5 * component.length_mm);
   if (bearings.size() > 1) region("between", bearings.front()->from_mm, bearings.back()->to_mm);
 }
 

@@ -13,7 +13,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   source.label = id + "/cutting_heat";
   source.parameters = {builder.effect_parameter(spec, index, "share")};
   source.law = times_input(builder.held("spindle_load_W"));
-  builder.add(std::move(source));
+  builder.add_heat(id, std::move(source), builder.heat_share_of_effect(spec, index, id));
 }
 
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {

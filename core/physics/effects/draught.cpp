@@ -45,18 +45,20 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   for (const auto& component : machine.components)
     surface = surface || (!component.prescribed && has_surface(component));
   if (!surface || facts.duration_s < 3600.0) return list;
-  for (int i = 0; i < 8; ++i) {
-    const double width_s = facts.duration_s / 8.0;
-    list.push_back({"draught",
-                    true,
-                    {{"h_W_m2K", 0.0},
-                     {"from_s", i * width_s},
-                     {"to_s", (i + 1) * width_s},
-                     {"from_s_prior_sigma", 0.5 * width_s},
-                     {"to_s_prior_sigma", 0.5 * width_s},
-                     {"colder_K", 0.0}},
-                    {}});
-  }
+  const double width_s = facts.duration_s / 8.0;
+  const auto window = [&](double from_s, double to_s) {
+    EffectSpec spec{"draught", true, {}, {}};
+    spec.numbers = {{"h_W_m2K", 0.0},
+                    {"from_s", from_s},
+                    {"to_s", to_s},
+                    {"from_s_prior_sigma", 0.5 * width_s},
+                    {"to_s_prior_sigma", 0.5 * width_s},
+                    {"colder_K", 0.0}};
+    list.push_back(std::move(spec));
+  };
+  for (int i = 0; i < 8; ++i) window(i * width_s, (i + 1) * width_s);
+  // Nobody closed it again while the machine was watched.
+  for (int i = 1; i < 8; ++i) window(i * width_s, facts.duration_s + 2.0 * width_s);
   return list;
 }
 

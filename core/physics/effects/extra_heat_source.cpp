@@ -36,7 +36,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   source.parameters = {power};
   source.law_kind = form == "constant" ? LawKind::constant : LawKind::inputs;
   source.law = law(form, builder.held_speed(), builder.network().full_speed_rpm);
-  builder.add(std::move(source));
+  builder.add_heat(id, std::move(source), builder.heat_share_of_effect(spec, index, id));
 }
 
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
