@@ -42,8 +42,8 @@ InnerBody shaft_of(const Component& component, double shaft_mm) {
   return inner;
 }
 
-/// Two rings of equal section; the outer is as much warmer than the mean as the surface of a cylinder with a steady flux
-/// is: q' / (8 pi k), less where a bore leaves a thin wall.
+/// Two rings of equal section; the outer is as much warmer than the mean as the surface of a cylinder with a steady
+/// flux is: q' / (8 pi k), less where a bore leaves a thin wall.
 InnerBody axis_of(const Component& component) {
   InnerBody inner;
   const double wall = 1.0 - component.bore_diameter_mm / component.outer_diameter_mm;
@@ -60,11 +60,20 @@ physics::Machine with_inner_bodies(physics::Machine machine) {
     const double shaft_mm = shaft_of_mean_diameter * bearing_diameter_mm(component);
     const bool cartridge = shaft_mm > 1.2 * component.bore_diameter_mm && shaft_mm < 0.8 * component.outer_diameter_mm;
     const double half_wall_m = 0.5e-3 * (component.outer_diameter_mm - component.bore_diameter_mm);
-    const double evens_out_s = half_wall_m * half_wall_m * m.density_kg_m3 * m.heat_capacity_J_kgK / m.conductivity_W_mK;
+    const double evens_out_s =
+        half_wall_m * half_wall_m * m.density_kg_m3 * m.heat_capacity_J_kgK / m.conductivity_W_mK;
     if (cartridge) {
       component.inner = shaft_of(component, shaft_mm);
     } else if (evens_out_s > fast_s) {
       component.inner = axis_of(component);
+    } else {
+      continue;
+    }
+    component.inner->near_lag_s = 0.25 * evens_out_s;
+    for (const auto& sensor : machine.sensors) {
+      if (sensor.component == component.id && component.source_near(sensor.position_mm) != nullptr) {
+        component.inner->near_field_K_W[sensor.channel] = 0.0;
+      }
     }
   }
   return machine;

@@ -1,6 +1,6 @@
 #pragma once
-// Rods are described as one body. Where the description tells that there are two - bearings that sit inside the section:
-// a shaft in its cartridge - or that the steel is thick, the diagnosis fits the rod with its inside
+// Rods are described as one body. Where the description tells that there are two - bearings that sit inside the
+// section: a shaft in its cartridge - or that the steel is thick, the diagnosis fits the rod with its inside
 // (physics::InnerBody), so that the difference between surface and inside is neither an effect nor noise.
 
 #include "core/physics/machine.h"

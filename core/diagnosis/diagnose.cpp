@@ -225,7 +225,8 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
 void Diagnoser::rivals() {
   if (m_out.verdict != Verdict::missing_effect || m_selection.effects().empty()) return;
   const double best = m_selection.best->log_evidence();
-  const double margin = std::max(8.0, 0.02 * (best - m_selection.base->log_evidence()));
+  // What of a strong effect's law is not quite right counts for a rival no more than for the effect itself.
+  const double margin = std::max(8.0, 0.003 * (best - m_selection.base->log_evidence()));
   std::vector<std::shared_ptr<Model>> others;
   const bool one_by_one = m_options.details && (m_out.effects.size() > 1 || m_out.drift_factor > 1.0);
   if (one_by_one) {
@@ -248,9 +249,13 @@ void Diagnoser::rivals() {
     auto& kept = families[id];
     if (kept == nullptr || fit->log_evidence() > kept->log_evidence()) kept = fit;
   }
-  for (const auto& [id, fit] : families) {
+  std::vector<std::shared_ptr<Model>> nearest;
+  for (const auto& [id, fit] : families) nearest.push_back(fit);
+  std::sort(nearest.begin(), nearest.end(), [](auto& a, auto& b) { return a->log_evidence() > b->log_evidence(); });
+  if (nearest.size() > 3) nearest.resize(3);
+  for (const auto& fit : nearest) {
     Rival rival;
-    rival.id = id;
+    rival.id = fit->machine().effects.back().id;
     const physics::EffectSpec spec = fitted_effect(*fit, fit->machine().effects.size() - 1);
     rival.component = spec.word_or("component", "");
     rival.channel = spec.word_or("channel", "");
@@ -258,11 +263,8 @@ void Diagnoser::rivals() {
     rival.behind = best - fit->log_evidence();
     rival.why = explain_rival(rival);
     m_out.ambiguous_with.push_back(rival);
-    m_rivals.push_back(fit);
   }
-  std::sort(m_out.ambiguous_with.begin(), m_out.ambiguous_with.end(),
-            [](auto& a, auto& b) { return a.behind < b.behind; });
-  if (m_out.ambiguous_with.size() > 3) m_out.ambiguous_with.resize(3);
+  m_rivals = std::move(nearest);
 }
 
 std::string_view name_of(Verdict verdict) {

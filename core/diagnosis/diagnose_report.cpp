@@ -202,7 +202,10 @@ void Diagnoser::details() {
     if (kept.id.empty() || candidate.detectable < kept.value) kept = {candidate.spec.id, key, candidate.detectable};
   }
   for (auto& [id, detectable] : least) m_out.detectable.push_back(detectable);
-  if (!m_rivals.empty()) m_out.suggested = suggest_experiment(*m_selection.best, *m_rivals.front());
+  if (m_rivals.empty()) return;
+  std::vector<const Model*> rivals;
+  for (const auto& rival : m_rivals) rivals.push_back(rival.get());
+  m_out.suggested = suggest_experiment(*m_selection.best, rivals);
 }
 
 void Diagnoser::notes() {

@@ -14,8 +14,5 @@ namespace zerodrift::diagnosis {
 
 /// Against the rival that is told apart least.
 SuggestedExperiment suggest_experiment(const Model& best, const std::vector<const Model*>& rivals);
-inline SuggestedExperiment suggest_experiment(const Model& best, const Model& rival) {
-  return suggest_experiment(best, std::vector<const Model*>{&rival});
-}
 
 }  // namespace zerodrift::diagnosis

@@ -38,7 +38,8 @@ Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool
     m_z[i] = std::clamp(m_z[i], m_low[i], m_high[i]);
   }
   m_jacobian.setZero(static_cast<Index>(m_data->stacked()), n);
-  for (const auto& spec : m_machine.effects) m_log_prior += spec.candidate ? physics::log_prior_of(spec.id) + spec.log_prior : 0.0;
+  for (const auto& spec : m_machine.effects)
+    m_log_prior += spec.candidate ? physics::log_prior_of(spec.id) + spec.log_prior : 0.0;
 }
 
 int Model::free_index(int parameter) const {

@@ -13,7 +13,9 @@ bool is_width(const std::string& key) {
   return key.size() > 12 && key.compare(key.size() - 12, 12, "_prior_sigma") == 0;
 }
 
-void take_inside(physics::InnerBody& inner, const std::string& key, double value) {
+void take_inside(physics::InnerBody& inner, const physics::Parameter& p, double value) {
+  const std::string& key = p.key;
+  if (key == "near_field_K_W") inner.near_field_K_W[p.channel] = value;
   if (key == "inner_coupling_W_mK") inner.coupling_W_mK = value;
   if (key == "inner_coupling_rise") inner.coupling_rise = value;
   if (key == "inner_growth_share") inner.growth_share = value;
@@ -28,7 +30,7 @@ void take(Machine& machine, const physics::Parameter& p, double value) {
     if (p.key == "heat_capacity_J_kgK") component.material.heat_capacity_J_kgK = value;
     if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value;
     if (p.key == "expansion_1_K") component.material.expansion_1_K = value;
-    if (component.inner) take_inside(*component.inner, p.key, value);
+    if (component.inner) take_inside(*component.inner, p, value);
     for (auto& source : component.sources) {
       if (p.key == "scale:" + source.id) source.scale = value;
       for (const auto& law : source.law) {

@@ -216,8 +216,8 @@ class Selector {
   /// makes the misfit without it look large; compared at the best misfit of both, it is not swallowed by that.
   ModelPtr with_ordinary(const ModelPtr& model) const {
     if (!m_options.own_misfit || m_usual == nullptr) return model;
-    auto data = std::make_shared<Dataset>(
-        with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
+    auto data =
+        std::make_shared<Dataset>(with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
     auto result = std::make_shared<Model>(model->machine(), data);
     result->start_from(*model, false);
     result->gain = model->gain;

@@ -61,7 +61,8 @@ class NetworkBuilder {
   Probe probe_at(const std::string& component, double position_mm) const;
   Probe mean_probe(const std::string& component) const;
   Term& add(Term term);
-  /// Heat of a rod with an inside enters both: `share` (a parameter) of it the inside. A rod of one body takes it whole.
+  /// Heat of a rod with an inside enters both: `share` (a parameter) of it the inside. A rod of one body takes it
+  /// whole.
   void add_heat(const std::string& component, Term term, int share);
   /// The share for an effect's own heat, -1 where the rod is one body.
   int heat_share_of_effect(const EffectSpec& spec, int index, const std::string& component);
@@ -80,6 +81,7 @@ class NetworkBuilder {
   void add_rod(const Component& component);
   void add_inner_body(const Component& component, Network::Place& at);
   void add_contact(const Component& component, const HeatSource& bearing, int rise);
+  void add_near_field(const Component& component, const Sensor& sensor, Observation& seen);
   Probe length_probe(const Network::Place& at, int first, double factor) const;
   void add_lump(const Component& component);
   void add_initial_state();

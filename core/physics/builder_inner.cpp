@@ -59,7 +59,8 @@ void NetworkBuilder::add_inner_body(const Component& component, Network::Place& 
   along.kind = TermKind::link;
   along.law_kind = LawKind::constant;
   along.label = component.id + "/inner_conduction";
-  for (int i = 0; i + 1 < at.count; ++i) along.links.push_back({at.inner + i, at.inner + i + 1, section_m2 / at.cell_m});
+  for (int i = 0; i + 1 < at.count; ++i)
+    along.links.push_back({at.inner + i, at.inner + i + 1, section_m2 / at.cell_m});
   along.parameters = {m_conductivity[component.id]};
   along.law = proportional_law;
   add(std::move(along));
@@ -141,6 +142,36 @@ int NetworkBuilder::heat_share_of_effect(const EffectSpec& spec, int index, cons
   share.start = spec.number_or(share.key, share.mean);
   if (!spec.candidate) share.mean = share.start, share.sigma = 0.0;
   return add_parameter(share);
+}
+
+void NetworkBuilder::add_near_field(const Component& component, const Sensor& sensor, Observation& seen) {
+  const HeatSource* found = component.source_near(sensor.position_mm);
+  const auto known = component.inner->near_field_K_W.find(sensor.channel);
+  if (found == nullptr || known == component.inner->near_field_K_W.end()) return;
+  // A fifth of what a steady flux makes between the surface and the mean of a cylinder, over the source's width or the
+  // radius, whichever is longer.
+  const double width_m = m_per_mm * std::max(found->to_mm - found->from_mm, 0.5 * component.outer_diameter_mm);
+  Parameter gain;
+  gain.key = "near_field_K_W";
+  gain.component = component.id;
+  gain.channel = sensor.channel;
+  gain.mean = gain.start = known->second;
+  gain.sigma = 0.2 / (8.0 * 3.14159265358979 * component.material.conductivity_W_mK * width_m);
+  Parameter lag;
+  lag.key = "near_lag_s";
+  lag.component = component.id;
+  lag.mean = lag.start = component.inner->near_lag_s;
+  lag.sigma = 0.0;
+  StructureTerm term;
+  term.gain = add_parameter(gain);
+  term.lag = add_parameter(lag);
+  const HeatSource source = *found;
+  const int speed = held_speed();
+  const double full_rpm = m_network.full_speed_rpm;
+  term.signal = signal({"near heat", [=](const double* held, const double*, double) {
+                          return nominal_heat_W(source, held[speed], full_rpm);
+                        }});
+  seen.structure.push_back(term);
 }
 
 Probe NetworkBuilder::length_probe(const Network::Place& at, int first, double factor) const {

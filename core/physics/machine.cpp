@@ -1,5 +1,6 @@
 #include "core/physics/machine.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace zerodrift::physics {
@@ -12,6 +13,17 @@ double Component::section_m2() const {
 
 double Component::perimeter_m() const {
   return 1e-3 * std::numbers::pi * outer_diameter_mm;
+}
+
+const HeatSource* Component::source_near(double position_mm) const {
+  const HeatSource* nearest = nullptr;
+  double least_mm = 0.25 * outer_diameter_mm;
+  for (const auto& source : sources) {
+    if (source.kind != SourceKind::bearing && source.kind != SourceKind::motor) continue;
+    const double off_mm = std::max({0.0, source.from_mm - position_mm, position_mm - source.to_mm});
+    if (off_mm < least_mm) least_mm = off_mm, nearest = &source;
+  }
+  return nearest;
 }
 
 double EffectSpec::number_or(const std::string& key, double fallback) const {

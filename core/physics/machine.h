@@ -65,13 +65,17 @@ struct HeatSource {
 /// at its axis. Then the rod's surface is one chain of cells and its inside another, joined along the whole length and
 /// at the bearings; sensors and films sit on the surface, the length follows the inside.
 struct InnerBody {
-  double section_share = 0.5;           // of the rod's section
-  double coupling_W_mK = 500.0;         // per metre of rod, at rest
-  double coupling_rise = 0.0;           // how much more at full speed, relative; grows with the root of the speed
-  double growth_share = 0.5;            // the length is the inside's (1) or the surface's (0)
+  double section_share = 0.5;                 // of the rod's section
+  double coupling_W_mK = 500.0;               // per metre of rod, at rest
+  double coupling_rise = 0.0;                 // how much more at full speed, relative; grows with the root of the speed
+  double growth_share = 0.5;                  // the length is the inside's (1) or the surface's (0)
   std::map<std::string, double> heat_share;   // heat source -> the part of it that enters the inside
   std::map<std::string, double> contact_W_K;  // bearing -> across it
-  bool shaft_in_cartridge = false;      // else solid
+  /// Sensor -> what it shows above its section's mean, K per W of the source it sits on: the field there is not one of
+  /// rings. With the source's nominal heat, late by near_lag_s.
+  std::map<std::string, double> near_field_K_W;
+  double near_lag_s = 60.0;
+  bool shaft_in_cartridge = false;  // else solid
 };
 
 struct Component {
@@ -88,6 +92,8 @@ struct Component {
   std::optional<InnerBody> inner;  // rods
   double section_m2() const;
   double perimeter_m() const;
+  /// The source that a sensor at this place sits on, within a quarter of the diameter; null: none.
+  const HeatSource* source_near(double position_mm) const;
 };
 
 struct CouplingEnd {

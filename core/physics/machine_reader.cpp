@@ -107,7 +107,8 @@ HeatSource read_source(JsonObject& o, const Component& component) {
 void read_inner_body(JsonObject& o, Component& component) {
   constexpr NumberRange share{0.0, 1.0, false, "a share from 0 to 1"};
   InnerBody inner;
-  inner.section_share = o.number("section_share", NumberRange{0.01, 0.99, false, "a share of the section, 0.01 to 0.99"});
+  inner.section_share =
+      o.number("section_share", NumberRange{0.01, 0.99, false, "a share of the section, 0.01 to 0.99"});
   inner.coupling_W_mK = o.number("coupling_W_mK", positive);
   inner.coupling_rise = o.number_or("coupling_rise", 0.0, not_negative);
   inner.growth_share = o.number_or("growth_share", inner.section_share, share);
@@ -120,6 +121,10 @@ void read_inner_body(JsonObject& o, Component& component) {
       inner.contact_W_K[source.id] = part->number(source.id, positive);
     }
   }
+  if (JsonObject* near = o.object_if("near_field_K_W")) {
+    for (const auto& channel : near->keys()) inner.near_field_K_W[channel] = near->number(channel);
+  }
+  inner.near_lag_s = o.number_or("near_lag_s", inner.near_lag_s, not_negative);
   component.inner = std::move(inner);
 }
 

@@ -43,6 +43,8 @@ void write_component(json& out, const Component& component) {
                          {"growth_share", component.inner->growth_share},
                          {"heat_share", component.inner->heat_share},
                          {"contact_W_K", component.inner->contact_W_K},
+                         {"near_field_K_W", component.inner->near_field_K_W},
+                         {"near_lag_s", component.inner->near_lag_s},
                          {"shaft_in_cartridge", component.inner->shaft_in_cartridge}};
   }
   if (component.material.expansion_1_K != 0.0) out["material"]["expansion_1_K"] = component.material.expansion_1_K;

@@ -104,7 +104,7 @@ struct Observation {
   double reference = 0.0;  // temperature: of the gain; displacement: probe value at the initial temperature
   int inner_probe = -1;    // mixed in by the parameter inner_share: (1 - s) probe + s inner_probe
   int inner_share = -1;
-  int scale = -1;          // parameter: multiplies (probe - reference), displacements only
+  int scale = -1;  // parameter: multiplies (probe - reference), displacements only
   int offset = -1;
   int lag_s = -1;  // parameter: sensor lag in s
   int gain = -1;   // parameter: relative error of the gain
@@ -140,8 +140,8 @@ struct Network {
     std::string component;
     int first = 0;
     int count = 0;
-    double cell_m = 0.0;  // 0: lump
-    int inner = -1;       // first node of the inside, -1: one body
+    double cell_m = 0.0;       // 0: lump
+    int inner = -1;            // first node of the inside, -1: one body
     double inner_share = 0.0;  // of the section
   };
   std::vector<Place> places;

@@ -64,7 +64,7 @@ class Stepper {
   std::vector<TermNow> m_now;
   std::vector<double> m_environment;
   std::vector<std::vector<std::pair<int, double>>> m_environment_by;  // (column, derivative)
-  std::vector<int> m_rank;  // node -> row of the matrix
+  std::vector<int> m_rank;                                            // node -> row of the matrix
   Skyline m_matrix;
   std::vector<FlatLink> m_links;
   std::vector<double> m_film, m_source, m_capacity, m_t, m_before, m_star, m_next, m_r;

@@ -46,8 +46,8 @@ class Skyline {
   std::vector<double> m_below;
   std::vector<double> m_diagonal;
   std::vector<double> m_inverse;
-  std::vector<double> m_link;    // chain: entry (i, i - 1) of the matrix, 0 for i = 0
-  std::vector<double> m_factor;  // chain: eliminates row i from its neighbour nearer to the middle
+  std::vector<double> m_link;         // chain: entry (i, i - 1) of the matrix, 0 for i = 0
+  std::vector<double> m_factor;       // chain: eliminates row i from its neighbour nearer to the middle
   std::vector<double> m_near, m_far;  // band: L at (i, i - 1) and (i, i - 2)
   bool m_chain = true;
   bool m_band = true;

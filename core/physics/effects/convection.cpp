@@ -37,6 +37,34 @@ void add_end_loss(NetworkBuilder& builder, const Component& component, const Eff
   }
 }
 
+/// h (1 + t (x / L - 1/2)): one end sits in its seat, the other in moving air. How much, the data say.
+void add_tilt(NetworkBuilder& builder, const Component& component, const EffectSpec& spec, int index, int strength) {
+  Parameter tilt;
+  tilt.key = "film_tilt";
+  tilt.component = component.id;
+  tilt.effect = index;
+  tilt.sigma = 0.25;
+  tilt.low = -1.5;
+  tilt.high = 1.5;
+  tilt.mean = spec.candidate ? 0.0 : spec.number_or(tilt.key, 0.0);
+  tilt.start = tilt.mean;
+  Term term = builder.film_over(component.id, 0.0, component.length_mm);
+  const double cells = static_cast<double>(term.weights.size());
+  for (std::size_t i = 0; i < term.weights.size(); ++i) term.weights[i] *= (static_cast<double>(i) + 0.5) / cells - 0.5;
+  term.label = component.id + "/film_tilt";
+  term.law_kind = LawKind::constant;
+  term.environment = builder.room();
+  term.parameters = {strength, builder.add_parameter(tilt)};
+  term.law = [](const LawPoint& at) {
+    Strength s;
+    s.value = at.values[0] * at.values[1];
+    s.by_parameter[0] = at.values[1];
+    s.by_parameter[1] = at.values[0];
+    return s;
+  };
+  builder.add(std::move(term));
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
   const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
@@ -51,6 +79,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     film.law = proportional_law;
     builder.add(std::move(film));
     if (!component.lump) add_end_loss(builder, component, spec, index);
+    if (component.inner) add_tilt(builder, component, spec, index, strength);
   });
 }
 
