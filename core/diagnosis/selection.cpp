@@ -299,7 +299,7 @@ class Selector {
   bool accepted(const Model& fit, const Excess& before) const {
     const double gained = total_gain(fit, *m_result.best);
     const double so_far = total_gain(*m_result.best, *m_result.base);
-    if (before.largest < 1.6) return gained > least_gain(so_far);
+    if (before.largest < 2.0) return gained > least_gain(so_far);
     if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
     if (!m_options.excess_must_fall) return true;
     const Excess after = excess_of(fit);

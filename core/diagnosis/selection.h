@@ -11,7 +11,7 @@ namespace zerodrift::diagnosis {
 /// Thresholds on the log evidence (natural logarithm), found on concealed cases; see the proof.
 struct SelectionOptions {
   double first = 8.0;             // an effect against none
-  double second_screen = 20;      // score gain that makes a second effect worth a refit
+  double second_screen = 14;      // score gain that makes a second effect worth a refit
   double second_clean = 7.5;      // a second effect where the first leaves nothing slow
   double clean_relative = 0.001;  // of the evidence so far: a strong effect's law is never quite right
   double second = 25;             // a second effect where it does

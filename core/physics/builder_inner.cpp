@@ -69,7 +69,8 @@ void NetworkBuilder::add_inner_body(const Component& component, Network::Place& 
   coupling.component = component.id;
   coupling.mean = coupling.start = inner.coupling_W_mK;
   coupling.logarithmic = true;
-  coupling.sigma = inner.shaft_in_cartridge ? 0.8 : 0.5;
+  // A sensor in a hole, a hollow section or a simulation of one dimension leave little of the difference.
+  coupling.sigma = inner.shaft_in_cartridge ? 0.8 : 1.0;
   Parameter rise;
   rise.key = "inner_coupling_rise";
   rise.component = component.id;

@@ -23,10 +23,20 @@ nlohmann::json coupled_json() {
   return document;
 }
 
-}  // namespace
+/// The same rod as a shaft in its cartridge: two chains of cells, joined along their length and at the bearing.
+nlohmann::json cartridge_json() {
+  nlohmann::json document = test::spindle_json();
+  document["components"][0]["inner_body"] = nlohmann::json::parse(
+      R"({"section_share": 0.2, "coupling_W_mK": 25.0, "coupling_rise": 0.6, "growth_share": 0.8,
+          "heat_share": {"motor": 0.4, "front_bearing": 0.3}, "contact_W_K": {"front_bearing": 30.0},
+          "near_field_K_W": {"T5_C": 0.001}, "near_lag_s": 90.0, "shaft_in_cartridge": true})");
+  document["effects"].push_back("contact_resistance");
+  document["effect_parameters"]["contact_resistance"] = {{"resistance_m2K_W", 1e-3}, {"position_mm", 233.0}};
+  return document;
+}
 
-TEST(Simulator, ConservesHeat) {
-  const Machine machine = *machine_from_json(coupled_json(), "m.json");
+void expect_conservation(const nlohmann::json& document) {
+  const Machine machine = *machine_from_json(document, "m.json");
   const recording::Recording run = test::stepped_run();
   const Network network = build_network(machine, run);
   SimulateOptions options;
@@ -36,8 +46,8 @@ TEST(Simulator, ConservesHeat) {
   EXPECT_NEAR(t.stored_J / t.supplied_J, 1.0, 1e-10);
 }
 
-TEST(Simulator, DerivativesAgreeWithCentralDifferences) {
-  const Machine machine = *machine_from_json(coupled_json(), "m.json");
+void expect_exact_derivatives(const nlohmann::json& document) {
+  const Machine machine = *machine_from_json(document, "m.json");
   const recording::Recording run = test::stepped_run();
   const Network network = build_network(machine, run);
   const InputSet inputs = make_inputs(network, run);
@@ -66,6 +76,54 @@ TEST(Simulator, DerivativesAgreeWithCentralDifferences) {
           << network.parameters[p].key << " on " << exact.channels[c].channel;
     }
   }
+}
+
+double largest_difference(const Prediction& a, const Prediction& b) {
+  double largest = 0.0;
+  for (std::size_t c = 0; c < a.channels.size(); ++c) {
+    for (std::size_t k = 0; k < a.rows; ++k) {
+      largest = std::max(largest, std::abs(a.channels[c].values[k] - b.channels[c].values[k]));
+    }
+  }
+  return largest;
+}
+
+Prediction nominal(const nlohmann::json& document) {
+  const Machine machine = *machine_from_json(document, "m.json");
+  const recording::Recording run = test::stepped_run();
+  const Network network = build_network(machine, run);
+  return predict(network, make_inputs(network, run), network.start_values());
+}
+
+}  // namespace
+
+TEST(Simulator, ConservesHeat) {
+  expect_conservation(coupled_json());
+  expect_conservation(cartridge_json());
+}
+
+TEST(Simulator, DerivativesAgreeWithCentralDifferences) {
+  expect_exact_derivatives(coupled_json());
+  expect_exact_derivatives(cartridge_json());
+}
+
+TEST(Simulator, AShaftTightInItsCartridgeIsOneBody) {
+  nlohmann::json tight = cartridge_json();
+  nlohmann::json one = tight;
+  one["components"][0].erase("inner_body");
+  nlohmann::json& inner = tight["components"][0]["inner_body"];
+  inner["near_field_K_W"] = nlohmann::json::object();
+  EXPECT_GT(largest_difference(nominal(tight), nominal(one)), 0.5);
+  inner["coupling_W_mK"] = 1e7;
+  EXPECT_LT(largest_difference(nominal(tight), nominal(one)), 0.01);
+}
+
+TEST(Simulator, TheInsideOfARodIsKeptInTheDescription) {
+  const Machine machine = *machine_from_json(cartridge_json(), "m.json");
+  const nlohmann::json written = to_json(machine);
+  EXPECT_EQ(largest_difference(nominal(written), nominal(cartridge_json())), 0.0);
+  ASSERT_TRUE(machine.components[0].inner.has_value());
+  EXPECT_EQ(machine.components[0].inner->contact_W_K.at("front_bearing"), 30.0);
 }
 
 TEST(Simulate, PredictsTheChannelsOfTheRecordingAndNamesTheRest) {
