@@ -30,8 +30,6 @@ nlohmann::json cartridge_json() {
       R"({"section_share": 0.2, "coupling_W_mK": 25.0, "coupling_rise": 0.6, "growth_share": 0.8,
           "heat_share": {"motor": 0.4, "front_bearing": 0.3}, "contact_W_K": {"front_bearing": 30.0},
           "near_field_K_W": {"T5_C": 0.001}, "near_lag_s": 90.0, "shaft_in_cartridge": true})");
-  document["effects"].push_back("contact_resistance");
-  document["effect_parameters"]["contact_resistance"] = {{"resistance_m2K_W", 1e-3}, {"position_mm", 233.0}};
   return document;
 }
 
