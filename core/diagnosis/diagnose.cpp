@@ -225,8 +225,10 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
 void Diagnoser::rivals() {
   if (m_out.verdict != Verdict::missing_effect || m_selection.effects().empty()) return;
   const double best = m_selection.best->log_evidence();
-  // What of a strong effect's law is not quite right counts for a rival no more than for the effect itself.
-  const double margin = std::max(8.0, 0.003 * (best - m_selection.base->log_evidence()));
+  // What of a strong effect's law is not quite right must not exclude a rival; where the description is good that is
+  // little.
+  const double not_quite = m_limits.own_misfit && !m_wide ? 0.003 : 0.02;
+  const double margin = std::max(8.0, not_quite * (best - m_selection.base->log_evidence()));
   std::vector<std::shared_ptr<Model>> others;
   const bool one_by_one = m_options.details && (m_out.effects.size() > 1 || m_out.drift_factor > 1.0);
   if (one_by_one) {
