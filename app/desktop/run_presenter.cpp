@@ -55,6 +55,25 @@ void RunPresenter::pauseOrResume() {
   }
 }
 
+bool RunPresenter::agreed(const acquisition::Plan& plan) {
+  double fastest_rpm = 0.0;
+  bool path = false;
+  bool coolant = false;
+  for (const auto& step : plan.steps) {
+    fastest_rpm = std::max(fastest_rpm, step.spindle_rpm);
+    path = path || step.path_cycle;
+    coolant = coolant || step.coolant_on;
+  }
+  QStringList deeds{tr("all axes go to the measuring position, again and again")};
+  if (fastest_rpm > 0.0) deeds.prepend(tr("the spindle turns at up to %1 rpm").arg(fastest_rpm, 0, 'f', 0));
+  if (path) deeds << tr("the axes run their path in between");
+  if (coolant) deeds << tr("the coolant runs");
+  return ask(page(), tr("Start the run? The machine will move."),
+             tr("For %1 of machine time: %2. Is the work area clear, the door closed and the tool fit for this speed?")
+                 .arg(ui::durationText(plan.duration_s()), deeds.join(QStringLiteral(", "))),
+             tr("Start"));
+}
+
 bool RunPresenter::steer(const QString& action) {
   if (action == QStringLiteral("finish")) {
     if (m_running && ask(page(), tr("Finish the run?"),

@@ -24,6 +24,8 @@ class RunPresenter : public Presenter {
   /// Opens the machine and records by this step; the feed sees every sample.
   void record(const QString& name, const acquisition::Plan& plan, Step step, std::function<void(bool good)> done);
   void pauseOrResume();
+  /// Nothing moves without a word: what this plan will do, and that the area is clear.
+  bool agreed(const acquisition::Plan& plan);
   /// "finish", "abort" and "note"; true when it was one of them. The first two are asked for.
   bool steer(const QString& action);
   /// Draws the run that this artefact names, once.

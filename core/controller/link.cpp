@@ -23,6 +23,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t mbap_bytes = 6;                 // transaction, protocol, length; the length counts what follows
 constexpr std::size_t header_bytes = mbap_bytes + 1;  // and the unit
 constexpr std::chrono::milliseconds idle{5};          // after so long without a request the wire is looked at first
+constexpr int most_pieces = 8;                        // of a reply; a healthy device sends one or two
 constexpr int exception_busy = 6;
 constexpr int exception_acknowledge = 5;
 
@@ -82,6 +83,8 @@ class Link::Wire {
   }
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
+
+  bool in_pieces() const { return m_pieces > most_pieces; }
 
   /// Bytes that nobody asked for, or the peer's end of the connection: this wire cannot be trusted any more. Right
   /// after a reply that came alone there is nothing to look for, unless the request must not be repeated.
@@ -156,10 +159,12 @@ class Link::Wire {
     const int handle = modbus_get_socket(m_context);
     std::size_t have = 0;
     std::size_t want = header_bytes;
+    m_pieces = 0;
     while (have < want) {
       if (have > 0 && !wait_for_more(handle)) return fail(from_errno(ETIMEDOUT, what, m_settings.timeout_ms));
       const auto got = ::recv(handle, buffer.data() + have, buffer.size() - have, 0);
       if (got <= 0) return fail(from_errno(got == 0 ? ECONNRESET : errno, what, m_settings.timeout_ms));
+      ++m_pieces;
       have += static_cast<std::size_t>(got);
       if (have < header_bytes) continue;
       want = mbap_bytes + static_cast<std::size_t>(word_at(buffer, 4));
@@ -201,6 +206,7 @@ class Link::Wire {
   bool m_tcp;
   modbus_t* m_context;
   int m_transaction = 0;
+  int m_pieces = 0;                                        // that the last reply came in
   SteadyClock::time_point m_started = SteadyClock::now();  // of the last request
 };
 
@@ -221,6 +227,7 @@ Result<Link::Pdu> Link::exchange_once(const Pdu& request, const std::string& wha
   ++m_health.requests;
   ZD_CHECK(m_wire->send(request, what));
   ZD_TRY(Pdu reply, m_wire->receive(what));
+  if (m_wire->in_pieces()) ++m_health.faults["reply_in_pieces"];
   if (reply[0] == (request[0] | 0x80)) {
     const int code = reply[1];
     if (code == exception_busy || code == exception_acknowledge) return fail(ErrorCode::machine_busy, {{"what", what}});

@@ -11,9 +11,10 @@ import sys
 from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
 
 at_a_time = 3
-LINK_FAULTS = ["busy", "late", "wrong-transaction", "truncated", "drop", "bytewise"]
 # What a device that is broken, now and then or for good (":always"), must be called.
 BROKEN = {"stuck-sensor": "stuck", "dead-sensor": "dead", "camera-freeze": "frozen", "camera-occluded": "occluded"}
+LINK_NAMES = {"busy": "machine_busy", "late": "machine_silent", "wrong-transaction": "machine_bad_reply",
+              "truncated": "machine_silent", "drop": "machine_link_lost", "bytewise": "reply_in_pieces"}
 
 
 def short_plan(folder):
@@ -75,16 +76,16 @@ def fault_run(folder, fault):
     assert code in (0, 1) and code2 in (0, 1), (code, code2, err, err2)
     if code2 == 1:
         assert len(err2.strip()) > 20, "a refusal without words"
-    word = BROKEN.get(fault.removesuffix(":always"))
+    word = (BROKEN | LINK_NAMES).get(fault.removesuffix(":always"))
     said = said.replace(folder, "")  # the fault's name is in the folder's
     assert word is None or word in said.lower(), f"{fault} was not named: {said[:2000]}"
-    if fault in LINK_FAULTS:
+    if fault in LINK_NAMES:
         assert code2 == 0, f"{fault}: a sporadic fault of the link ended the run: {err2}"
         assert count > 5
 
 
 def all_faults(folder):
-    faults = sys.argv[1:] or LINK_FAULTS + list(BROKEN) + [fault + ":always" for fault in BROKEN]
+    faults = sys.argv[1:] or list(LINK_NAMES) + list(BROKEN) + [fault + ":always" for fault in BROKEN]
     with concurrent.futures.ThreadPoolExecutor(at_a_time) as pool:  # each is a machine of its own, and mostly waits
         for run in [pool.submit(fault_run, folder, fault) for fault in faults]:
             run.result()

@@ -248,6 +248,9 @@ void VerifyPage::renderCorrection() {
       m_state.corrections.isEmpty() ? tr("The correction is computed from the verification run when it is finished.")
       : m_state.correctionProposed
           ? tr("With the correction the table is written anew, as a new version. The old one stays for rollback.")
+      : std::any_of(m_state.corrections.begin(), m_state.corrections.end(),
+                    [](const AxisCorrection& one) { return one.proposed; })
+          ? tr("A correction was proposed and left aside: the table stays as it is.")
           : tr("All parts of the error are below the threshold. No correction is needed."));
   m_filling = false;
   renderResiduals();

@@ -76,7 +76,10 @@ void VerifyPresenter::primary() {
     pauseOrResume();
     refresh();
   } else if (m_page->state().phase != ui::VerifyPhase::finished) {
-    start({});
+    const json warmup = bench().body("warmup");
+    if (!warmup.is_object()) return;
+    const auto plan = acquisition::plan_from_json(warmup.value("plan", json::object()), "the warm-up's plan");
+    if (plan && agreed(flow::verification_plan(*plan))) start({});
   } else if (m_page->state().correctionProposed) {
     applyCorrection({});
   } else {

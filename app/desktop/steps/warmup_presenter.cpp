@@ -84,7 +84,7 @@ void WarmupPresenter::primary() {
     Q_EMIT nextRequested();
   } else if (running()) {
     pauseOrResume();
-  } else {
+  } else if (agreed(m_plan)) {
     start({});
   }
   refresh();

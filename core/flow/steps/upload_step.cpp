@@ -61,7 +61,13 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
                   const UploadPreview& preview, const TaskContext& context, json& out) {
   ZD_TRY(const auto identity, devices.machine->identify());
   if (!options.sign_check || !identity.accepts_host_offset) {
+    // A correction goes out on the sign that was seen before the first table.
+    ZD_TRY(const auto before, job.latest("upload"));
     out = nullptr;
+    if (before) {
+      ZD_TRY(const json body, before->document());
+      out = body.value("sign_check", json());
+    }
     return {};
   }
   if (options.checked_signs && options.checked_signs->result) {
