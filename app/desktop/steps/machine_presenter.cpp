@@ -19,7 +19,8 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t readings_kept = 30;
 constexpr int jobs_remembered = 8;
-constexpr double course_s = 900.0;  // of the machine: how far back the change of temperatures is looked at
+constexpr qint64 old_after_ms = 5000;  // live, the machine is looked at every second
+constexpr double course_s = 900.0;     // of the machine: how far back the change of temperatures is looked at
 constexpr double course_least_s = 180.0;
 constexpr std::size_t course_least = 20;
 constexpr std::size_t course_most = 900;
@@ -231,6 +232,7 @@ void MachinePresenter::looked() {
   m_connecting = false;
   const auto& look = bench().look();
   if (!look) return;
+  m_lookedAt = QDateTime::currentDateTime();
   if (!m_readings.empty() && m_readings.back().size() != look->sample.temperature_C.size()) {
     m_readings.clear();
     m_course.clear();
@@ -286,6 +288,20 @@ void MachinePresenter::refresh() {
   }
   m_map->fill(state);
   m_page->setState(state);
+  sayWhenOld();
+}
+
+void MachinePresenter::sayWhenOld() {
+  const bool old = m_lookedAt.isValid() && bench().tasks().running() &&
+                   m_lookedAt.msecsTo(QDateTime::currentDateTime()) > old_after_ms;
+  if (old == m_saidOld) return;
+  m_saidOld = old;
+  if (!old) return m_page->clearProblem();
+  m_page->setProblem({ui::ProblemKind::note,
+                      tr("Something runs on the machine: what stands here was seen at %1.")
+                          .arg(m_lookedAt.toString(QStringLiteral("HH:mm:ss"))),
+                      tr("The page of the run shows it live."),
+                      {}});
 }
 
 void MachinePresenter::fillSensors(ui::MachineState& state) {
@@ -302,7 +318,7 @@ void MachinePresenter::fillSensors(ui::MachineState& state) {
     health.value_C = look.sample.temperature_C[i];
     health.noise_K = noise_of(m_readings, i);
     const bool dead = std::isnan(health.value_C);
-    if (!dead) m_alive[health.id] = now;
+    if (!dead) m_alive[health.id] = m_lookedAt.isValid() ? m_lookedAt : now;
     if (m_alive.contains(health.id)) health.age_s = 1e-3 * static_cast<double>(m_alive[health.id].msecsTo(now));
     const bool stuck = !dead && m_readings.size() >= 20 && health.noise_K == 0.0;
     health.judgement = dead ? ui::Judgement::bad : stuck ? ui::Judgement::warn : ui::Judgement::ok;

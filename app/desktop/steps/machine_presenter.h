@@ -38,6 +38,7 @@ class MachinePresenter : public Presenter {
   void primary();
   void startCommissioning(std::function<void(bool good)> done);
   void looked();
+  void sayWhenOld();
   void remember(const QString& path);
   QString connectionText() const;
   void fillSensors(ui::MachineState& state);
@@ -53,6 +54,8 @@ class MachinePresenter : public Presenter {
   // And over minutes of the machine's time, for what still changes.
   std::deque<std::pair<double, std::vector<double>>> m_course;
   QHash<QString, QDateTime> m_alive;  // when a sensor last had a value
+  QDateTime m_lookedAt;               // when the machine was last looked at: a run has it to itself
+  bool m_saidOld = false;
   std::function<void()> m_whenReady;
 };
 

@@ -28,7 +28,9 @@ std::optional<Section> model_section(const Source& source) {
   section.blocks.emplace_back(std::move(figures));
   Table table;
   table.id = "coefficients";
-  table.title = source.say("Coefficients of the table: error = offset + sum of coefficient × (T − reference)");
+  table.title = source.say(
+      "Coefficients as fitted: error = offset + sum of coefficient × (T − reference); corrections stand with the "
+      "table");
   table.header = {source.say("direction"), source.say("sensor"), source.say("µm/K"), source.say("reference, °C")};
   table.trace = source.trace("model", "terms");
   for (const auto& row : model->body.value("table", nlohmann::json::array())) {

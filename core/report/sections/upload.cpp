@@ -29,7 +29,7 @@ std::optional<Section> upload_section(const Source& source) {
   section.blocks.emplace_back(std::move(figures));
   Table difference;
   difference.id = "table_difference";
-  difference.title = source.say("Old and new table");
+  difference.title = source.say("Old and new table: the error each entry predicts; the controller moves against it");
   difference.header = {source.say("entry"), source.say("old"), source.say("new")};
   difference.trace = source.trace("upload", "difference");
   for (const auto& row : body.value("difference", nlohmann::json::array())) {
