@@ -91,6 +91,7 @@ void RunFeed::begin() {
   m_longestHole_s = 0.0;
   m_lastRow_s = -1.0;
   m_largest_um = 0.0;
+  m_measuredAt_s = -1.0;
   m_largestAxis.clear();
   m_received = false;
   m_view->clear();
@@ -335,7 +336,11 @@ void RunFeed::drain() {
   m_received = true;
   appendRows(updates);
   bool measured = false;
-  for (const auto& update : updates) measured = measured || update.measured.has_value();
+  for (const auto& update : updates) {
+    if (!update.measured.has_value()) continue;
+    measured = true;
+    m_measuredAt_s = update.time_s;
+  }
   if (measured) showPicture();
   m_now = std::move(updates.back());
   Q_EMIT updated();

@@ -50,6 +50,8 @@ class RunFeed : public QObject {
   /// The newest update, with the fields a page shows; rows are emptied already.
   const acquisition::RunUpdate& now() const { return m_now; }
   double largestError_um() const { return m_largest_um; }
+  /// When an error was last measured, in the run's time; negative before the first.
+  double measuredAt_s() const { return m_measuredAt_s; }
   QString largestErrorAxis() const { return m_largestAxis; }
   /// Longest machine time between two rows.
   double longestHole_s() const { return m_longestHole_s; }
@@ -84,6 +86,7 @@ class RunFeed : public QObject {
   acquisition::RunUpdate m_now;
   recording::Recording m_speeds;  // time, speed, coolant: for the bands
   double m_largest_um = 0.0;
+  double m_measuredAt_s = -1.0;
   double m_longestHole_s = 0.0;
   double m_lastRow_s = -1.0;
   QString m_largestAxis;

@@ -65,10 +65,7 @@ VerifyPresenter::VerifyPresenter(Workbench& bench, ui::VerifyPage* page)
   connect(page, &ui::VerifyPage::noteRequested, this, [this](double) { secondary(QStringLiteral("note")); });
   connect(page, &ui::Page::primaryTriggered, this, &VerifyPresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, &VerifyPresenter::secondary);
-  connect(&feed(), &RunFeed::updated, this, [this] {
-    if (feed().now().measured) m_measured_s = feed().now().time_s;
-    refresh();
-  });
+  connect(&feed(), &RunFeed::updated, this, [this] { refresh(); });
 }
 
 void VerifyPresenter::primary() {
@@ -97,7 +94,6 @@ void VerifyPresenter::secondary(const QString& action) {
 void VerifyPresenter::start(std::function<void(bool good)> done) {
   if (running()) return;
   m_skipped = false;
-  m_measured_s = -1.0;
   m_page->showView(0);
   record(
       tr("Verification run"), {},
@@ -137,7 +133,7 @@ void VerifyPresenter::fillRun(ui::VerifyState& state) {
   state.afterAxis = feed().largestErrorAxis();
   const json plan = bench().body("warmup").value("plan", json::object());
   state.frameLimit_s = missed_measurements * plan.value("measure_period_s", 60.0);
-  if (m_measured_s >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - m_measured_s);
+  if (feed().measuredAt_s() >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - feed().measuredAt_s());
 }
 
 /// Both runs over the same minutes; computed here so that jobs of any age are shown alike.

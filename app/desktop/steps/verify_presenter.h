@@ -41,7 +41,6 @@ class VerifyPresenter : public RunPresenter {
   double m_threshold_um;  // of a part error, above which a correction is proposed
   bool m_skipped = false;
   long long m_computed = 0;  // verification the correction is of
-  double m_measured_s = -1.0;
   flow::VerificationResiduals m_residuals;
   std::optional<compensation::Table> m_corrected;
   QVector<ui::AxisResult> m_axes;  // of the verification m_axesOf
