@@ -23,6 +23,7 @@ using Milliseconds = std::chrono::milliseconds;
 
 constexpr double default_file_rate_hz = 25.0;
 constexpr std::uint64_t fewest_repeats = 5;
+constexpr std::uint64_t longest_line = 12;  // pictures that may wait between camera and reader
 
 enum class SourceKind { stream, device, file };
 
@@ -86,6 +87,7 @@ struct Camera::Work {
   void publish(GrayImage image);
   Result<std::shared_ptr<const CameraFrame>> state(Steady::time_point now) const;
   std::optional<Steady::duration> repeating(Steady::time_point now) const;
+  bool in_a_burst() const;
   bool pause(Steady::duration duration, const std::stop_token& stop) {
     std::unique_lock lock(mutex);
     return !changed.wait_for(lock, stop, duration, [&] { return stop.stop_requested(); });
@@ -175,6 +177,13 @@ std::optional<Steady::duration> Camera::Work::repeating(Steady::time_point now) 
   return repeats && since > options.repeats_after ? std::optional(since) : std::nullopt;
 }
 
+// With the mutex held. The newest picture came much sooner after the one before than pictures usually do.
+bool Camera::Work::in_a_burst() const {
+  if (kind_of(source) == SourceKind::file || arrivals.size() < 10) return false;
+  const auto usual = (arrivals.back() - arrivals.front()) / static_cast<int>(arrivals.size() - 1);
+  return arrivals.back() - arrivals[arrivals.size() - 2] < usual / 4;
+}
+
 Camera::Camera(std::string source, CameraOptions options) : m_work(std::make_shared<Work>()) {
   quiet_libraries();
   m_work->source = std::move(source);
@@ -205,8 +214,10 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
     const auto& frame = m_work->frame;
     if (frame && frame->arrived > after) {
       if (first_after == 0) first_after = frame->count;
-      // The first may have been exposed before; so may one that repeats it, as a camera does that froze just then.
-      if (m_work->last_changed > first_after) return frame;
+      // The first may have been exposed before; so may one that repeats it, as a camera does that froze just then, and
+      // those that a starved reader finds waiting in the line: they arrive at once, one upon the other.
+      const bool waited = !m_work->in_a_burst() || frame->count > first_after + longest_line;
+      if (m_work->last_changed > first_after && waited) return frame;
       if (kind_of(m_work->source) == SourceKind::file && frame->count > first_after) return frame;
       if (const auto repeated = m_work->repeating(Steady::now())) {
         return fail(ErrorCode::camera_frozen, {{"url", m_work->source}, {"seconds", seconds_text(*repeated)}});
