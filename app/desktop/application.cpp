@@ -236,6 +236,10 @@ void Application::updateSteps() {
       m_window->setStepState(presenter->id(), ui::StepState::blocked, tr("Not started"));
       continue;
     }
+    if (const QString standing = presenter->standing(); !standing.isEmpty()) {
+      m_window->setStepState(presenter->id(), ui::StepState::ready, standing);
+      continue;
+    }
     const auto status = flow::status_of(*job, presenter->id().toStdString());
     m_window->setStepState(presenter->id(), shown(status.state), words(status.state, status.reason));
   }

@@ -22,6 +22,8 @@ class Presenter : public QObject {
   /// The page was opened or left.
   virtual void enter() { refresh(); }
   virtual void leave() {}
+  /// Words under the name in the rail, for a page that is no step of the job; empty: a step.
+  virtual QString standing() const { return {}; }
   /// Takes back the last choice on this page (Ctrl+Z).
   virtual void undo() {}
   /// What the tour does on this page: starts the step and calls `done` when it has ended. The default calls it at once.

@@ -2,6 +2,7 @@
 
 #include "app/desktop/steps/axis_errors_presenter.h"
 #include "app/desktop/steps/calibrate_presenter.h"
+#include "app/desktop/steps/compensator_presenter.h"
 #include "app/desktop/steps/fit_presenter.h"
 #include "app/desktop/steps/machine_presenter.h"
 #include "app/desktop/steps/physics_presenter.h"
@@ -12,6 +13,7 @@
 #include "app/desktop/steps/warmup_presenter.h"
 #include "ui/pages/axis_page.h"
 #include "ui/pages/calibrate_page.h"
+#include "ui/pages/compensator_page.h"
 #include "ui/pages/fit_page.h"
 #include "ui/pages/machine_page.h"
 #include "ui/pages/physics_page.h"
@@ -46,6 +48,7 @@ std::vector<Presenter*> makePages(Workbench& bench, ui::MainWindow& window, Demo
       make<VerifyPresenter, ui::VerifyPage>(bench, window, false),
       make<ReportPresenter, ui::ReportPage>(bench, window, false),
       make<AxisErrorsPresenter, ui::AxisPage>(bench, window, true),
+      make<CompensatorPresenter, ui::CompensatorPage>(bench, window, true),
   };
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "app/desktop/steps/calibrate_presenter.h"
+#include "app/text/error_text.h"
+#include "app/text/happening_text.h"
 #include "ui/pages/run_view.h"
 
 namespace zerodrift::desktop {
@@ -95,6 +97,7 @@ void RunFeed::begin() {
   m_largestAxis.clear();
   m_received = false;
   m_view->clear();
+  m_view->setTrouble({});
   setChannels();
   m_timer.start();
 }
@@ -326,6 +329,31 @@ void RunFeed::showPicture() {
   m_view->setFrame(image_of(view.frame->image), marks);
 }
 
+void RunFeed::showHappened(const std::vector<acquisition::Happening>& happened) {
+  ui::RunTrouble trouble;
+  trouble.ended = true;
+  for (const auto& one : happened) trouble.so_far << m_bench.inWords(textOf(one).toStdString());
+  m_view->setTrouble(trouble);
+}
+
+void RunFeed::showTrouble() {
+  ui::RunTrouble trouble;
+  QVector<ui::RunValue> states;
+  for (const auto& problem : m_now.problems) {
+    if (trouble.now.isEmpty()) trouble.now = m_bench.inWords(lineOf(problem).toStdString());
+    const auto sensor = problem.context.find("sensor");
+    if (sensor == problem.context.end()) continue;
+    const auto at = std::find(m_now.channels.begin(), m_now.channels.end(), sensor->second);
+    const auto column = static_cast<std::size_t>(at - m_now.channels.begin());
+    if (column >= m_now.row.size()) continue;
+    states.append({QString::fromStdString(sensor->second), m_now.row[column],
+                   problem.code == ErrorCode::sensor_dead ? tr("dead") : tr("stuck"), ui::Judgement::bad});
+  }
+  for (const auto& one : m_now.happened) trouble.so_far << m_bench.inWords(textOf(one).toStdString());
+  m_view->setTrouble(trouble);
+  if (!states.isEmpty()) m_view->setValues(states);
+}
+
 void RunFeed::drain() {
   std::vector<RunUpdate> updates;
   {
@@ -343,6 +371,7 @@ void RunFeed::drain() {
   }
   if (measured) showPicture();
   m_now = std::move(updates.back());
+  showTrouble();
   Q_EMIT updated();
 }
 

@@ -32,6 +32,8 @@ class RunFeed : public QObject {
   void setCompensated(bool compensated) { m_compensated = compensated; }
   /// A run that is in the job already.
   void showRecording(const recording::Recording& run);
+  /// What went wrong in a run that is over.
+  void showHappened(const std::vector<acquisition::Happening>& happened);
   void stop();
 
   // For the step's options; they may be called from the worker thread.
@@ -73,6 +75,7 @@ class RunFeed : public QObject {
   void setChannels();
   void appendRows(const std::vector<acquisition::RunUpdate>& updates);
   void showPicture();
+  void showTrouble();
   void noteRow(double time_s);
   void noteErrors(const std::string& channel, double value);
   void appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/acquisition/error_source.h"
+#include "core/acquisition/happening.h"
 #include "core/acquisition/machine_io.h"
 #include "core/acquisition/run_control.h"
 #include "core/acquisition/run_sink.h"
@@ -36,7 +37,8 @@ struct RunUpdate {
   double seconds_left = 0.0;  // of machine time
   std::vector<double> row;    // in the order of `channels`; empty when there is no new one
   std::vector<std::string> channels;
-  std::vector<Error> problems;  // as of now
+  std::vector<Error> problems;      // as of now
+  std::vector<Happening> happened;  // since this run began or was taken up again
   TrendNow trend;
   std::int64_t rows = 0;
   std::int64_t committed_rows = 0;  // acknowledged by the sink

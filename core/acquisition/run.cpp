@@ -149,6 +149,7 @@ Status Run::keep(const MachineSample& sample, const ErrorSample* error, bool exp
   const auto periods = std::llround((time_s - m_last_row_s) / m_start.plan.sample_period_s) - 1;
   if (m_link_was_lost) {
     ++m_summary.gaps;
+    m_happened.add("gap", {});
     event("gap", "link", nlohmann::json{{"from_s", m_last_row_s}, {"to_s", time_s}}.dump());
   }
   if (m_last_row_s >= 0.0 && periods > 0 && (m_link_was_lost || !expected_late)) m_summary.lost_samples += periods;
@@ -237,7 +238,9 @@ bool Run::stop_machine() {
 }
 
 void Run::raise(const std::string& key, const Error& error) {
-  if (m_problems.raise(key, error)) event("problem", std::string(name_of(error.code)), details_of(error));
+  if (!m_problems.raise(key, error)) return;
+  m_happened.add(std::string(name_of(error.code)), Tally::particulars_of(error.context));
+  event("problem", std::string(name_of(error.code)), details_of(error));
 }
 
 void Run::clear(const std::string& key) {
@@ -265,6 +268,7 @@ void Run::publish(RunPhase phase, const std::vector<double>* row, const ErrorSam
   if (measured != nullptr) update.measured = *measured;
   if (m_layout) update.channels = m_layout->channels();
   update.problems = m_problems.now();
+  update.happened = m_happened.all();
   if (m_log.failure()) update.problems.push_back(*m_log.failure());
   update.trend = m_trend.now();
   update.rows = m_log.rows();

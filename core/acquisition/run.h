@@ -71,6 +71,7 @@ class Run {
   std::optional<SensorWatch> m_watch;
   Trend m_trend{60.0};
   ProblemList m_problems;
+  Tally m_happened;
   RunSummary m_summary;
 
   bool m_has_reading = false;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
+#include "core/analysis/predict.h"
 #include "core/recording/recording.h"
 
 namespace zerodrift::compensation {
@@ -55,6 +58,19 @@ Result<Table> table_from_model(const analysis::Model& model, const ModelTableOpt
   }
   ZD_CHECK(check(table));
   return table;
+}
+
+Predictor live_predictor(const analysis::Model& model) {
+  auto predictor = std::make_shared<analysis::LivePredictor>(model);
+  return [predictor](double time_s, const std::map<std::string, double>& channels) -> Result<std::array<double, 3>> {
+    ZD_TRY(const auto sample, predictor->update(time_s, channels));
+    std::array<double, 3> out{};
+    for (const auto& value : sample.errors) {
+      const std::string axis = axis_of(value.error);
+      if (!axis.empty()) out[static_cast<std::size_t>(axis[0] - 'X')] = value.predicted_um;
+    }
+    return out;
+  };
 }
 
 Status add_axis_table(Table& table, const Table& axis_table) {

@@ -6,6 +6,7 @@
 
 #include "core/analysis/model.h"
 #include "core/base/result.h"
+#include "core/compensation/follower.h"
 #include "core/compensation/table.h"
 
 namespace zerodrift::compensation {
@@ -21,6 +22,8 @@ struct ModelTableOptions {
 /// gives its best static approximation, with a warning that says what is lost.
 Result<Table> table_from_model(const analysis::Model& model, const ModelTableOptions& options,
                                std::vector<std::string>* warnings = nullptr);
+/// A model that remembers, at work beside the machine: its errors dX_um, dY_um, dZ_um; others are not compensated.
+Predictor live_predictor(const analysis::Model& model);
 /// Adds the position points and segments of an axis table; bad_argument when an axis already has points.
 Status add_axis_table(Table& table, const Table& axis_table);
 

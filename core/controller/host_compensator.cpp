@@ -113,6 +113,8 @@ class Loop {
     ZD_TRY(const auto sample, m_machine.read());
     const std::map<std::string, double> channels = channels_of(sample);
     report.machine_time_s = sample.machine_time_s;
+    report.axes = sample.axes;
+    report.moving = sample.moving;
     report.applied_um = sample.applied_um;
     report.switch_on = sample.compensation_on;
     if (!sample.compensation_on) {

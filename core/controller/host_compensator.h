@@ -6,7 +6,9 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "core/acquisition/machine_io.h"
 #include "core/base/clock.h"
@@ -28,6 +30,8 @@ struct HostCompensatorOptions {
 
 struct CompensatorTurn {
   double machine_time_s = 0.0;
+  std::map<std::string, double> axes;  // "X" -> mm, "A" -> degrees
+  bool moving = false;
   compensation::FollowerOutput output;
   std::array<double, 3> applied_um{};  // as the controller tells
   bool switch_on = true;               // off: nothing was written (R4)

@@ -1,11 +1,23 @@
 #include "ui/pages/run_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ui/widgets/card.h"
+#include "ui/widgets/problem_banner.h"
 #include "ui/widgets/toggle_segment.h"
 
 namespace zerodrift::ui {
+namespace {
+
+/// Without the counts, which change all the time.
+QStringList kindsOf(const QStringList& lines) {
+  QStringList kinds;
+  for (const QString& line : lines) kinds << line.section(QLatin1Char(','), 0, 0);
+  return kinds;
+}
+
+}  // namespace
 
 RunView::RunView(QWidget* parent) : QWidget(parent) {
   makePlots();
@@ -16,11 +28,17 @@ RunView::RunView(QWidget* parent) : QWidget(parent) {
   right->addWidget(m_errorCard, 1);
   right->addWidget(m_temperatureCard, 1);
   for (Card* card : {m_cameraCard, m_errorCard, m_temperatureCard}) card->setFixedWidth(304);
-  auto* all = new QHBoxLayout(this);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(16);
+  row->addWidget(m_plotCard, 1);
+  row->addLayout(right);
+  m_banner = new ProblemBanner(this);
+  auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
-  all->setSpacing(16);
-  all->addWidget(m_plotCard, 1);
-  all->addLayout(right);
+  all->setSpacing(12);
+  all->addWidget(m_banner);
+  all->addLayout(row, 1);
+  connect(m_banner, &ProblemBanner::dismissed, this, [this] { m_dismissed = kindsOf(m_trouble.so_far); });
   connect(m_span, &ToggleSegment::currentChanged, this, [this](int index) {
     static constexpr double spans_s[] = {600.0, 3600.0, 0.0};
     for (LivePlot* each : {m_temperatures, m_errors, m_inputs}) each->setTimeWindow(spans_s[std::clamp(index, 0, 2)]);
@@ -199,6 +217,27 @@ void RunView::setFrame(const QImage& image, const CameraMarks& marks) {
 
 void RunView::setCameraShown(bool shown) {
   m_cameraCard->setVisible(shown);
+}
+
+void RunView::setTrouble(const RunTrouble& trouble) {
+  if (trouble.so_far.isEmpty()) m_dismissed.clear();  // another run
+  m_trouble = trouble;
+  showTrouble();
+}
+
+void RunView::showTrouble() {
+  const QStringList kinds = kindsOf(m_trouble.so_far);
+  const bool news =
+      std::any_of(kinds.begin(), kinds.end(), [this](const QString& kind) { return !m_dismissed.contains(kind); });
+  if (m_trouble.now.isEmpty() && !news) return m_banner->clear();
+  Problem problem;
+  problem.kind = m_trouble.now.isEmpty() ? ProblemKind::note : ProblemKind::warning;
+  problem.sentence = !m_trouble.now.isEmpty() ? m_trouble.now
+                     : m_trouble.ended        ? tr("Happened in this run")
+                                              : tr("Everything is in order again.");
+  problem.remedy = m_trouble.so_far.join(QStringLiteral(" · "));
+  if (!m_trouble.ended && !problem.remedy.isEmpty()) problem.remedy = tr("In this run: %1").arg(problem.remedy);
+  m_banner->setProblem(problem);
 }
 
 void RunView::retranslate() {

@@ -4,6 +4,7 @@
 
 #include <QHash>
 #include <QImage>
+#include <QStringList>
 #include <QVector>
 #include <QWidget>
 
@@ -16,6 +17,7 @@ class QLabel;
 namespace zerodrift::ui {
 
 class Card;
+class ProblemBanner;
 class ToggleSegment;
 
 struct RunChannel {
@@ -33,6 +35,13 @@ struct RunValue {
   double value = 0.0;  // NaN: no value
   QString state{};
   Judgement judgement = Judgement::none;
+};
+
+/// What is wrong with the run now, and what has been.
+struct RunTrouble {
+  QString now{};         // in a sentence, with what to do; empty: nothing
+  QStringList so_far{};  // "controller busy, 12 times, asked again"
+  bool ended = false;    // the run is over
 };
 
 class RunView : public QWidget {
@@ -53,6 +62,7 @@ class RunView : public QWidget {
   void setErrorLimits(const QVector<Limit>& limits);
   void setFrame(const QImage& image, const CameraMarks& marks);
   void setCameraShown(bool shown);
+  void setTrouble(const RunTrouble& trouble);
   void retranslate();
 
  Q_SIGNALS:
@@ -61,10 +71,14 @@ class RunView : public QWidget {
  private:
   void makePlots();
   void makeTables();
+  void showTrouble();
   void wire(LivePlot* plot, ChannelTable* table);
   static QVector<Curve> curvesOf(const QVector<RunChannel>& channels, bool steps);
   static QVector<ChannelRow> rowsOf(const QVector<RunChannel>& channels);
 
+  ProblemBanner* m_banner;
+  RunTrouble m_trouble;
+  QStringList m_dismissed;  // kinds of trouble the user has taken note of
   Card* m_plotCard;
   Card* m_cameraCard;
   Card* m_errorCard;

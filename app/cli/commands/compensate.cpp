@@ -7,7 +7,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/service_notice.h"
-#include "core/analysis/predict.h"
+#include "core/analysis/model.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/host_compensator.h"
 #include "core/controller/table_words.h"
@@ -101,21 +101,6 @@ class Service {
   bool m_ready = false;
 };
 
-/// A model that remembers, at work beside the machine; errors other than dX, dY, dZ are not compensated.
-compensation::Predictor live(const analysis::Model& model) {
-  auto predictor = std::make_shared<analysis::LivePredictor>(model);
-  return [predictor](double time_s, const std::map<std::string, double>& channels) -> Result<std::array<double, 3>> {
-    ZD_TRY(const auto sample, predictor->update(time_s, channels));
-    std::array<double, 3> out{};
-    for (const auto& value : sample.errors) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (value.error == fmt::format("d{}_um", "XYZ"[i])) out[i] = value.predicted_um;
-      }
-    }
-    return out;
-  };
-}
-
 Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
@@ -133,7 +118,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;
   if (options.seconds > 0.0) how.duration_s = options.seconds;
-  if (!model.is_static()) how.predictor = live(model);
+  if (!model.is_static()) how.predictor = compensation::live_predictor(model);
   Speaker speaker;
   Service service;
   ZD_TRY(const auto summary, controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {

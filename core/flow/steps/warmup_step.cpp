@@ -1,11 +1,7 @@
 #include "core/flow/steps/warmup_step.h"
 
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/acquisition/job_sink.h"
 #include "core/flow/steps/inputs.h"
@@ -16,41 +12,30 @@ using nlohmann::json;
 
 namespace {
 
-struct Occurrence {
-  int count = 0;
-  std::set<std::string> what;  // which sensor, which reason
-};
-
 /// Which one an event is about: the sensor, the reason, the camera.
 std::string particulars_of(const commissioning::Event& event) {
   const json details = json::parse(event.details, nullptr, false);
   if (!details.is_object() || !details.contains("context") || !details["context"].is_object()) return {};
-  for (const char* key : {"sensor", "reason", "view"}) {
-    const auto at = details["context"].find(key);
-    if (at != details["context"].end() && at->is_string()) return at->get<std::string>();
+  std::map<std::string, std::string> context;
+  for (const auto& [key, value] : details["context"].items()) {
+    if (value.is_string()) context[key] = value.get<std::string>();
   }
-  return {};
+  return acquisition::Tally::particulars_of(context);
 }
 
-/// The problems of a run in short, as recorded in its events: "sensor stuck (T1_C), 2 times".
-Result<std::vector<std::string>> problems_of(const commissioning::Job& job, commissioning::SeriesId series) {
+/// Counted from the events, so that a run taken up again is told whole.
+Result<std::vector<acquisition::Happening>> happened_in(const commissioning::Job& job, commissioning::SeriesId series) {
   ZD_TRY(const auto events, job.events(series));
-  std::map<std::string, Occurrence> found;
+  acquisition::Tally tally;
   for (const auto& event : events) {
-    if (event.kind != "problem" && event.kind != "gap") continue;
-    std::string name = event.kind == "gap" ? "gap" : event.text;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    Occurrence& one = found[name];
-    ++one.count;
-    if (const auto what = particulars_of(event); !what.empty()) one.what.insert(what);
+    if (event.kind == "gap") tally.add("gap", {});
+    if (event.kind == "problem") tally.add(event.text, particulars_of(event));
   }
-  std::vector<std::string> problems;
-  for (const auto& [name, one] : found) {
-    std::string text = name;
-    if (!one.what.empty()) text += fmt::format(" ({})", fmt::join(one.what, "; "));
-    problems.push_back(text + (one.count == 1 ? ", once" : fmt::format(", {} times", one.count)));
-  }
-  return problems;
+  return tally.all();
+}
+
+void add_link_faults(const controller::ModbusMachine& machine, std::vector<acquisition::Happening>& happened) {
+  for (const auto& [name, count] : machine.health().faults) happened.push_back({name, {}, count, true});
 }
 
 Result<acquisition::RunSummary> run_or_resume(commissioning::Job& job, acquisition::MachineIo& machine,
@@ -81,7 +66,9 @@ json RecordedRun::body() const {
                 {"refused", summary.refused},
                 {"gaps", summary.gaps},
                 {"duration_s", summary.duration_s},
-                {"problems", problems}};
+                {"happened", acquisition::to_json(happened)},
+                {"problems", json::array()}};
+  for (const auto& one : happened) value["problems"].push_back(acquisition::text_of(one));
   if (zero_um) value["zero_um"] = *zero_um;
   return value;
 }
@@ -95,7 +82,10 @@ Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const 
   recorder_options.observer = [&](const acquisition::RunUpdate& update) {
     context.progress(update.fraction, std::string(acquisition::name_of(update.phase)),
                      update.seconds_left / devices.profile.time_factor);
-    if (options.observer) options.observer(update);
+    if (!options.observer) return;
+    acquisition::RunUpdate whole = update;
+    add_link_faults(*devices.machine, whole.happened);
+    options.observer(whole);
   };
   SystemClock clock(devices.profile.time_factor);
   RecordedRun run;
@@ -105,10 +95,8 @@ Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const 
   run.summary = *summary;
   run.source = source->name();
   run.zero_um = source->zero_um();
-  ZD_TRY(run.problems, problems_of(job, run.series));
-  for (const auto& [name, count] : devices.machine->health().faults) {
-    run.problems.push_back(fmt::format("link: {}, {} times, overcome", name, count));
-  }
+  ZD_TRY(run.happened, happened_in(job, run.series));
+  add_link_faults(*devices.machine, run.happened);
   return run;
 }
 

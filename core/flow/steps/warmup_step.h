@@ -2,7 +2,7 @@
 // Step "warm-up" (R2, R3): records the uncompensated run, or goes on with one that was broken off. Makes the artefact
 // "warmup":
 //   {"series", "plan", "source", "zero_um", "rows", "lost_samples", "measurements", "refused", "gaps", "duration_s",
-//    "peak_um": {"X", ...}, "problems": [...]}
+//    "peak_um": {"X", ...}, "happened": [{"name", "what", "count", "overcome"}], "problems": [in words]}
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -34,7 +34,7 @@ struct RecordedRun {
   std::string source;
   std::optional<std::array<double, 3>> zero_um;
   acquisition::Plan plan;
-  std::vector<std::string> problems;
+  std::vector<acquisition::Happening> happened;
 };
 Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& options,
                                acquisition::RecorderOptions recorder_options, const TaskContext& context);

@@ -1,0 +1,57 @@
+#include "app/text/happening_text.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+#include <array>
+
+namespace zerodrift {
+namespace {
+
+struct Row {
+  const char* name;
+  const char* words;
+};
+
+constexpr std::array rows = {
+    Row{"gap", QT_TRANSLATE_NOOP("happenings", "gap in the recording")},
+    Row{"interrupted", QT_TRANSLATE_NOOP("happenings", "recording interrupted")},
+    Row{"machine_busy", QT_TRANSLATE_NOOP("happenings", "controller busy")},
+    Row{"machine_silent", QT_TRANSLATE_NOOP("happenings", "controller silent")},
+    Row{"machine_bad_reply", QT_TRANSLATE_NOOP("happenings", "reply that does not belong to the question")},
+    Row{"machine_link_lost", QT_TRANSLATE_NOOP("happenings", "connection to the controller lost")},
+    Row{"machine_unreachable", QT_TRANSLATE_NOOP("happenings", "controller not reachable")},
+    Row{"machine_not_stopped", QT_TRANSLATE_NOOP("happenings", "machine could not be stopped")},
+    Row{"reply_in_pieces", QT_TRANSLATE_NOOP("happenings", "reply in pieces")},
+    Row{"sensor_stuck", QT_TRANSLATE_NOOP("happenings", "sensor stuck")},
+    Row{"sensor_dead", QT_TRANSLATE_NOOP("happenings", "sensor dead")},
+    Row{"camera_frozen", QT_TRANSLATE_NOOP("happenings", "camera frozen")},
+    Row{"camera_silent", QT_TRANSLATE_NOOP("happenings", "camera silent")},
+    Row{"camera_unreachable", QT_TRANSLATE_NOOP("happenings", "camera not reachable")},
+    Row{"target_refused", QT_TRANSLATE_NOOP("happenings", "measurement refused")},
+    Row{"target_partly_covered", QT_TRANSLATE_NOOP("happenings", "target partly occluded")},
+    Row{"disk_full", QT_TRANSLATE_NOOP("happenings", "disk full")},
+};
+
+QString wordsOf(const std::string& name) {
+  for (const Row& row : rows) {
+    if (name == row.name) return QCoreApplication::translate("happenings", row.words);
+  }
+  return QString::fromStdString(name).replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
+}  // namespace
+
+QString textOf(const acquisition::Happening& happening) {
+  QString text = wordsOf(happening.name);
+  if (!happening.what.empty()) {
+    QStringList what;
+    for (const auto& one : happening.what) what << QString::fromStdString(one);
+    text += QStringLiteral(" (%1)").arg(what.join(QStringLiteral("; ")));
+  }
+  text = happening.count == 1
+             ? QCoreApplication::translate("happenings", "%1, once").arg(text)
+             : QCoreApplication::translate("happenings", "%1, %2 times").arg(text).arg(happening.count);
+  return happening.overcome ? QCoreApplication::translate("happenings", "%1, asked again").arg(text) : text;
+}
+
+}  // namespace zerodrift
