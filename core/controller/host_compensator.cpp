@@ -72,6 +72,7 @@ class Loop {
     if (late_s > 0.5 * m_options.period_s) ++m_summary.late_turns;
     ++m_summary.turns;
     CompensatorTurn report;
+    report.late_s = late_s;
     Status done = exchange(report);
     if (done) {
       m_last_good_s = m_clock.steady().count();

@@ -32,6 +32,7 @@ struct CompensatorTurn {
   double machine_time_s = 0.0;
   std::map<std::string, double> axes;  // "X" -> mm, "A" -> degrees
   bool moving = false;
+  double late_s = 0.0;  // begun after its time in the schedule
   compensation::FollowerOutput output;
   std::array<double, 3> applied_um{};  // as the controller tells
   bool switch_on = true;               // off: nothing was written (R4)

@@ -36,7 +36,7 @@ class DesktopTest : public QObject {
   void emptyWorkbench() {
     Application application(*m_theme);
     application.show();
-    QCOMPARE(application.presenters().size(), std::size_t{10});
+    QCOMPARE(application.presenters().size(), std::size_t{11});
     for (auto* presenter : application.presenters()) {
       application.openPage(presenter->id());
       const auto* page = presenter->page();
@@ -131,7 +131,7 @@ class DesktopTest : public QObject {
   void laserTable() {
     using namespace zerodrift;
     Application application(*m_theme);
-    auto* presenter = qobject_cast<desktop::AxisErrorsPresenter*>(application.presenters().back());
+    auto* presenter = qobject_cast<desktop::AxisErrorsPresenter*>(application.presenter(QStringLiteral("axis_errors")));
     presenter->setAsking(false);
     const auto write = [&](const char* name, const QByteArray& content) {
       QFile out(m_folder.filePath(QString::fromLatin1(name)));

@@ -129,6 +129,11 @@ PageAction CompensatorPage::primary() const {
   return {};
 }
 
+void CompensatorPage::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::LanguageChange || event->type() == QEvent::PaletteChange) setCurves();
+  Page::changeEvent(event);
+}
+
 void CompensatorPage::render() {
   if (!m_state.blocked.isEmpty()) {
     showEmpty(Icon::plug, tr("Nothing to compensate with yet"), m_state.blocked);

@@ -65,6 +65,7 @@ class CompensatorPage : public Page {
 
  protected:
   void render() override;
+  void changeEvent(QEvent* event) override;
 
  private:
   void setCurves();

@@ -160,7 +160,7 @@ void RunView::setChannels(const QVector<RunChannel>& temperatures, const QVector
   m_errorTable->setRows(rowsOf(errors));
   // As high as its rows; in a low window many rows scroll.
   const int whole = 78 + 22 * static_cast<int>(std::max<qsizetype>(1, errors.size()));
-  m_errorCard->setMinimumHeight(std::min(whole, 144));
+  m_errorCard->setMinimumHeight(std::min(whole, 100));
   m_errorCard->setMaximumHeight(whole);
   retranslate();
 }

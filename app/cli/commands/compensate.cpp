@@ -7,6 +7,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/service_notice.h"
+#include "core/base/real_time.h"
 #include "core/analysis/model.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/host_compensator.h"
@@ -119,6 +120,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   how.period_s = options.period_s;
   if (options.seconds > 0.0) how.duration_s = options.seconds;
   if (!model.is_static()) how.predictor = compensation::live_predictor(model);
+  const bool real_time = ask_for_real_time();
   Speaker speaker;
   Service service;
   ZD_TRY(const auto summary, controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {
@@ -135,6 +137,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
                  {"jitter_p999_s", summary.lateness.quantile_s(0.999)},
                  {"turns_later_than_20_ms", summary.lateness.above(0.02)},
                  {"largest_offset_um", summary.largest_offset_um},
+                 {"real_time", real_time},
                  {"faults", machine->health().faults}};
   output.text = fmt::format(
       "{} turns, {} late, {} without the machine; began at most {:.1f} ms late, 99.9 % within {:.0f} ms; the offset is "

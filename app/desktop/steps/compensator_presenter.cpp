@@ -119,6 +119,7 @@ void CompensatorPresenter::drain() {
     const auto& turn = live.turn;
     ++m_state.turns;
     m_state.running_s = host_s;
+    m_state.latest_ms = std::fmax(m_state.latest_ms, 1e3 * turn.late_s);
     m_state.notMeasured = bench().inWords(live.not_measured);
     m_state.reasons.clear();
     for (const auto& reason : turn.output.reasons) m_state.reasons << bench().inWords(reason);
@@ -159,7 +160,6 @@ void CompensatorPresenter::ended(const Result<controller::CompensatorSummary>& s
   m_running = false;
   m_state.phase = ui::CompensatorPhase::ready;
   if (summary) {
-    m_state.latest_ms = 1e3 * summary->lateness.largest_s();
     m_state.summary = tr("Ended after %1: %2 turns, %3 without the controller; the offset is back at 0.")
                           .arg(ui::durationText(m_state.running_s))
                           .arg(summary->turns)

@@ -21,6 +21,7 @@ void fillUpload(Page* page, const QString& scene);
 void fillVerify(Page* page, const QString& scene);
 void fillReport(Page* page, const QString& scene);
 void fillAxis(Page* page, const QString& scene);
+void fillCompensator(Page* page, const QString& scene);
 
 }  // namespace samples
 }  // namespace zerodrift::ui

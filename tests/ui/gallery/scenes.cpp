@@ -2,6 +2,7 @@
 #include "tests/ui/gallery/samples.h"
 #include "ui/pages/axis_page.h"
 #include "ui/pages/calibrate_page.h"
+#include "ui/pages/compensator_page.h"
 #include "ui/pages/fit_page.h"
 #include "ui/pages/machine_page.h"
 #include "ui/pages/physics_page.h"
@@ -25,16 +26,19 @@ void addPages(MainWindow& window) {
   window.addPage(new VerifyPage);
   window.addPage(new ReportPage);
   window.addPage(new AxisPage, true);
+  window.addPage(new CompensatorPage, true);
 }
 
 QVector<Scene> scenes() {
-  return {{"machine", "start"},   {"machine", "filled"},    {"machine", "registers"},       {"machine", "log"},
-          {"calibrate", "empty"}, {"calibrate", "running"}, {"calibrate", "solved"},        {"warmup", "plan"},
-          {"warmup", "running"},  {"warmup", "banner"},     {"sensors", "clusters"},        {"fit", "prediction"},
-          {"physics", "before"},  {"physics", "where"},     {"physics", "channels"},        {"physics", "trial"},
-          {"upload", "ready"},    {"upload", "writing"},    {"verify", "running"},          {"verify", "correction"},
-          {"report", "preview"},  {"axis_errors", "empty"}, {"axis_errors", "measurement"}, {"axis_errors", "segments"},
-          {"verify", "help"},     {"verify", "run"}};
+  return {
+      {"machine", "start"},       {"machine", "filled"},          {"machine", "registers"},    {"machine", "log"},
+      {"calibrate", "empty"},     {"calibrate", "running"},       {"calibrate", "solved"},     {"warmup", "plan"},
+      {"warmup", "running"},      {"warmup", "banner"},           {"warmup", "trouble"},       {"compensator", "empty"},
+      {"compensator", "running"}, {"sensors", "clusters"},        {"fit", "prediction"},       {"physics", "before"},
+      {"physics", "where"},       {"physics", "channels"},        {"physics", "trial"},        {"upload", "ready"},
+      {"upload", "writing"},      {"verify", "running"},          {"verify", "correction"},    {"report", "preview"},
+      {"axis_errors", "empty"},   {"axis_errors", "measurement"}, {"axis_errors", "segments"}, {"verify", "help"},
+      {"verify", "run"}};
 }
 
 // The rail as it would stand with everything before this page done.
@@ -58,6 +62,7 @@ static void showProgressOfJob(MainWindow& window, const QString& page) {
                                     : "Not started");
   }
   window.setStepState("axis_errors", StepState::ready, "Optional");
+  window.setStepState("compensator", StepState::ready, "When needed");
 }
 
 void play(MainWindow& window, const Scene& scene) {
@@ -69,9 +74,9 @@ void play(MainWindow& window, const Scene& scene) {
   page->clearProgress();
   using Fill = void (*)(Page*, const QString&);
   static const QHash<QString, Fill> fills = {
-      {"machine", fillMachine}, {"calibrate", fillCalibrate}, {"warmup", fillWarmup}, {"sensors", fillSensors},
-      {"fit", fillFit},         {"physics", fillPhysics},     {"upload", fillUpload}, {"verify", fillVerify},
-      {"report", fillReport},   {"axis_errors", fillAxis}};
+      {"machine", fillMachine}, {"calibrate", fillCalibrate}, {"warmup", fillWarmup},          {"sensors", fillSensors},
+      {"fit", fillFit},         {"physics", fillPhysics},     {"upload", fillUpload},          {"verify", fillVerify},
+      {"report", fillReport},   {"axis_errors", fillAxis},    {"compensator", fillCompensator}};
   fills.value(scene.page)(page, scene.name);
   window.setLamp(LampId::recording,
                  scene.name == "running" && scene.page != "calibrate" ? "Recording, 10 s" : "Not recording",

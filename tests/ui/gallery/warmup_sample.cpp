@@ -98,6 +98,13 @@ void fillWarmup(Page* page, const QString& scene) {
                       "The gap is kept as a gap. Check its plug; the run goes on.",
                       {}});
   if (scene != "banner") warmup->clearProblem();
+  warmup->run()->setTrouble({});
+  if (scene != "trouble") return;
+  warmup->run()->setTrouble(
+      {"The temperature sensor T14 Spindle nose has not moved for 40 s: it is stuck. Check it, or "
+       "leave it out of the model.",
+       {"controller busy, 12 times, asked again", "sensor stuck (T14 Spindle nose), once"},
+       false});
 }
 
 }  // namespace zerodrift::ui::samples
