@@ -282,7 +282,10 @@ void RunFeed::appendRows(const std::vector<RunUpdate>& updates) {
     const QString id = QString::fromStdString(names[c]);
     if (recording::kind_of(names[c]) != recording::ChannelKind::error) {
       m_view->append(id, times, values[c]);
-      last.append({id, values[c].back(), {}, ui::Judgement::none});
+      const auto bad = m_badSensors.find(names[c]);
+      const bool good = bad == m_badSensors.end();
+      last.append(
+          {id, values[c].back(), good ? QString() : bad->second, good ? ui::Judgement::none : ui::Judgement::bad});
       continue;
     }
     for (qsizetype r = 0; r < times.size(); ++r) {  // errors are sparse: only what was measured makes the curve
@@ -338,20 +341,18 @@ void RunFeed::showHappened(const std::vector<acquisition::Happening>& happened) 
 
 void RunFeed::showTrouble() {
   ui::RunTrouble trouble;
-  QVector<ui::RunValue> states;
-  for (const auto& problem : m_now.problems) {
-    if (trouble.now.isEmpty()) trouble.now = m_bench.inWords(lineOf(problem).toStdString());
-    const auto sensor = problem.context.find("sensor");
-    if (sensor == problem.context.end()) continue;
-    const auto at = std::find(m_now.channels.begin(), m_now.channels.end(), sensor->second);
-    const auto column = static_cast<std::size_t>(at - m_now.channels.begin());
-    if (column >= m_now.row.size()) continue;
-    states.append({QString::fromStdString(sensor->second), m_now.row[column],
-                   problem.code == ErrorCode::sensor_dead ? tr("dead") : tr("stuck"), ui::Judgement::bad});
-  }
+  if (!m_now.problems.empty()) trouble.now = m_bench.inWords(lineOf(m_now.problems.front()).toStdString());
   for (const auto& one : m_now.happened) trouble.so_far << m_bench.inWords(textOf(one).toStdString());
   m_view->setTrouble(trouble);
-  if (!states.isEmpty()) m_view->setValues(states);
+}
+
+void RunFeed::noteSensors(const std::vector<Error>& problems) {
+  m_badSensors.clear();
+  for (const auto& problem : problems) {
+    const auto sensor = problem.context.find("sensor");
+    if (sensor == problem.context.end()) continue;
+    m_badSensors[sensor->second] = problem.code == ErrorCode::sensor_dead ? tr("dead") : tr("stuck");
+  }
 }
 
 void RunFeed::drain() {
@@ -362,6 +363,7 @@ void RunFeed::drain() {
   }
   if (updates.empty()) return;
   m_received = true;
+  noteSensors(updates.back().problems);
   appendRows(updates);
   bool measured = false;
   for (const auto& update : updates) {

@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QTimer>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -76,6 +77,7 @@ class RunFeed : public QObject {
   void appendRows(const std::vector<acquisition::RunUpdate>& updates);
   void showPicture();
   void showTrouble();
+  void noteSensors(const std::vector<Error>& problems);
   void noteRow(double time_s);
   void noteErrors(const std::string& channel, double value);
   void appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,
@@ -95,6 +97,7 @@ class RunFeed : public QObject {
   QString m_largestAxis;
   bool m_received = false;
   bool m_compensated = false;
+  std::map<std::string, QString> m_badSensors;  // now: channel -> what is wrong with it
 };
 
 }  // namespace zerodrift::desktop
