@@ -22,6 +22,7 @@ struct Arguments {
   std::string tour;
   double speedup = 240.0;
   int seed = 1;
+  std::string conceal = "coolant";
   std::string language;
   std::string theme;
   std::string size = "1440x900";
@@ -43,6 +44,9 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "Drive the whole wizard against the virtual machine; pictures into this folder");
   app.add_option("--speedup", arguments.speedup, "Speed of the virtual machine's time")->check(CLI::Range(1.0, 2000.0));
   app.add_option("--seed", arguments.seed, "Which virtual machine");
+  app.add_option(
+      "--conceal", arguments.conceal,
+      "Effect that the virtual machine's description leaves out, for the Physics page to find; none: nothing");
   app.add_option("--language", arguments.language, "en or zh_CN")->check(CLI::IsMember({"en", "zh_CN"}));
   app.add_option("--theme", arguments.theme, "light or dark")->check(CLI::IsMember({"light", "dark"}));
   app.add_option("--size", arguments.size, "Size of the window for the tour, for example 1280x720");
@@ -79,7 +83,7 @@ int main(int argc, char** argv) {
                                ? QSettings().value(QStringLiteral("language"), QStringLiteral("en")).toString()
                                : QString::fromStdString(arguments.language);
   if (language != QStringLiteral("en")) desktop.setLanguage(language);
-  const DemoOptions demo{arguments.speedup, arguments.seed, {}, {}};
+  const DemoOptions demo{arguments.speedup, arguments.seed, QString::fromStdString(arguments.conceal), {}};
 
   std::unique_ptr<zerodrift::desktop::Tour> tour;
   if (!arguments.tour.empty()) {

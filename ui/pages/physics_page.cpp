@@ -161,8 +161,12 @@ QString PhysicsPage::sentence() const {
                  ? tr("Map, curves and figures hold what was adopted. Go on, or take it out again.")
                  : tr("Something is missing in the simulation. Judge the explanations; adopt what convinces.");
     case PhysicsVerdict::unexplained:
-      return m_state.adopted ? tr("Map, curves and figures hold what was adopted; the rest no known effect explains.")
-                             : tr("Something is missing that no known effect explains. It is shown, not guessed.");
+      if (m_state.adopted)
+        return tr("Map, curves and figures hold what was adopted; the rest no known effect explains.");
+      return m_state.explanations.isEmpty()
+                 ? tr("Something is missing that no known effect explains. It is shown, not guessed.")
+                 : tr("A part is explained, at the right. The rest no known effect explains: it is shown, not "
+                      "guessed.");
   }
   return {};
 }
