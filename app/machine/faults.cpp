@@ -76,18 +76,20 @@ SensorFault sensor_fault(const std::vector<Fault>& faults) {
   return {};
 }
 
-CameraFault camera_fault(const std::vector<Fault>& faults, double machine_time_s) {
+CameraFault camera_fault(const std::vector<Fault>& faults, double machine_time_s, std::optional<double> first_turn_s) {
   for (const Fault& fault : faults) {
     CameraFault camera;
     if (fault.name == "camera-freeze") camera.kind = CameraFault::Kind::freeze;
     if (fault.name == "camera-occluded") camera.kind = CameraFault::Kind::occluded;
-    if (camera.kind == CameraFault::Kind::none) continue;
+    const bool chip = camera.kind == CameraFault::Kind::occluded;
+    // A chip that lay there while the template was taken would be a part of the target and hide nothing.
+    if (camera.kind == CameraFault::Kind::none || (chip && !first_turn_s)) continue;
+    const double since_s = chip ? *first_turn_s : 0.0;
     if (fault.always) {
-      // A chip that lay there while the template was taken would be a part of the target and hide nothing.
-      if (camera.kind == CameraFault::Kind::occluded) camera.from_machine_s = spell_start_s;
+      if (chip) camera.from_machine_s = since_s + spell_start_s;
       return camera;
     }
-    const double period_begin = std::floor(machine_time_s / spell_period_s) * spell_period_s;
+    const double period_begin = since_s + std::floor((machine_time_s - since_s) / spell_period_s) * spell_period_s;
     camera.from_machine_s = period_begin + spell_start_s;
     camera.until_machine_s = period_begin + spell_period_s;
     return camera;

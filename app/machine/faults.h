@@ -2,6 +2,7 @@
 // Faults on purpose: "busy", "late:always", ... Without ":always" they come now and then, so that a run can go on.
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,8 @@ class ReplyFaults {
 };
 
 SensorFault sensor_fault(const std::vector<Fault>& faults);
-/// The camera's fault with the window that is next (or now) at this machine time: five minutes of every thirty.
-CameraFault camera_fault(const std::vector<Fault>& faults, double machine_time_s);
+/// The camera's fault with the window that is next (or now) at this machine time: five minutes of every thirty. Chips
+/// fall while the machine works: their time counts from the spindle's first turn, and before it there are none.
+CameraFault camera_fault(const std::vector<Fault>& faults, double machine_time_s, std::optional<double> first_turn_s);
 
 }  // namespace zerodrift::machine

@@ -58,6 +58,11 @@ std::optional<controller::ModbusException> LiveMachine::write(int address, std::
   return m_bank.write(address, words);
 }
 
+std::optional<double> LiveMachine::first_turn_s() {
+  const std::scoped_lock lock(m_mutex);
+  return m_machine.first_turn_s();
+}
+
 CameraScene LiveMachine::scene(View view) {
   const std::scoped_lock lock(m_mutex);
   catch_up();

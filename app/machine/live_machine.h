@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "app/machine/machine.h"
@@ -19,6 +20,7 @@ class LiveMachine {
   controller::RegisterReply read(int address, int count);
   std::optional<controller::ModbusException> write(int address, std::span<const std::uint16_t> words);
   CameraScene scene(View view);
+  std::optional<double> first_turn_s();
   void set_sensor_fault(SensorFault fault);
   /// Starts the clock.
   void start();

@@ -44,6 +44,7 @@ void Machine::advance_to(double time_s) {
 void Machine::advance_step(double duration_s) {
   const double reach = spindle_rpm_per_s * duration_s;
   m_speed_rpm += std::clamp(m_commanded_rpm - m_speed_rpm, -reach, reach);
+  if (m_speed_rpm > 0.0 && !m_first_turn_s) m_first_turn_s = m_time_s;
   m_speed_sum += m_speed_rpm * duration_s;
   if (m_motion.cycling()) m_cycle_sum_s += duration_s;
   m_motion.advance(duration_s);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "app/machine/camera/scene.h"
 #include "app/machine/compensator.h"
@@ -48,6 +49,8 @@ class Machine {
   const TableStore& table_store() const { return m_table_store; }
   double speed_rpm() const { return m_speed_rpm; }
   double commanded_rpm() const { return m_commanded_rpm; }
+  /// When the spindle turned for the first time: work began.
+  std::optional<double> first_turn_s() const { return m_first_turn_s; }
   bool coolant_on() const { return m_coolant_on; }
   double spindle_load_W() const { return m_thermal.spindle_load_W(); }
   /// Last conversion in 1/16 C; 0 the room, 1 to 20 the sensors.
@@ -78,6 +81,7 @@ class Machine {
   double m_time_s = 0.0;
   double m_commanded_rpm = 0.0;
   double m_speed_rpm = 0.0;
+  std::optional<double> m_first_turn_s;
   bool m_coolant_on = false;
   double m_cutting_W = 0.0;
   // means over the running thermal step

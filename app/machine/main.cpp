@@ -69,7 +69,7 @@ void wait_for_end(const sigset_t& endings, const std::vector<Fault>& faults, Liv
                   CameraServer& cameras) {
   const timespec turn{0, 50'000'000};
   while (sigtimedwait(&endings, nullptr, &turn) < 0) {
-    const CameraFault fault = camera_fault(faults, machine.scene(View::front).machine_time_s);
+    const CameraFault fault = camera_fault(faults, machine.scene(View::front).machine_time_s, machine.first_turn_s());
     if (fault.kind != CameraFault::Kind::none) cameras.set_fault(fault);
   }
 }

@@ -358,11 +358,14 @@ TEST(Faults, ComeNowAndThenOrAlways) {
   EXPECT_GT(steady.next().delay.count(), 1000);
   EXPECT_EQ(sensor_fault(named("stuck-sensor")).kind, SensorFault::Kind::stuck);
   EXPECT_EQ(sensor_fault(named("busy")).kind, SensorFault::Kind::none);
-  const CameraFault spell = camera_fault(named("camera-occluded"), 4000.0);
-  EXPECT_EQ(spell.kind, CameraFault::Kind::occluded);
+  const CameraFault spell = camera_fault(named("camera-freeze"), 4000.0, std::nullopt);
+  EXPECT_EQ(spell.kind, CameraFault::Kind::freeze);
   EXPECT_EQ(spell.from_machine_s, 5100.0);
   EXPECT_EQ(spell.until_machine_s, 5400.0);
-  EXPECT_EQ(camera_fault(named("camera-freeze:always"), 4000.0).from_machine_s, 0.0);
+  EXPECT_EQ(camera_fault(named("camera-freeze:always"), 4000.0, std::nullopt).from_machine_s, 0.0);
+  EXPECT_EQ(camera_fault(named("camera-occluded"), 4000.0, std::nullopt).kind, CameraFault::Kind::none);
+  EXPECT_EQ(camera_fault(named("camera-occluded"), 4000.0, 3600.0).from_machine_s, 5100.0);
+  EXPECT_EQ(camera_fault(named("camera-occluded:always"), 4000.0, 3600.0).from_machine_s, 5100.0);
 }
 
 TEST(Motion, GeometricErrorIsZeroAtTheMeasuringPosition) {
