@@ -332,17 +332,24 @@ void RunFeed::showPicture() {
   m_view->setFrame(image_of(view.frame->image), marks);
 }
 
-void RunFeed::showHappened(const std::vector<acquisition::Happening>& happened) {
+QStringList RunFeed::inWords(const std::vector<acquisition::Happening>& happened, int measurements, int refused) const {
+  QStringList lines;
+  for (const auto& one : happened) lines << m_bench.inWords(textOf(one).toStdString());
+  if (refused > 0) lines << tr("%1 of %2 measurements without all directions").arg(refused).arg(measurements);
+  return lines;
+}
+
+void RunFeed::showHappened(const std::vector<acquisition::Happening>& happened, int measurements, int refused) {
   ui::RunTrouble trouble;
   trouble.ended = true;
-  for (const auto& one : happened) trouble.so_far << m_bench.inWords(textOf(one).toStdString());
+  trouble.so_far = inWords(happened, measurements, refused);
   m_view->setTrouble(trouble);
 }
 
 void RunFeed::showTrouble() {
   ui::RunTrouble trouble;
   if (!m_now.problems.empty()) trouble.now = m_bench.inWords(lineOf(m_now.problems.front()).toStdString());
-  for (const auto& one : m_now.happened) trouble.so_far << m_bench.inWords(textOf(one).toStdString());
+  trouble.so_far = inWords(m_now.happened, m_now.measurements, m_now.refused);
   m_view->setTrouble(trouble);
 }
 

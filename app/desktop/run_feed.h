@@ -33,8 +33,8 @@ class RunFeed : public QObject {
   void setCompensated(bool compensated) { m_compensated = compensated; }
   /// A run that is in the job already.
   void showRecording(const recording::Recording& run);
-  /// What went wrong in a run that is over.
-  void showHappened(const std::vector<acquisition::Happening>& happened);
+  /// What went wrong in a run that is over: of so many measurements so many with a direction missing.
+  void showHappened(const std::vector<acquisition::Happening>& happened, int measurements, int refused);
   void stop();
 
   // For the step's options; they may be called from the worker thread.
@@ -77,6 +77,7 @@ class RunFeed : public QObject {
   void appendRows(const std::vector<acquisition::RunUpdate>& updates);
   void showPicture();
   void showTrouble();
+  QStringList inWords(const std::vector<acquisition::Happening>& happened, int measurements, int refused) const;
   void noteSensors(const std::vector<Error>& problems);
   void noteRow(double time_s);
   void noteErrors(const std::string& channel, double value);

@@ -106,7 +106,8 @@ void RunPresenter::showKept(const nlohmann::json& body) {
   if (const auto run = bench().job()->read_series(series)) {
     m_shown = series;
     m_feed->showRecording(*run);
-    m_feed->showHappened(acquisition::happenings_from_json(body.value("happened", nlohmann::json())));
+    m_feed->showHappened(acquisition::happenings_from_json(body.value("happened", nlohmann::json())),
+                         body.value("measurements", 0), body.value("refused", 0));
   }
 }
 

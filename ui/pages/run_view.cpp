@@ -1,5 +1,6 @@
 #include "ui/pages/run_view.h"
 
+#include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,8 @@ namespace {
 /// Without the counts, which change all the time.
 QStringList kindsOf(const QStringList& lines) {
   QStringList kinds;
-  for (const QString& line : lines) kinds << line.section(QLatin1Char(','), 0, 0);
+  static const QRegularExpression figures(QStringLiteral("\\d+"));
+  for (const QString& line : lines) kinds << line.section(QLatin1Char(','), 0, 0).remove(figures);
   return kinds;
 }
 
