@@ -79,6 +79,7 @@ class NetworkBuilder {
  private:
   void add_components();
   void add_rod(const Component& component);
+  void add_cells(const Component& component, int first, int count, double section_m2, const char* label);
   void add_inner_body(const Component& component, Network::Place& at);
   void add_contact(const Component& component, const HeatSource& bearing, int rise);
   void add_near_field(const Component& component, const Sensor& sensor, Observation& seen);

@@ -49,21 +49,9 @@ Parameter share_parameter(const std::string& key, const std::string& component, 
 
 void NetworkBuilder::add_inner_body(const Component& component, Network::Place& at) {
   const InnerBody& inner = *component.inner;
-  const Material& m = component.material;
   const double section_m2 = inner.section_share * component.section_m2();
   at.inner = static_cast<int>(m_network.nodes());
-  for (int i = 0; i < at.count; ++i) {
-    add_node(m.density_kg_m3 * section_m2 * at.cell_m, m_capacity[component.id], reference_C(component.id));
-  }
-  Term along;
-  along.kind = TermKind::link;
-  along.law_kind = LawKind::constant;
-  along.label = component.id + "/inner_conduction";
-  for (int i = 0; i + 1 < at.count; ++i)
-    along.links.push_back({at.inner + i, at.inner + i + 1, section_m2 / at.cell_m});
-  along.parameters = {m_conductivity[component.id]};
-  along.law = proportional_law;
-  add(std::move(along));
+  add_cells(component, at.inner, at.count, section_m2, "/inner_conduction");
   Parameter coupling;
   coupling.key = "inner_coupling_W_mK";
   coupling.component = component.id;

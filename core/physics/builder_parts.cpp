@@ -7,6 +7,23 @@
 
 namespace zerodrift::physics {
 
+/// A row of cells of this section with conduction along it; the component's conductivity and capacity are there.
+void NetworkBuilder::add_cells(const Component& component, int first, int count, double section_m2, const char* label) {
+  const double cell_m = component.length_mm * m_per_mm / count;
+  Term conduction;
+  conduction.kind = TermKind::link;
+  conduction.law_kind = LawKind::constant;
+  conduction.label = component.id + label;
+  for (int i = 0; i < count; ++i) {
+    add_node(component.material.density_kg_m3 * section_m2 * cell_m, m_capacity[component.id],
+             reference_C(component.id));
+    if (i > 0) conduction.links.push_back({first + i - 1, first + i, section_m2 / cell_m});
+  }
+  conduction.parameters = {m_conductivity[component.id]};
+  conduction.law = proportional_law;
+  add(std::move(conduction));
+}
+
 void NetworkBuilder::add_rod(const Component& component) {
   Network::Place at;
   at.component = component.id;
@@ -28,18 +45,7 @@ void NetworkBuilder::add_rod(const Component& component) {
   c.sigma = m_machine.tolerances.heat_capacity;
   m_capacity[component.id] = add_parameter(c);
   const double section_m2 = (1.0 - at.inner_share) * component.section_m2();
-  for (int i = 0; i < at.count; ++i) {
-    add_node(m.density_kg_m3 * section_m2 * at.cell_m, m_capacity[component.id], reference_C(component.id));
-  }
-  Term conduction;
-  conduction.kind = TermKind::link;
-  conduction.law_kind = LawKind::constant;
-  conduction.label = component.id + "/conduction";
-  for (int i = 0; i + 1 < at.count; ++i)
-    conduction.links.push_back({at.first + i, at.first + i + 1, section_m2 / at.cell_m});
-  conduction.parameters = {m_conductivity[component.id]};
-  conduction.law = proportional_law;
-  add(std::move(conduction));
+  add_cells(component, at.first, at.count, section_m2, "/conduction");
   if (component.inner) add_inner_body(component, at);
   m_network.places.push_back(at);
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/physics/skyline.h"
+#include "core/physics/assembly.h"
 
 namespace zerodrift::physics {
 namespace {
@@ -13,22 +13,6 @@ constexpr double gamma_tr = 0.58578643762690495;  // 2 - sqrt(2)
 constexpr double c_star = 1.0 / (gamma_tr * (2.0 - gamma_tr));
 constexpr double c_old = (1.0 - gamma_tr) * (1.0 - gamma_tr) / (gamma_tr * (2.0 - gamma_tr));
 
-struct TermNow {
-  Strength strength;
-  double by_hold = 0.0;
-  std::vector<double> weights;
-  std::vector<double> by_place;
-  std::array<double, max_law_parameters> values{};
-  std::array<int, max_law_parameters> columns{};  // -1: not differentiated by
-  int place_column = -1;
-};
-
-struct FlatLink {
-  int first;
-  int second;
-  double conductance;
-};
-
 class Stepper {
  public:
   Stepper(const Network& network, const InputSet& inputs, const std::vector<double>& values,
@@ -36,14 +20,9 @@ class Stepper {
   Trajectory run();
 
  private:
-  void prepare_terms();
   void start_state();
   void record(std::size_t row);
   void step(std::size_t row, double from_share, double to_share, double dt_s);
-  void evaluate_environments(std::size_t row, double share);
-  void evaluate_terms(std::size_t row, double share, double time_s);
-  void evaluate(std::size_t index, std::size_t row, bool changed, double time_s);
-  void assemble(double alpha);
   void advance_state(double alpha);
   void advance_derivatives(double alpha);
   void conduct(const double* x, double alpha, double* r) const;
@@ -51,8 +30,6 @@ class Stepper {
   void force_term(std::size_t index, double alpha, bool first_stage);
   void force_by(std::size_t index, double factor, bool first_stage, const double* derivative);
   void force_capacity(bool first_stage);
-  Skyline empty_matrix();
-  double driver_derivative(const Term& term, std::size_t column) const;
 
   const Network& m_net;
   const InputSet& m_in;
@@ -61,88 +38,19 @@ class Stepper {
   std::size_t m_n;
   std::size_t m_p;
   std::vector<int> m_column;  // parameter -> column or -1
-  std::vector<TermNow> m_now;
-  std::vector<double> m_environment;
-  std::vector<std::vector<std::pair<int, double>>> m_environment_by;  // (column, derivative)
-  std::vector<int> m_rank;                                            // node -> row of the matrix
-  Skyline m_matrix;
-  std::vector<FlatLink> m_links;
-  std::vector<double> m_film, m_source, m_capacity, m_t, m_before, m_star, m_next, m_r;
+  Assembly m_assembly;
+  std::vector<double> m_t, m_before, m_star, m_next, m_r;
   std::vector<double> m_s, m_s_before, m_s_star, m_rs, m_own;
-  double m_hold = 0.0;
   int m_hold_column = -1;
   double m_extrapolate = 0.0;
   double m_last_dt = 0.0;
-  double m_last_alpha = 0.0;
-  bool m_stiffness_changed = true;
-  std::size_t m_row_evaluated = static_cast<std::size_t>(-1);
   Trajectory m_out;
 };
 
-/// Breadth first through the links from the node with the fewest: neighbours get rows close to each other (Cuthill and
-/// McKee 1969), so that a chain beside a chain costs a few chains.
-std::vector<int> neighbourly_order(const Network& network) {
-  const std::size_t n = network.nodes();
-  std::vector<std::vector<int>> linked(n);
-  for (const auto& term : network.terms) {
-    for (const auto& link : term.links) {
-      linked[link.first].push_back(link.second);
-      linked[link.second].push_back(link.first);
-    }
-  }
-  for (auto& list : linked) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  std::vector<int> order;
-  std::vector<bool> taken(n, false);
-  while (order.size() < n) {
-    int start = -1;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!taken[i] && (start < 0 || linked[i].size() < linked[start].size())) start = static_cast<int>(i);
-    }
-    std::size_t next = order.size();
-    order.push_back(start);
-    taken[start] = true;
-    // Two chains side by side begin with the ends of both, so that they go on in turns.
-    for (const int other : linked[start]) {
-      if (taken[other] || linked[other].size() != linked[start].size()) continue;
-      order.push_back(other);
-      taken[other] = true;
-      break;
-    }
-    for (; next < order.size(); ++next) {
-      for (const int other : linked[order[next]]) {
-        if (taken[other]) continue;
-        taken[other] = true;
-        order.push_back(other);
-      }
-    }
-  }
-  return order;
-}
-
-Skyline Stepper::empty_matrix() {
-  const auto envelope = [&] {
-    std::vector<int> first(m_n);
-    for (std::size_t i = 0; i < m_n; ++i) first[i] = static_cast<int>(i);
-    for (const auto& term : m_net.terms) {
-      for (const auto& link : term.links) {
-        const auto [low, high] = std::minmax(m_rank[link.first], m_rank[link.second]);
-        first[high] = std::min(first[high], low);
-      }
-    }
-    return first;
-  };
-  m_rank.resize(m_n);
-  for (std::size_t i = 0; i < m_n; ++i) m_rank[i] = static_cast<int>(i);
-  std::vector<int> first = envelope();
-  bool chain = true;
-  for (std::size_t i = 0; i < m_n; ++i) chain = chain && static_cast<int>(i) - first[i] <= 1;
-  if (chain) return Skyline(std::move(first));
-  std::vector<int> order = neighbourly_order(m_net);
-  for (std::size_t i = 0; i < m_n; ++i) m_rank[order[i]] = static_cast<int>(i);
-  return Skyline(envelope(), std::move(order));
+std::vector<int> columns_of(const Network& network, const std::vector<int>& parameters) {
+  std::vector<int> columns(network.parameters.size(), -1);
+  for (std::size_t c = 0; c < parameters.size(); ++c) columns[parameters[c]] = static_cast<int>(c);
+  return columns;
 }
 
 Stepper::Stepper(const Network& network, const InputSet& inputs, const std::vector<double>& values,
@@ -153,39 +61,13 @@ Stepper::Stepper(const Network& network, const InputSet& inputs, const std::vect
       m_options(options),
       m_n(network.nodes()),
       m_p(parameters.size()),
-      m_column(network.parameters.size(), -1),
-      m_matrix(empty_matrix()) {
-  for (std::size_t c = 0; c < m_p; ++c) m_column[parameters[c]] = static_cast<int>(c);
-  if (network.hold_parameter >= 0) {
-    m_hold = values[network.hold_parameter];
-    m_hold_column = m_column[network.hold_parameter];
-  }
-  for (auto* v : {&m_film, &m_source, &m_capacity, &m_t, &m_before, &m_star, &m_next, &m_r}) v->assign(m_n, 0.0);
+      m_column(columns_of(network, parameters)),
+      m_assembly(network, inputs, values, m_column) {
+  if (network.hold_parameter >= 0) m_hold_column = m_column[network.hold_parameter];
+  for (auto* v : {&m_t, &m_before, &m_star, &m_next, &m_r}) v->assign(m_n, 0.0);
   for (auto* v : {&m_s, &m_s_before, &m_s_star, &m_rs}) v->assign(m_n * m_p, 0.0);
   m_own.assign(m_p, 0.0);
-  m_environment.assign(network.environments.size(), 0.0);
-  m_environment_by.resize(network.environments.size());
-  prepare_terms();
   start_state();
-}
-
-void Stepper::prepare_terms() {
-  m_now.resize(m_net.terms.size());
-  for (std::size_t i = 0; i < m_now.size(); ++i) {
-    const Term& term = m_net.terms[i];
-    TermNow& now = m_now[i];
-    now.weights = term.weights;
-    if (term.place_parameter >= 0) {
-      term.reshape(m_values[term.place_parameter], now.weights, now.by_place);
-      now.place_column = m_column[term.place_parameter];
-    }
-    now.columns.fill(-1);
-    for (std::size_t k = 0; k < term.parameters.size(); ++k) {
-      now.values[k] = m_values[term.parameters[k]];
-      now.columns[k] = m_column[term.parameters[k]];
-    }
-    for (const auto& link : term.links) m_links.push_back({link.first, link.second, 0.0});
-  }
 }
 
 void Stepper::start_state() {
@@ -198,10 +80,6 @@ void Stepper::start_state() {
   }
   m_before = m_t;
   m_s_before = m_s;
-  for (std::size_t i = 0; i < m_n; ++i) {
-    const int p = m_net.capacity_parameter[i];
-    m_capacity[i] = m_net.volume[i] * (p >= 0 ? m_values[p] : 1.0);
-  }
 }
 
 void Stepper::record(std::size_t row) {
@@ -221,113 +99,8 @@ void Stepper::record(std::size_t row) {
     std::copy(m_t.begin(), m_t.end(), m_out.field_C.begin() + static_cast<std::ptrdiff_t>(row * m_n));
 }
 
-void Stepper::evaluate_environments(std::size_t row, double share) {
-  for (std::size_t e = 0; e < m_environment.size(); ++e) {
-    const Environment& env = m_net.environments[e];
-    const auto blend = [&](const std::vector<std::vector<double>>& series, int index) {
-      return (1.0 - share) * series[row][index] + share * series[row + 1][index];
-    };
-    double value = env.constant_C;
-    if (env.series >= 0) value += blend(m_in.linear, env.series);
-    m_environment_by[e].clear();
-    for (const auto& part : env.parts) {
-      const double basis = part.basis >= 0 ? blend(m_in.signals, part.basis) : 1.0;
-      value += m_values[part.parameter] * basis;
-      if (m_column[part.parameter] >= 0) m_environment_by[e].emplace_back(m_column[part.parameter], basis);
-    }
-    m_environment[e] = value;
-  }
-}
-
-void Stepper::evaluate(std::size_t index, std::size_t row, bool changed, double time_s) {
-  const Term& term = m_net.terms[index];
-  TermNow& now = m_now[index];
-  LawPoint at;
-  at.held = m_in.held[row].data();
-  at.values = now.values.data();
-  at.time_s = time_s;
-  for (const auto& [node, weight] : term.driver) {
-    at.driver_C += weight * (m_t[node] + m_extrapolate * (m_t[node] - m_before[node]));
-  }
-  if (term.environment >= 0) at.environment_C = m_environment[term.environment];
-  const double old = now.strength.value;
-  now.strength = term.law(at);
-  now.by_hold = 0.0;
-  if (changed && term.law_kind != LawKind::constant) {
-    // Within this interval the next sample's inputs already act for the share m_hold of the time.
-    at.held = m_in.held[row + 1].data();
-    const Strength next = term.law(at);
-    now.by_hold = next.value - now.strength.value;
-    const auto mix = [&](double a, double b) { return a + m_hold * (b - a); };
-    now.strength.value = mix(now.strength.value, next.value);
-    now.strength.by_driver = mix(now.strength.by_driver, next.by_driver);
-    now.strength.by_environment = mix(now.strength.by_environment, next.by_environment);
-    for (std::size_t k = 0; k < term.parameters.size(); ++k) {
-      now.strength.by_parameter[k] = mix(now.strength.by_parameter[k], next.by_parameter[k]);
-    }
-  }
-  if (term.kind != TermKind::source && now.strength.value != old) m_stiffness_changed = true;
-}
-
-void Stepper::evaluate_terms(std::size_t row, double share, double time_s) {
-  const bool first = m_row_evaluated == static_cast<std::size_t>(-1);
-  const bool new_row = m_row_evaluated != row;
-  const bool changed = m_in.held[row] != m_in.held[row + 1];
-  const bool was_changed =
-      !first && new_row && row > 0 && (m_in.held[row - 1] != m_in.held[row] || m_row_evaluated + 1 != row);
-  evaluate_environments(row, share);
-  for (std::size_t i = 0; i < m_now.size(); ++i) {
-    const LawKind kind = m_net.terms[i].law_kind;
-    const bool needed = first || kind == LawKind::state || kind == LawKind::time ||
-                        (kind == LawKind::inputs && new_row && (changed || was_changed));
-    if (needed) evaluate(i, row, changed, time_s);
-  }
-  m_row_evaluated = row;
-}
-
-void Stepper::assemble(double alpha) {
-  std::fill(m_source.begin(), m_source.end(), 0.0);
-  if (m_stiffness_changed) std::fill(m_film.begin(), m_film.end(), 0.0);
-  std::size_t link = 0;
-  for (std::size_t i = 0; i < m_now.size(); ++i) {
-    const Term& term = m_net.terms[i];
-    const TermNow& now = m_now[i];
-    const double u = now.strength.value;
-    if (term.kind == TermKind::link) {
-      for (const auto& one : term.links) m_links[link++].conductance = u * one.weight;
-      continue;
-    }
-    if (u == 0.0) continue;
-    double* source = m_source.data() + term.first_node;
-    if (term.kind == TermKind::source) {
-      for (std::size_t w = 0; w < now.weights.size(); ++w) source[w] += u * now.weights[w];
-      continue;
-    }
-    const double towards_C = m_environment[term.environment];
-    double* film = m_film.data() + term.first_node;
-    for (std::size_t w = 0; w < now.weights.size(); ++w) {
-      const double conductance = u * now.weights[w];
-      if (m_stiffness_changed) film[w] += conductance;
-      source[w] += conductance * towards_C;
-    }
-  }
-  if (!m_stiffness_changed && alpha == m_last_alpha) return;
-  m_matrix.clear();
-  for (std::size_t i = 0; i < m_n; ++i) m_matrix.diagonal(m_rank[i]) = m_capacity[i] + alpha * m_film[i];
-  for (const auto& one : m_links) {
-    const double g = alpha * one.conductance;
-    const auto [low, high] = std::minmax(m_rank[one.first], m_rank[one.second]);
-    m_matrix.diagonal(low) += g;
-    m_matrix.diagonal(high) += g;
-    m_matrix.below(high, low) -= g;
-  }
-  m_matrix.factor();
-  m_stiffness_changed = false;
-  m_last_alpha = alpha;
-}
-
 void Stepper::conduct(const double* x, double alpha, double* r) const {
-  for (const auto& one : m_links) {
+  for (const auto& one : m_assembly.links()) {
     const double flow = alpha * one.conductance * (x[one.second] - x[one.first]);
     r[one.first] += flow;
     r[one.second] -= flow;
@@ -335,29 +108,32 @@ void Stepper::conduct(const double* x, double alpha, double* r) const {
 }
 
 void Stepper::advance_state(double alpha) {
+  const auto& capacity = m_assembly.capacity();
+  const auto& film = m_assembly.film();
+  const auto& source = m_assembly.source();
   for (std::size_t i = 0; i < m_n; ++i) {
-    m_r[i] = m_capacity[i] * m_t[i] + alpha * (2.0 * m_source[i] - m_film[i] * m_t[i]);
+    m_r[i] = capacity[i] * m_t[i] + alpha * (2.0 * source[i] - film[i] * m_t[i]);
   }
   conduct(m_t.data(), alpha, m_r.data());
-  m_matrix.solve(m_r.data());
+  m_assembly.matrix().solve(m_r.data());
   std::swap(m_star, m_r);
   for (std::size_t i = 0; i < m_n; ++i) {
-    m_next[i] = m_capacity[i] * (c_star * m_star[i] - c_old * m_t[i]) + alpha * m_source[i];
+    m_next[i] = capacity[i] * (c_star * m_star[i] - c_old * m_t[i]) + alpha * source[i];
   }
-  m_matrix.solve(m_next.data());
+  m_assembly.matrix().solve(m_next.data());
   if (!m_options.keep_balance) return;
   const double trapezoid = c_star * alpha;  // each of the two trapezoid ends; the rest weighs alpha
   for (std::size_t i = 0; i < m_n; ++i) {
-    m_out.stored_J += m_capacity[i] * (m_next[i] - m_t[i]);
-    m_out.supplied_J += trapezoid * (2.0 * m_source[i] - m_film[i] * (m_t[i] + m_star[i])) +
-                        alpha * (m_source[i] - m_film[i] * m_next[i]);
+    m_out.stored_J += capacity[i] * (m_next[i] - m_t[i]);
+    m_out.supplied_J +=
+        trapezoid * (2.0 * source[i] - film[i] * (m_t[i] + m_star[i])) + alpha * (source[i] - film[i] * m_next[i]);
   }
 }
 
 /// Adds, for one column or for all (derivative given), what a change of the term's strength forces.
 void Stepper::force_by(std::size_t index, double factor, bool first_stage, const double* derivative) {
   const Term& term = m_net.terms[index];
-  const TermNow& now = m_now[index];
+  const TermNow& now = m_assembly.now(index);
   const double sources = first_stage ? 2.0 : 1.0;
   const auto temperature = [&](int node) { return first_stage ? m_t[node] + m_star[node] : m_next[node]; };
   const auto add = [&](int node, double amount) {
@@ -372,7 +148,7 @@ void Stepper::force_by(std::size_t index, double factor, bool first_stage, const
     }
     return;
   }
-  const double towards_C = term.kind == TermKind::film ? m_environment[term.environment] : 0.0;
+  const double towards_C = term.kind == TermKind::film ? m_assembly.environment_C(term.environment) : 0.0;
   for (std::size_t w = 0; w < now.weights.size(); ++w) {
     if (now.weights[w] == 0.0) continue;
     const int node = term.first_node + static_cast<int>(w);
@@ -383,7 +159,7 @@ void Stepper::force_by(std::size_t index, double factor, bool first_stage, const
 
 void Stepper::force_term(std::size_t index, double alpha, bool first_stage) {
   const Term& term = m_net.terms[index];
-  const TermNow& now = m_now[index];
+  const TermNow& now = m_assembly.now(index);
   const Strength& s = now.strength;
   const double sources = first_stage ? 2.0 : 1.0;
   bool any = false;
@@ -407,7 +183,7 @@ void Stepper::force_term(std::size_t index, double alpha, bool first_stage) {
     any = true;
   }
   if (term.environment >= 0) {
-    for (const auto& [column, by] : m_environment_by[term.environment]) {
+    for (const auto& [column, by] : m_assembly.environment_by(term.environment)) {
       if (s.value != 0.0) {
         for (std::size_t w = 0; w < now.weights.size(); ++w) {
           m_rs[(term.first_node + w) * m_p + column] += alpha * sources * s.value * now.weights[w] * by;
@@ -437,7 +213,7 @@ void Stepper::force_term(std::size_t index, double alpha, bool first_stage) {
         }
         continue;
       }
-      const double towards_C = term.kind == TermKind::film ? m_environment[term.environment] : 0.0;
+      const double towards_C = term.kind == TermKind::film ? m_assembly.environment_C(term.environment) : 0.0;
       for (std::size_t w = 0; w < now.weights.size(); ++w) {
         const int node = term.first_node + static_cast<int>(w);
         const double drive = term.kind == TermKind::source ? sources : sources * towards_C - temperature(node);
@@ -462,19 +238,21 @@ void Stepper::force_capacity(bool first_stage) {
 }
 
 void Stepper::force(double alpha, bool first_stage) {
-  for (std::size_t i = 0; i < m_now.size(); ++i) force_term(i, alpha, first_stage);
+  for (std::size_t i = 0; i < m_net.terms.size(); ++i) force_term(i, alpha, first_stage);
   force_capacity(first_stage);
 }
 
 ZERODRIFT_WIDE void Stepper::advance_derivatives(double alpha) {
   const std::size_t p = m_p;
+  const auto& capacity = m_assembly.capacity();
+  const auto& film = m_assembly.film();
   for (std::size_t i = 0; i < m_n; ++i) {
-    const double own = m_capacity[i] - alpha * m_film[i];
+    const double own = capacity[i] - alpha * film[i];
     const double* s = m_s.data() + i * p;
     double* r = m_rs.data() + i * p;
     for (std::size_t c = 0; c < p; ++c) r[c] = own * s[c];
   }
-  for (const auto& one : m_links) {
+  for (const auto& one : m_assembly.links()) {
     if (one.conductance == 0.0) continue;
     const double g = alpha * one.conductance;
     const double* a = m_s.data() + one.first * p;
@@ -488,18 +266,18 @@ ZERODRIFT_WIDE void Stepper::advance_derivatives(double alpha) {
     }
   }
   force(alpha, true);
-  m_matrix.solve(m_rs.data(), p);
+  m_assembly.matrix().solve(m_rs.data(), p);
   std::swap(m_s_star, m_rs);
   for (std::size_t i = 0; i < m_n; ++i) {
     const double* star = m_s_star.data() + i * p;
     const double* s = m_s.data() + i * p;
     double* r = m_rs.data() + i * p;
-    const double a = c_star * m_capacity[i];
-    const double b = c_old * m_capacity[i];
+    const double a = c_star * capacity[i];
+    const double b = c_old * capacity[i];
     for (std::size_t c = 0; c < p; ++c) r[c] = a * star[c] - b * s[c];
   }
   force(alpha, false);
-  m_matrix.solve(m_rs.data(), p);
+  m_assembly.matrix().solve(m_rs.data(), p);
   std::swap(m_s_before, m_s);
   std::swap(m_s, m_rs);
 }
@@ -508,9 +286,9 @@ void Stepper::step(std::size_t row, double from_share, double to_share, double d
   const double middle = 0.5 * (from_share + to_share);
   const double time_s = m_in.time_s[row] + middle * (m_in.time_s[row + 1] - m_in.time_s[row]);
   m_extrapolate = m_last_dt > 0.0 ? 0.5 * dt_s / m_last_dt : 0.0;
-  evaluate_terms(row, middle, time_s);
+  m_assembly.evaluate(row, middle, time_s, {m_t.data(), m_before.data(), m_extrapolate});
   const double alpha = 0.5 * gamma_tr * dt_s;
-  assemble(alpha);
+  m_assembly.assemble(alpha);
   advance_state(alpha);
   if (m_p > 0) advance_derivatives(alpha);
   std::swap(m_before, m_t);
