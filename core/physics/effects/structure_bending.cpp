@@ -23,13 +23,33 @@ int heat_signal(NetworkBuilder& builder, SourceKind kind) {
                          }});
 }
 
+bool by_heat(const std::string& driver) {
+  return driver == "bearing_heat" || driver == "motor_heat";
+}
+
+/// What carries the rod touches it at the bearings; without any, near its ends. "difference_of_ends": near the ends.
+std::pair<double, double> rear_and_front_mm(const Component& rod, const std::string& driver) {
+  double rear_mm = rod.length_mm;
+  double front_mm = 0.0;
+  for (const auto& source : rod.sources) {
+    if (source.kind != SourceKind::bearing) continue;
+    const double middle_mm = 0.5 * (source.from_mm + source.to_mm);
+    rear_mm = std::min(rear_mm, middle_mm);
+    front_mm = std::max(front_mm, middle_mm);
+  }
+  if (front_mm - rear_mm > 0.3 * rod.length_mm && driver != "difference_of_ends") return {rear_mm, front_mm};
+  return {0.05 * rod.length_mm, 0.95 * rod.length_mm};
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const std::vector<std::string> rods = builder.rods();
   if (observation_of(builder, spec) == nullptr || rods.empty()) return;
   const std::string driver = spec.word_or("driver", "bearing_heat");
+  const bool heat = by_heat(driver);
   const std::string& rod = rods.front();
-  const double length_mm = builder.machine().find(rod)->length_mm;
-  const int gain = builder.effect_parameter(spec, index, "um_per_unit");
+  const auto [rear_mm, front_mm] = rear_and_front_mm(*builder.machine().find(rod), driver);
+  const bool difference = driver == "difference" || driver == "difference_of_ends";
+  const int gain = builder.effect_parameter(spec, index, heat ? "um_per_W" : "um_per_K");
   const int lag = builder.effect_parameter(spec, index, "lag_s", 3000.0);
   const int second =
       spec.numbers.count("second_lag_s") != 0 ? builder.effect_parameter(spec, index, "second_lag_s") : -1;
@@ -46,19 +66,19 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     one.factor = factor;
     terms.push_back(one);
   };
-  if (driver == "bearing_heat" || driver == "motor_heat") {
+  if (heat) {
     term.signal = heat_signal(builder, driver == "motor_heat" ? SourceKind::motor : SourceKind::bearing);
     terms.push_back(term);
   } else {
-    if (driver == "front" || driver == "difference") temperature(0.95 * length_mm, 1.0);
-    if (driver == "rear" || driver == "difference") temperature(0.05 * length_mm, driver == "rear" ? 1.0 : -1.0);
+    if (driver == "front" || difference) temperature(front_mm, 1.0);
+    if (driver == "rear" || difference) temperature(rear_mm, difference ? -1.0 : 1.0);
     if (driver == "mean") {
       StructureTerm one = term;
       one.probe = builder.probe(builder.mean_probe(rod));
       one.probe_reference = builder.reference_C(rod);
       terms.push_back(one);
     }
-    if (driver != "difference") {
+    if (!difference) {
       StructureTerm over_room = term;
       over_room.signal = room_rise_signal(builder);
       over_room.factor = -1.0;
@@ -84,13 +104,15 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   for (const auto& displacement : machine.displacements) {
     const Component* component = machine.find(displacement.component);
     if (!is_across(displacement) || component == nullptr || component->lump) continue;
-    for (const char* driver : {"bearing_heat", "motor_heat", "front", "rear", "mean", "difference"}) {
-      const bool heat = std::string(driver).find("heat") != std::string::npos;
+    for (const char* driver :
+         {"bearing_heat", "motor_heat", "front", "rear", "mean", "difference", "difference_of_ends"}) {
+      const bool heat = by_heat(driver);
       if (heat && !facts.has_speed) continue;
+      const std::string gain = heat ? "um_per_W" : "um_per_K";
       const double sigma = heat ? 30.0 / watts : 3.0;
       EffectSpec spec{"structure_bending",
                       true,
-                      {{"um_per_unit", 0.0}, {"um_per_unit_prior_sigma", sigma}, {"lag_s", 3000.0}},
+                      {{gain, 0.0}, {gain + "_prior_sigma", sigma}, {"lag_s", 3000.0}},
                       {{"channel", displacement.channel}, {"driver", driver}}};
       EffectSpec two_sides = spec;
       two_sides.numbers["lag_s"] = 1200.0;
@@ -115,11 +137,12 @@ const Effect structure_bending_effect = {
     "head stock and column of machining centres: 1 to 10 um per K of difference, 5 min to 5 h",
     "Only the displacement across the axis is off; it follows a heat source or a temperature difference with a delay",
     "structure_ambient",
-    {{"um_per_unit", 3.0, -100.0, 100.0, true},
+    {{"um_per_K", 3.0, -100.0, 100.0, true},
+     {"um_per_W", 0.1, -100.0, 100.0, true},
      {"lag_s", 0.9, 30.0, 40000.0, false, 3000.0, true},
      {"second_lag_s", 0.9, 100.0, 60000.0, false, 4000.0, true},
      {"room_um_per_K", 1.5, -30.0, 30.0, true}},
-    {"um_per_unit"},
+    {"um_per_K", "um_per_W"},
     structure_bending::add,
     structure_bending::candidates};
 
