@@ -35,7 +35,7 @@ constexpr std::array shown_parameters{Shown{"h_W_m2K", "h", "W/m²K"},
                                       Shown{"power_W", "P", "W"},
                                       Shown{"resistance_m2K_W", "R", "mm²K/W", 1e6},
                                       Shown{"um_per_K", "g", "µm/K"},
-                                      Shown{"um_per_unit", "g", "µm per unit of its driver"},
+                                      Shown{"um_per_W", "g", "µm/W"},
                                       Shown{"room_um_per_K", "g(room)", "µm/K"},
                                       Shown{"lag_s", "τ", "s"},
                                       Shown{"second_lag_s", "τ2", "s"},
@@ -139,7 +139,7 @@ Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, dou
 
 Sentence explain_rival(const Rival& rival) {
   Sentence s;
-  s.id = "rival_left";
+  s.id = rival.behind < 0.0 ? "rival_hidden" : "rival_left";
   s.facts = {{"name", rival.id}, {"behind", fmt::format("{:.1f}", rival.behind)}};
   put_place(s, rival.channel, rival.position_mm, rival.component);
   return finished(std::move(s));
@@ -149,9 +149,14 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
   Sentence s;
   s.id = "verdict_" + std::string(name_of(diagnosis.verdict));
   if (diagnosis.verdict == Verdict::unexplained) {
-    s.facts = {{"channel", diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front()},
-               {"watts", fmt::format("{:.0f}", diagnosis.mismatch.missing_heat_W)},
-               {"regime", regime_or_always(diagnosis.mismatch.regime)}};
+    const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
+    s.facts = {{"channel", channel}, {"regime", regime_or_always(diagnosis.mismatch.regime)}};
+    for (const auto& report : diagnosis.channels) {
+      if (report.channel != channel || report.temperature) continue;
+      s.id += "_length";  // no heat is missing where a displacement alone is off
+      s.facts["um"] = fmt::format("{:.2g}", report.rms_refitted);
+    }
+    if (s.facts.count("um") == 0) s.facts["watts"] = fmt::format("{:.0f}", diagnosis.mismatch.missing_heat_W);
   }
   if (diagnosis.verdict == Verdict::missing_effect) {
     std::string list;
@@ -162,6 +167,7 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
 }
 
 Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run) {
+  if (best_effect.empty()) return finished({"experiment_show", {{"rival", rival_effect}, {"run", run}}, ""});
   return finished({"experiment_run", {{"best", best_effect}, {"rival", rival_effect}, {"run", run}}, ""});
 }
 

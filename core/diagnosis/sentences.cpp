@@ -17,6 +17,9 @@ constexpr std::array catalogue{
           "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise."},
     Entry{"verdict_unexplained",
           "Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W."},
+    Entry{"verdict_unexplained_length",
+          "Something is missing that the library does not explain: {channel} is off the best "
+          "simulation by {um} µm (rms), {@regime}."},
     Entry{"verdict_missing_effect", "The simulation left out {+effects}."},
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
@@ -24,6 +27,8 @@ constexpr std::array catalogue{
     Entry{"rival_left",
           "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
           "excluded."},
+    Entry{"rival_hidden", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."},
+    Entry{"experiment_show", "To see whether there is {@rival}: {@run}."},
     Entry{"experiment_run", "To tell {@best} from {@rival}: {@run}."},
     Entry{"nothing_to_simulate", "The profile holds no machine description, so there is nothing to simulate."},
     Entry{"simulation_differs",

@@ -236,7 +236,9 @@ void VerifyPage::renderCorrection() {
     const auto um = [](double value) {
       return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 1) + " µm"};
     };
-    rows.append({name, kappa, DataCell{axis.evidence}, um(axis.peakBefore_um), um(axis.peakAfter_um)});
+    DataCell evidence{axis.evidence};
+    evidence.tip = axis.evidence;  // a narrow window cuts the sentence
+    rows.append({name, kappa, evidence, um(axis.peakBefore_um), um(axis.peakAfter_um)});
   }
   m_table->setRows(rows);
   if (m_table->currentRow() < 0 && !rows.isEmpty()) {
