@@ -70,8 +70,9 @@ Section method_section(const Trial& trial) {
   section.blocks.emplace_back(Text{fmt::format(
       "The answers were sealed before the first diagnosis: commitments.json holds SHA-256 of salt and answer for every "
       "case; its own SHA-256 was {}. Each case was then diagnosed from machine.json, recording.csv and second.csv "
-      "alone (the second recording is not fitted), and the seals were opened: {} of {} promises held.",
-      trial.digest, trial.seals_kept, trial.options.cases)});
+      "alone, and the seals were opened: {} of {} promises held. One recording is fitted and the other held out: the "
+      "first is fitted, or the second where the first run could not show what the second contradicts ({} cases).",
+      trial.digest, trial.seals_kept, trial.options.cases, trial.score.turned_round())});
   section.blocks.emplace_back(
       Text{"Any case can be repeated: zerodrift-cli diagnose --machine cases/case-001/machine.json --recording "
            "cases/case-001/recording.csv --recording cases/case-001/second.csv --out again.json"});
@@ -150,7 +151,7 @@ Section improvement_section(const Score& score) {
                   "with the effect", "floor",     "worst / floor", "unit"};
   for (const auto& one : score.improvements()) {
     const auto number = [](double value) { return fmt::format("{:.3f}", value); };
-    table.rows.push_back({one.kind == "T" ? "temperatures" : one.kind, one.second ? "second, not fitted" : "fitted",
+    table.rows.push_back({one.kind == "T" ? "temperatures" : one.kind, one.second ? "held out" : "fitted",
                           number(one.nominal), number(one.refitted), number(one.explained), number(one.floor),
                           fmt::format("{:.1f}", one.worst_over_floor), one.kind == "T" ? "K" : "um"});
   }

@@ -125,6 +125,9 @@ Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
   judgement.strength = truth.strength;
   judgement.seconds = diagnosis.value("seconds", 0.0);
   m_seconds.push_back(judgement.seconds);
+  for (const auto& note : diagnosis.value("notes", std::vector<std::string>{})) {
+    m_turned_round += note.rfind("fitted_instead:", 0) == 0 ? 1 : 0;
+  }
   const auto& effects = diagnosis.at("effects");
   const bool names = diagnosis.value("verdict", "") == "missing_effect" && !effects.empty();
   if (names) {
@@ -275,11 +278,8 @@ std::vector<ProofFigure> Score::figures() const {
 }
 
 json Score::to_json() const {
-  json out = {{"cases", m_judgements.size()},
-              {"figures", json::array()},
-              {"confusion", m_confusion},
-              {"rmse", json::array()},
-              {"reliability", json::array()}};
+  json out = {{"cases", m_judgements.size()}, {"turned_round", m_turned_round}, {"figures", json::array()},
+              {"confusion", m_confusion},     {"rmse", json::array()},          {"reliability", json::array()}};
   for (const auto& figure : figures()) {
     out["figures"].push_back({{"id", figure.id},
                               {"label", figure.label},
@@ -290,7 +290,7 @@ json Score::to_json() const {
   }
   for (const auto& one : improvements()) {
     out["rmse"].push_back({{"channels", one.kind},
-                           {"recording", one.second ? "second" : "fitted"},
+                           {"recording", one.second ? "held out" : "fitted"},
                            {"before", one.nominal},
                            {"refitted", one.refitted},
                            {"after", one.explained},
@@ -327,7 +327,7 @@ std::string Score::text() const {
                      "floor", "worst / floor");
   for (const auto& one : improvements()) {
     out += fmt::format("{:<3} {:<18} {:>9.3f} {:>10.3f} {:>12.3f} {:>8.3f} {:>14.2f}\n", one.kind,
-                       one.second ? "second recording" : "fitted recording", one.nominal, one.refitted, one.explained,
+                       one.second ? "held-out recording" : "fitted recording", one.nominal, one.refitted, one.explained,
                        one.floor, one.worst_over_floor);
   }
   for (const auto& [truth, answers] : m_confusion) {

@@ -78,11 +78,14 @@ class Score {
   /// Medians over channels and cases of the rms in K or um: "T", "dZ", "dY".
   struct Improvement {
     std::string kind;
-    bool second = false;  // on the second recording, which was not fitted
+    bool second = false;  // on the recording that was held out
     double nominal = 0.0, refitted = 0.0, explained = 0.0, floor = 0.0, worst_over_floor = 0.0;
     int channels = 0;
   };
   std::vector<Improvement> improvements() const;
+
+  /// Cases in which the first recording could not show the effect: the second was fitted and the first held out.
+  int turned_round() const { return m_turned_round; }
 
   nlohmann::json to_json() const;
   std::string text() const;
@@ -105,6 +108,7 @@ class Score {
   void count_rms(const OpenedAnswer& truth, const nlohmann::json& diagnosis);
 
   Tally m_first, m_all_right, m_pairs, m_quiet, m_missed, m_unlisted, m_channel;
+  int m_turned_round = 0;
   std::vector<double> m_location_mm, m_seconds;
   std::vector<std::pair<double, bool>> m_confidence;
   std::map<std::pair<std::string, bool>, Rms> m_rms;  // (kind of channel, second recording)

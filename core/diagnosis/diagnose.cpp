@@ -2,9 +2,11 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/diagnosis/apart.h"
 #include "core/diagnosis/bodies.h"
+#include "core/diagnosis/contradiction.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/plausible.h"
@@ -64,12 +66,12 @@ Result<Diagnosis> Diagnoser::run() {
     m_data = m_selection.best->shared_data();
     ZD_CHECK(choose_drift());
   }
+  held_out();
   decide();
   series();
   mismatch();
   effects();
   rivals();
-  held_out();
   if (m_options.details) details();
   m_out.sentences.push_back(explain_verdict(m_out));
   m_out.notes = m_selection.base->network().notes;
@@ -146,11 +148,15 @@ void Diagnoser::decide() {
   } else {
     // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
     // imitated less well. The proof has the distribution of both.
-    const bool poor = asked > 3.0 && leftover(of_best) > most_left * leftover(of_base);
+    const bool wrong = refuted();
+    const bool poor = wrong || (asked > 3.0 && leftover(of_best) > most_left * leftover(of_base));
     m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
     // A wrong effect can worsen the prediction of another run: it is used only if it really helps.
-    const bool helps = after.mean < 0.7 * before.mean;
+    const bool helps = !wrong && after.mean < 0.7 * before.mean;
     m_used = poor && !helps ? m_selection.base : m_selection.best;
+  }
+  if (m_used == m_selection.base) {
+    for (auto& other : m_out.held_out) other.explained = other.refitted;
   }
   m_out.refined = refined_machine(*m_used);
 }
@@ -222,7 +228,36 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   return poor * 0.99 / (1.0 + others);
 }
 
+/// One speed and one state of the coolant from start to end: what follows them cannot be told from a tolerance.
+bool Diagnoser::steady_inputs() const {
+  for (const auto& channel : recording().channels) {
+    const auto kind = channel.kind();
+    const bool load = kind == recording::ChannelKind::load;  // measured, and it follows the speed
+    if (!recording::is_input(kind) || load) continue;
+    double low = 1e300, high = -1e300;
+    for (const double v : channel.values) {
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    if (high - low > 0.02 * std::max(std::abs(low), std::abs(high))) return false;
+  }
+  return m_facts.has_speed;
+}
+
+/// Nothing is named, but the run could hardly have shown it: effects that the data rather like.
+void Diagnoser::hidden_by_steadiness() {
+  std::vector<std::shared_ptr<Model>> liked;
+  std::set<std::string> ids;
+  for (const auto& level : m_selection.levels) {
+    for (const auto& fit : level) {
+      if (fit->log_evidence() < m_selection.base->log_evidence()) continue;
+      if (liked.size() < 3 && ids.insert(fit->machine().effects.back().id).second) liked.push_back(fit);
+    }
+  }
+  tell_rivals(std::move(liked));
+}
+
 void Diagnoser::rivals() {
+  if (m_out.verdict == Verdict::consistent && steady_inputs()) return hidden_by_steadiness();
   if (m_out.verdict != Verdict::missing_effect || m_selection.effects().empty()) return;
   const double best = m_selection.best->log_evidence();
   // What of a strong effect's law is not quite right must not exclude a rival; where the description is good that is
@@ -255,6 +290,11 @@ void Diagnoser::rivals() {
   for (const auto& [id, fit] : families) nearest.push_back(fit);
   std::sort(nearest.begin(), nearest.end(), [](auto& a, auto& b) { return a->log_evidence() > b->log_evidence(); });
   if (nearest.size() > 3) nearest.resize(3);
+  tell_rivals(std::move(nearest));
+}
+
+void Diagnoser::tell_rivals(std::vector<std::shared_ptr<Model>> nearest) {
+  const double best = m_selection.best->log_evidence();
   for (const auto& fit : nearest) {
     Rival rival;
     rival.id = fit->machine().effects.back().id;
@@ -286,6 +326,9 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
   }
   Result<Diagnosis> result = falls_apart(machine) ? diagnose_apart(machine, recordings, options, context)
                                                   : Diagnoser(machine, recordings, options, context).run();
+  if (result && !falls_apart(machine)) {
+    result = settled(std::move(*result), machine, recordings, options, context);
+  }
   if (result) result->notes.insert(result->notes.end(), warnings.begin(), warnings.end());
   return result;
 }

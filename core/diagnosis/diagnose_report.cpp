@@ -170,23 +170,52 @@ void Diagnoser::place_from_effect() {
   }
 }
 
+/// How the logger's samples and the switching times lie to each other: the same in its next recording.
+static double hold_of(const Model& model) {
+  return model.values()[model.network().hold_parameter];
+}
+
+/// How the other recordings are predicted as described, re-fitted and with the effects found.
 void Diagnoser::held_out() {
   const Machine base = refined_machine(*m_selection.base);
+  const Machine best = refined_machine(*m_selection.best);
   for (std::size_t i = 1; i < m_recordings.size(); ++i) {
     const Recording& other = m_recordings[i];
     HeldOut result;
     result.recording = other.name;
-    const auto put = [&](const Machine& machine, std::map<std::string, double>& target) {
-      for (const auto& channel : predict_other(machine, other).channels) {
+    const auto put = [&](const Machine& machine, double hold, std::map<std::string, double>& target) {
+      for (const auto& channel : predict_other(machine, other, hold).channels) {
         const double rms = rms_between(other, channel.channel, channel.values);
         if (std::isfinite(rms)) target[channel.channel] = rms;
       }
     };
-    put(m_machine, result.nominal);
-    put(base, result.refitted);
-    put(m_out.refined, result.explained);
+    put(m_machine, 0.0, result.nominal);
+    put(base, hold_of(*m_selection.base), result.refitted);
+    result.explained = result.refitted;
+    if (m_selection.best != m_selection.base) put(best, hold_of(*m_selection.best), result.explained);
     m_out.held_out.push_back(std::move(result));
   }
+}
+
+/// An explanation that makes another recording of the machine worse than none does is not one. What happened once - a
+/// slip, an open door - need not happen in the other.
+bool Diagnoser::refuted() const {
+  for (const std::size_t index : m_selection.effects()) {
+    if (physics::happens_once(m_selection.best->machine().effects[index].id)) return false;
+  }
+  constexpr double clearly = 1.5;
+  for (const HeldOut& other : m_out.held_out) {
+    double without = 0.0, with = 0.0;
+    for (const MeasuredChannel& channel : m_default_data->channels) {
+      const auto before = other.refitted.find(channel.name);
+      const auto after = other.explained.find(channel.name);
+      if (channel.samples == 0 || before == other.refitted.end() || after == other.explained.end()) continue;
+      without += std::pow(before->second / channel.white, 2);
+      with += std::pow(after->second / channel.white, 2);
+    }
+    if (with > clearly * without) return true;
+  }
+  return false;
 }
 
 void Diagnoser::details() {

@@ -28,6 +28,9 @@ class Diagnoser {
   void effects();
   double confidence_of(const FoundEffect& found) const;
   void rivals();
+  bool steady_inputs() const;
+  void hidden_by_steadiness();
+  void tell_rivals(std::vector<std::shared_ptr<Model>> nearest);
   void series();
   double usual_noise(bool temperature) const;
   void without_effects();
@@ -36,6 +39,7 @@ class Diagnoser {
   void times();
   void place_from_effect();
   void held_out();
+  bool refuted() const;
   void details();
   void notes();
 

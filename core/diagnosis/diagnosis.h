@@ -123,7 +123,8 @@ struct DiagnoseOptions {
   bool details = true;  // heat map, experiment, detectable limits
 };
 
-/// The first recording is fitted; the others are held out.
+/// The first recording is fitted; the others are held out. Where what was fitted misses one of them by far, that one is
+/// fitted instead if the first then bears it out (contradiction.h; note "fitted_instead:NAME").
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

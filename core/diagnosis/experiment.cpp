@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -55,18 +56,34 @@ const std::vector<Run>& library() {
   return runs;
 }
 
+/// Load of the spindle while it only turns, W per rpm, as the recording has it: the least that was measured there.
+double idle_load_W_rpm(const recording::Recording& seen) {
+  const recording::Channel* load = seen.find("spindle_load_W");
+  const recording::Channel* speed = seen.find("spindle_rpm");
+  if (load == nullptr || speed == nullptr) return 0.0;
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < seen.rows(); ++k) {
+    if (speed->values[k] > 1.0 && std::isfinite(load->values[k])) ratios.push_back(load->values[k] / speed->values[k]);
+  }
+  if (ratios.empty()) return 0.0;
+  const auto low = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 10);
+  std::nth_element(ratios.begin(), low, ratios.end());
+  return std::max(0.0, *low);
+}
+
 recording::Recording inputs_of(const Run& run, const Model& model) {
   recording::Recording r;
   r.name = run.id;
   recording::Channel rpm{"spindle_rpm", {}}, coolant{"coolant_on", {}}, load{"spindle_load_W", {}};
   const double full_rpm = model.network().full_speed_rpm;
+  const double idle_W_rpm = idle_load_W_rpm(*model.data().recording);
   double start_s = 0.0;
   for (const auto& step : run.steps) {
     for (double t = start_s; t < start_s + 3600.0 * step.hours - 1.0; t += 60.0) {
       r.time_s.push_back(t);
       rpm.values.push_back(step.speed_share * full_rpm);
       coolant.values.push_back(step.coolant ? 1.0 : 0.0);
-      load.values.push_back(step.load_W);
+      load.values.push_back(step.load_W + idle_W_rpm * rpm.values.back());
     }
     start_s = r.time_s.back() + 60.0;
   }
@@ -200,8 +217,11 @@ SuggestedExperiment suggest_experiment(const Model& best, const std::vector<cons
     suggestion.distance = least;
     suggestion.id = run.id;
     suggestion.plan_json = plan_of(run, best.network().full_speed_rpm).dump();
+    // A best model without any effect: nothing is missing, or the rival is.
+    const auto& effects = best.machine().effects;
+    const bool named = !effects.empty() && effects.back().candidate;
     suggestion.text =
-        explain_experiment(best.machine().effects.back().id, nearest->machine().effects.back().id, run.text);
+        explain_experiment(named ? effects.back().id : std::string(), nearest->machine().effects.back().id, run.text);
   }
   return suggestion;
 }

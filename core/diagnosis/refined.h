@@ -8,7 +8,9 @@ namespace zerodrift::diagnosis {
 /// The description of today with the fitted values; candidates become described effects.
 physics::Machine refined_machine(const Model& model);
 /// Predicts another recording with it: its own start (first samples) gives the sensors' offsets of that recording.
-physics::Prediction predict_other(const physics::Machine& refined, const recording::Recording& recording);
+/// `hold`: share of a sample interval that already has the next sample's inputs; 0 as inputs are defined, else what
+/// another recording of the same logger showed.
+physics::Prediction predict_other(const physics::Machine& refined, const recording::Recording& recording, double hold);
 /// Numbers of one effect of the model after the fit, without prior widths; sigma by key.
 physics::EffectSpec fitted_effect(const Model& model, std::size_t index,
                                   std::map<std::string, double>* sigma = nullptr);

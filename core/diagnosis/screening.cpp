@@ -74,6 +74,18 @@ bool premature(const Machine& machine, const EffectSpec& spec) {
   });
 }
 
+/// A lump whose sensor is a fluid that somebody else controls (a chiller) is no part of the machine: nothing that the
+/// machine lacks explains its temperature.
+bool of_a_fluid(const Machine& machine, const EffectSpec& spec) {
+  const std::string component = spec.word_or("component", "");
+  if (component.empty()) return false;
+  return std::any_of(machine.sensors.begin(), machine.sensors.end(), [&](const auto& sensor) {
+    return sensor.component == component &&
+           std::any_of(machine.fluids.begin(), machine.fluids.end(),
+                       [&](const auto& fluid) { return fluid.temperature_channel == sensor.channel; });
+  });
+}
+
 /// A form that replaces part of the network cannot stand beside its rivals in one simulation.
 bool stands_alone(const EffectSpec& spec) {
   return spec.id == "heater_body";
@@ -207,7 +219,7 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts)
       spec.log_prior = -std::log(static_cast<double>(forms.size()));
       const bool taken = std::any_of(base.machine().effects.begin(), base.machine().effects.end(),
                                      [&](const EffectSpec& have) { return conflicts(base.machine(), have, spec); });
-      if (taken || !measured(spec) || premature(base.machine(), spec)) continue;
+      if (taken || !measured(spec) || premature(base.machine(), spec) || of_a_fluid(base.machine(), spec)) continue;
       if (stands_alone(spec)) {
         alone.push_back({Candidate{std::move(spec), 0, 0, {}}});
       } else {

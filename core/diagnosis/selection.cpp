@@ -134,8 +134,10 @@ class Selector {
       if (m_result.best == before) break;
       eliminate();
       // With the others known, another effect may fit better in the place of an earlier one.
+      const ModelPtr grown = m_result.best;
       for (int round = 0; round < 3 && swap_one(true); ++round) {
       }
+      if (m_result.best != grown) eliminate();
     }
     align();
     return m_result;
@@ -225,12 +227,13 @@ class Selector {
     return result;
   }
 
-  /// The two best first effects of different families, each under its own misfit.
+  /// The best first effects of different families, each under its own misfit. Under the base's misfit, which has
+  /// swallowed what it could of a weak effect, even the right one may look worthless.
   std::vector<ModelPtr> leaders_of(const std::vector<ModelPtr>& fits) const {
     std::vector<ModelPtr> list;
     std::set<std::string> ids;
     for (const auto& fit : fits) {
-      if (fit->log_evidence() < m_result.base->log_evidence() + 0.3 * m_options.first || list.size() == 2) break;
+      if (fit->log_evidence() < m_result.base->log_evidence() - 1.0 || list.size() == 3) break;
       if (ids.insert(last_effect(*fit).id).second) list.push_back(with_ordinary(fit));
     }
     std::sort(list.begin(), list.end(), by_total);
@@ -306,24 +309,25 @@ class Selector {
     return after.largest - 1.0 < 0.6 * (before.largest - 1.0) || after.mean - 1.0 < 0.6 * (before.mean - 1.0);
   }
 
-  /// Is each effect still needed beside the others?
+  /// Is each effect still needed beside the others? What is added in the place of one that was not is asked the same.
   void eliminate() {
-    for (bool removed = true; removed;) {
-      removed = false;
-      const std::size_t count = m_result.best->machine().effects.size();
-      if (count <= m_result.described + 1) return;
-      for (std::size_t i = m_result.described; i < count; ++i) {
-        ModelPtr without = reduced(*m_result.best, i);
-        without->fit({15, 0.05, true});
-        without = with_ordinary(without);
-        const double so_far = total_gain(*without, *m_result.base);
-        if (total_gain(*m_result.best, *without) >= least_gain(so_far)) continue;
-        m_result.best = without;
-        add_one({without});
-        removed = m_result.best == without;
-        break;
-      }
+    constexpr int most_rounds = 4;
+    for (int round = 0; round < most_rounds && remove_one(); ++round) add_one({m_result.best});
+  }
+
+  bool remove_one() {
+    const std::size_t count = m_result.best->machine().effects.size();
+    if (count <= m_result.described + 1) return false;
+    for (std::size_t i = m_result.described; i < count; ++i) {
+      ModelPtr without = reduced(*m_result.best, i);
+      without->fit({15, 0.05, true});
+      without = with_ordinary(without);
+      const double so_far = total_gain(*without, *m_result.base);
+      if (total_gain(*m_result.best, *without) >= least_gain(so_far)) continue;
+      m_result.best = without;
+      return true;
     }
+    return false;
   }
 
   physics::RunFacts m_facts;

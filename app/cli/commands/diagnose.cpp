@@ -57,6 +57,10 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
     if (note.rfind("held_out_differs", 0) == 0) {
       output.warnings.push_back("a held-out recording does not fit this machine (" + note.substr(17) + ")");
     }
+    if (note.rfind("fitted_instead:", 0) == 0) {
+      output.warnings.push_back("the first recording does not show it: " + note.substr(15) +
+                                " was fitted and the first held out");
+    }
     if (note.rfind("the recording", 0) == 0) output.warnings.push_back(note);
   }
   return output;

@@ -77,7 +77,7 @@ const Effect contact_resistance_effect = {
     "metal joints in air 0.5e-4 to 5e-3 m2 K/W (Yovanovich 2005)",
     "Opposite errors on the two sides of one place: the heated side too cold, the other too hot in the simulation",
     "sensor_lag extra_heat_source heater_body",
-    {{"resistance_m2K_W", 1.2e-3, 0.0, 2e-2, true}, {"position_mm", 20.0, 0.0, 30000.0}},
+    {{"resistance_m2K_W", 4e-3, 0.0, 5e-2, true}, {"position_mm", 20.0, 0.0, 30000.0}},
     {"resistance_m2K_W"},
     contact_resistance::add,
     contact_resistance::candidates};

@@ -63,6 +63,8 @@ const Effect* find_effect(std::string_view id);
 /// Natural logarithm of how much rarer an effect is, beforehand, than the common ones (engineering judgement: twenty to
 /// one).
 double log_prior_of(std::string_view id);
+/// An event of one recording - a slip, an open door - that the next need not show.
+bool happens_once(std::string_view id);
 /// "convection, speed_convection, ..."
 std::string effect_ids();
 

@@ -82,6 +82,10 @@ double log_prior_of(std::string_view id) {
   return std::find(std::begin(rarer), std::end(rarer), id) == std::end(rarer) ? 0.0 : -3.0;
 }
 
+bool happens_once(std::string_view id) {
+  return id == "bracket_slip" || id == "draught" || id == "bearing_run_in";
+}
+
 std::string effect_ids() {
   std::string list;
   for (const Effect* effect : all_effects()) list += (list.empty() ? "" : ", ") + std::string(effect->id);
