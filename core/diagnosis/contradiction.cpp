@@ -47,7 +47,9 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   // What happened once in the other recording cannot be borne out by the first.
   const bool once = std::any_of(other.effects.begin(), other.effects.end(),
                                 [](const FoundEffect& effect) { return physics::happens_once(effect.id); });
-  const bool borne_out = other.verdict == Verdict::missing_effect && !once && missed_by(other) < contradicted;
+  // The same explanation in both, of which one makes the other worse, is not saved by the turn.
+  const bool same = other.tried == first.tried;
+  const bool borne_out = other.verdict == Verdict::missing_effect && !once && !same && missed_by(other) < contradicted;
   if (!borne_out) {
     first.seconds = other.seconds;
     return first;

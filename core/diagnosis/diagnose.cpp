@@ -141,6 +141,10 @@ void Diagnoser::decide() {
   }
   m_out.excess_before = before.largest;
   m_out.excess_after = after.largest;
+  for (const std::size_t index : m_selection.effects()) {
+    m_out.tried.push_back(m_selection.best->machine().effects[index].id);
+  }
+  std::sort(m_out.tried.begin(), m_out.tried.end());
   const bool found = !m_selection.effects().empty();
   if (!found) {
     m_out.verdict = after.largest > 2.3 ? Verdict::unexplained : Verdict::consistent;

@@ -104,6 +104,7 @@ struct Diagnosis {
   Verdict verdict = Verdict::consistent;
   Mismatch mismatch;
   std::vector<FoundEffect> effects;
+  std::vector<std::string> tried;  // ids of the best explanation, sorted; also where it was not good enough
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;
   std::vector<ChannelReport> channels;
