@@ -31,6 +31,8 @@ double missed_by(const Diagnosis& diagnosis) {
 Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
                           const std::vector<recording::Recording>& recordings, const DiagnoseOptions& options,
                           const TaskContext& context) {
+  // A recording that shows by itself that something is missing was not too poor to show it.
+  if (first.verdict == Verdict::unexplained && !first.refuted) return first;
   std::size_t worst = 0;
   double missed = contradicted;
   for (std::size_t i = 0; i < first.held_out.size(); ++i) {

@@ -105,6 +105,7 @@ struct Diagnosis {
   Mismatch mismatch;
   std::vector<FoundEffect> effects;
   std::vector<std::string> tried;  // ids of the best explanation, sorted; also where it was not good enough
+  bool refuted = false;            // unexplained because it makes a held-out recording worse
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;
   std::vector<ChannelReport> channels;
