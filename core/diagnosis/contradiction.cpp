@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/diagnosis/diagnoser.h"
+#include "core/diagnosis/explain.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -10,14 +11,35 @@ namespace {
 /// Right descriptions miss another run by 1 to 2 (its start is known to some hundredths of a kelvin only).
 constexpr double contradicted = 3.0;
 
+constexpr double in_order = 2.0;
+
+double missed_by(const ChannelReport& channel, const HeldOut& other) {
+  const auto rms = other.explained.find(channel.channel);
+  if (rms == other.explained.end()) return 0.0;
+  return rms->second / std::max({channel.noise, channel.rms_explained, 1e-9});
+}
+
 double missed_by(const Diagnosis& diagnosis, const HeldOut& other) {
   double largest = 0.0;
-  for (const ChannelReport& channel : diagnosis.channels) {
-    const auto rms = other.explained.find(channel.channel);
-    if (rms == other.explained.end()) continue;
-    largest = std::max(largest, rms->second / std::max({channel.noise, channel.rms_explained, 1e-9}));
-  }
+  for (const ChannelReport& channel : diagnosis.channels) largest = std::max(largest, missed_by(channel, other));
   return largest;
+}
+
+bool happened_once(const Diagnosis& diagnosis) {
+  return std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
+                     [](const FoundEffect& effect) { return physics::happens_once(effect.id); });
+}
+
+/// The other recording is missed in the very channel that the effects explain, and in that alone: the description is of
+/// this machine, but the explanation does not hold. Where everything is missed it is another machine's recording.
+bool fails_where_it_explains(const Diagnosis& first, const HeldOut& other) {
+  if (first.verdict != Verdict::missing_effect || happened_once(first) || first.mismatch.channels.empty()) return false;
+  for (const ChannelReport& channel : first.channels) {
+    const bool explained = channel.channel == first.mismatch.channels.front();
+    const double by = missed_by(channel, other);
+    if (explained ? by <= contradicted : by >= in_order) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -44,15 +66,22 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   if (worst == 0) return first;
   std::vector<recording::Recording> turned = recordings;
   std::swap(turned[0], turned[worst]);
-  ZD_TRY(Diagnosis other, Diagnoser(machine, turned, options, context).run());
+  Result<Diagnosis> turned_round = Diagnoser(machine, turned, options, context).run();
+  if (!turned_round) {  // held out it did no harm: what is wrong with it does not spoil the first one's answer
+    if (turned_round.error().code == ErrorCode::cancelled) return turned_round;
+    return first;
+  }
+  Diagnosis other = std::move(*turned_round);
   other.seconds += first.seconds;
-  // What happened once in the other recording cannot be borne out by the first.
-  const bool once = std::any_of(other.effects.begin(), other.effects.end(),
-                                [](const FoundEffect& effect) { return physics::happens_once(effect.id); });
-  // The same explanation in both, of which one makes the other worse, is not saved by the turn.
-  const bool same = other.tried == first.tried;
-  const bool borne_out = other.verdict == Verdict::missing_effect && !once && !same && missed_by(other) < contradicted;
+  // What happened once in the other recording cannot be borne out by the first, and the same explanation in both, of
+  // which one makes the other worse, is not saved by the turn.
+  const bool borne_out = other.verdict == Verdict::missing_effect && !happened_once(other) &&
+                         other.tried != first.tried && missed_by(other) < contradicted;
   if (!borne_out) {
+    if (fails_where_it_explains(first, first.held_out[worst - 1])) {
+      first.verdict = Verdict::unexplained;
+      first.sentences = {explain_verdict(first)};
+    }
     first.seconds = other.seconds;
     return first;
   }
