@@ -3,9 +3,11 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QFile>
+#include <QFileInfo>
 #include <QSettings>
 
 #include "app/desktop/ask.h"
+#include "app/desktop/file_opener.h"
 #include "app/desktop/machine_writes.h"
 #include "app/desktop/registry.h"
 #include "app/desktop/steps/machine_presenter.h"
@@ -39,7 +41,8 @@ Application::Application(ui::Theme& theme)
     : m_theme(theme),
       m_bench(std::make_unique<Workbench>()),
       m_demo(std::make_unique<DemoMachine>()),
-      m_window(std::make_unique<ui::MainWindow>()) {
+      m_window(std::make_unique<ui::MainWindow>()),
+      m_opener(new FileOpener(*this)) {
   m_presenters = makePages(*m_bench, *m_window, *m_demo);
   m_window->setLanguagesOffered(QFile::exists(QStringLiteral(":/i18n/zerodrift_zh_CN.qm")));
   wire();
@@ -57,7 +60,10 @@ void Application::wire() {
   connect(m_window.get(), &ui::MainWindow::stepRequested, this, &Application::openPage);
   connect(m_window.get(), &ui::MainWindow::backRequested, this, &Application::openBack);
   connect(m_window.get(), &ui::MainWindow::undoRequested, this, &Application::undo);
-  connect(m_window.get(), &ui::MainWindow::filesDropped, this, &Application::dropped);
+  connect(m_window.get(), &ui::MainWindow::filesDropped, this, &Application::openFiles);
+  connect(m_window.get(), &ui::MainWindow::openRequested, this, [this] { runCommand(QStringLiteral("open")); });
+  connect(m_window.get(), &ui::MainWindow::paletteOpening, this, &Application::offerCommands);
+  connect(m_window.get(), &ui::MainWindow::commandRequested, this, &Application::runCommand);
   connect(m_window.get(), &ui::MainWindow::closing, this, &Application::mayClose);
   connect(m_window.get(), &ui::MainWindow::jobRequested, this, [this] { openPage(m_presenters.front()->id()); });
   connect(m_window.get(), &ui::MainWindow::languageRequested, this,
@@ -99,6 +105,8 @@ void Application::wireSteps() {
   auto* physics = qobject_cast<PhysicsPresenter*>(find("physics"));
   auto* upload = qobject_cast<UploadPresenter*>(find("upload"));
   auto* verify = qobject_cast<VerifyPresenter*>(find("verify"));
+  auto* machine = qobject_cast<MachinePresenter*>(find("machine"));
+  connect(machine, &MachinePresenter::sampleWanted, this, &Application::openSample);
   connect(physics, &PhysicsPresenter::planProposed, this, [this, warmup](const acquisition::Plan& plan) {
     warmup->propose(plan);
     openPage(warmup->id());
@@ -139,6 +147,9 @@ void Application::switchCompensation() {
 }
 
 void Application::show() {
+  const QSettings settings;
+  m_window->restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
+  m_window->setLogVisible(settings.value(QStringLiteral("window/log"), false).toBool());
   m_window->show();
 }
 
@@ -177,6 +188,14 @@ void Application::openBack() {
 
 void Application::openJob(const QString& path) {
   if (auto* machine = qobject_cast<MachinePresenter*>(m_presenters.front())) machine->openJob(path);
+}
+
+void Application::openFiles(const QStringList& paths) {
+  m_opener->open(paths);
+}
+
+void Application::openSample() {
+  m_opener->openSample();
 }
 
 void Application::startDemo(const DemoOptions& options, const QString& jobPath) {
@@ -281,29 +300,42 @@ void Application::undo() {
   if (auto* now = presenter(m_open)) now->undo();
 }
 
-void Application::dropped(const QStringList& paths) {
-  for (const QString& path : paths) {
-    if (path.endsWith(QStringLiteral(".zdj"))) {
-      openJob(path);
-      return;
-    }
-    if (path.endsWith(QStringLiteral(".json"))) {
-      if (const Status loaded = m_bench->loadProfile(path.toStdString()); !loaded) {
-        m_presenters.front()->page()->setProblem(
-            {ui::ProblemKind::failure, textOf(loaded.error()).sentence, textOf(loaded.error()).remedy, {}});
-      }
-      openPage(m_presenters.front()->id());
-      return;
-    }
+void Application::offerCommands() {
+  const QString job = tr("Job");
+  const QString window = tr("Window");
+  QVector<ui::Command> commands = {
+      {QStringLiteral("new"), tr("New job"), job, {}, true},
+      {QStringLiteral("open"), tr("Open job"), job, QStringLiteral("Ctrl+O"), true},
+      {QStringLiteral("sample"), tr("Open the sample job"), job, {}, true},
+      {QStringLiteral("virtual"), tr("Connect to the virtual machine"), job, {}, true},
+      {QStringLiteral("undo"), tr("Undo the last choice"), window, QStringLiteral("Ctrl+Z"), true}};
+  for (const QString& path : MachinePresenter::recentJobs()) {
+    commands.append({QStringLiteral("job:") + path, QFileInfo(path).completeBaseName(), job, path, true});
   }
+  m_window->setExtraCommands(commands);
+}
+
+void Application::runCommand(const QString& id) {
+  auto* machine = qobject_cast<MachinePresenter*>(m_presenters.front());
+  if (id == QStringLiteral("new")) machine->chooseNewJob();
+  if (id == QStringLiteral("open")) machine->chooseJob();
+  if (id == QStringLiteral("sample")) openSample();
+  if (id == QStringLiteral("virtual")) machine->useVirtualMachine({});
+  if (id == QStringLiteral("undo")) undo();
+  if (id.startsWith(QStringLiteral("job:"))) openFiles({id.mid(4)});
 }
 
 void Application::mayClose(bool* allowed) {
-  if (!m_bench->tasks().running()) return;
-  *allowed =
-      ask(m_window.get(), tr("Close Zerodrift?"),
-          tr("%1 is running. What was recorded is kept and the run can be resumed.").arg(m_bench->tasks().name()),
-          tr("Close"));
+  if (m_bench->tasks().running()) {
+    *allowed =
+        ask(m_window.get(), tr("Close Zerodrift?"),
+            tr("%1 is running. What was recorded is kept and the run can be resumed.").arg(m_bench->tasks().name()),
+            tr("Close"));
+  }
+  if (!*allowed) return;
+  QSettings settings;
+  settings.setValue(QStringLiteral("window/geometry"), m_window->saveGeometry());
+  settings.setValue(QStringLiteral("window/log"), m_window->isLogVisible());
 }
 
 }  // namespace zerodrift::desktop

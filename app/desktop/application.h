@@ -13,6 +13,7 @@
 
 namespace zerodrift::desktop {
 
+class FileOpener;
 class MachinePresenter;
 
 class Application : public QObject {
@@ -22,8 +23,12 @@ class Application : public QObject {
   explicit Application(ui::Theme& theme);
   ~Application() override;
 
+  /// The window as it was left last time.
   void show();
   void openJob(const QString& path);
+  /// Jobs, profiles, plans, laser reports, recordings: each to its page.
+  void openFiles(const QStringList& paths);
+  void openSample();
   /// The virtual machine beside the application, with a new job; the machine page shows it connected.
   void startDemo(const DemoOptions& options, const QString& jobPath = {});
 
@@ -45,7 +50,8 @@ class Application : public QObject {
   void updateSteps();
   void updateLamps();
   void undo();
-  void dropped(const QStringList& paths);
+  void offerCommands();
+  void runCommand(const QString& id);
   void mayClose(bool* allowed);
 
   ui::Theme& m_theme;
@@ -53,6 +59,7 @@ class Application : public QObject {
   std::unique_ptr<DemoMachine> m_demo;
   std::unique_ptr<ui::MainWindow> m_window;
   std::vector<Presenter*> m_presenters;
+  FileOpener* m_opener;
   std::unique_ptr<QTranslator> m_translator;
   QString m_language = QStringLiteral("en");
   QString m_open;

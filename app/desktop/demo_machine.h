@@ -4,7 +4,8 @@
 
 #include <QObject>
 #include <QProcess>
-#include <QTemporaryDir>
+
+#include "app/desktop/scratch_folder.h"
 
 namespace zerodrift::desktop {
 
@@ -38,7 +39,7 @@ class DemoMachine : public QObject {
   void readLines();
 
   QProcess m_process;
-  QTemporaryDir m_folder;
+  ScratchFolder m_folder;
   QString m_words;
   bool m_ready = false;
   bool m_stopping = false;  // its end is wanted

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <QApplication>
+#include <QIcon>
 #include <QSettings>
 #include <QTimer>
 #include <csignal>
@@ -10,6 +11,7 @@
 
 #include "app/desktop/application.h"
 #include "app/desktop/quit_signals.h"
+#include "app/desktop/scratch_folder.h"
 #include "app/desktop/tour.h"
 #include "core/base/resources.h"
 #include "ui/shell/theme.h"
@@ -17,7 +19,8 @@
 namespace {
 
 struct Arguments {
-  std::string job;
+  std::vector<std::string> files;
+  bool sample = false;
   bool demo = false;
   std::string tour;
   double speedup = 240.0;
@@ -37,7 +40,8 @@ void choosePlatform(int argc, char** argv) {
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
-  app.add_option("job", arguments.job, "Job file to open");
+  app.add_option("files", arguments.files, "Job to open; or a profile, plan, laser report or recording");
+  app.add_flag("--sample", arguments.sample, "Open a copy of the sample job");
   app.add_flag("--demo", arguments.demo,
                "Start the virtual machine tool beside the application, with a new job, past the start page");
   app.add_option("--tour", arguments.tour,
@@ -67,16 +71,22 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   std::signal(SIGPIPE, SIG_IGN);
+  zerodrift::desktop::sweep_scratch_folders();
   QApplication application(argc, argv);
   zerodrift::desktop::quit_on_signals(application);
   QApplication::setOrganizationName(QStringLiteral("Zerodrift"));
   QApplication::setApplicationName(QStringLiteral("Zerodrift"));
   QApplication::setApplicationVersion(QStringLiteral(ZERODRIFT_VERSION));
+  QApplication::setDesktopFileName(QStringLiteral("org.zerodrift.Zerodrift"));
+  QApplication::setWindowIcon(QIcon(QStringLiteral(":/icons/zerodrift.svg")));
 
   using zerodrift::desktop::DemoOptions;
   zerodrift::ui::Theme theme(application);
   if (!arguments.theme.empty()) {
     theme.setMode(arguments.theme == "dark" ? zerodrift::ui::ThemeMode::dark : zerodrift::ui::ThemeMode::light);
+  } else if (const QVariant dark = QSettings().value(QStringLiteral("dark"));
+             dark.isValid() && arguments.tour.empty()) {
+    theme.setMode(dark.toBool() ? zerodrift::ui::ThemeMode::dark : zerodrift::ui::ThemeMode::light);
   }
   zerodrift::desktop::Application desktop(theme);
   const QString language = arguments.language.empty()
@@ -92,7 +102,10 @@ int main(int argc, char** argv) {
     QTimer::singleShot(0, tour.get(), &zerodrift::desktop::Tour::start);
   } else {
     desktop.show();
-    if (!arguments.job.empty()) desktop.openJob(QString::fromStdString(arguments.job));
+    if (arguments.sample) desktop.openSample();
+    QStringList files;
+    for (const auto& file : arguments.files) files << QString::fromStdString(file);
+    desktop.openFiles(files);
     if (arguments.demo) desktop.startDemo(demo);
   }
   return QApplication::exec();

@@ -78,7 +78,7 @@ Result<NewArtefact> judged(const commissioning::Job& job, const Judgements& judg
 
 Result<TrialCase> make_trial(const QString& program, int seed, const TaskContext& context) {
   TrialCase trial;
-  trial.folder = std::make_shared<QTemporaryDir>();
+  trial.folder = std::make_shared<ScratchFolder>();
   ZD_CHECK(write_trial_case(program, trial.folder->path(), seed, context));
   ZD_TRY(const json commitment, read_json_file(file_in(trial, "commitment.json")));
   trial.seal = commitment.value("sha256", "");

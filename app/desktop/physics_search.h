@@ -3,10 +3,10 @@
 // explanation, and a blind trial on a recording in which the virtual machine has hidden an effect.
 
 #include <QString>
-#include <QTemporaryDir>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/desktop/scratch_folder.h"
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
 #include "core/recording/recording.h"
@@ -25,7 +25,7 @@ Result<commissioning::NewArtefact> judged(const commissioning::Job& job, const J
 /// A blind trial in its order: the virtual machine hides an effect and seals its name, the run is watched, the search
 /// answers, the seal is opened.
 struct TrialCase {
-  std::shared_ptr<QTemporaryDir> folder;
+  std::shared_ptr<ScratchFolder> folder;
   std::string seal;  // SHA-256 promised before the answer
   recording::Recording recorded;
   recording::Recording simulated;  // from the description, which lacks what is hidden

@@ -58,13 +58,14 @@ class Presenter : public QObject {
   /// Whether work of this page may be stopped by Cancel.
   virtual bool cancellable() const { return true; }
   void show(const Error& error);
+  /// Why nothing else can be done now: the task that runs.
+  Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.
   void whenIdle(std::function<void()> act);
 
  private:
   QObject* beginTask(const QString& name);
   void endTask(QObject* progress);
-  Error busy() const;
 
   Workbench& m_bench;
   ui::Page* m_page;

@@ -128,6 +128,7 @@ Status work(const Options& options, const sigset_t& endings) {
 
 int run(int argc, char** argv) {
   CLI::App app{"Zerodrift's virtual machine tool"};
+  app.set_version_flag("--version", ZERODRIFT_VERSION);
   Options options;
   add_options(app, options);
   try {

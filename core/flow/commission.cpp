@@ -57,7 +57,9 @@ class Commissioning {
     ZD_CHECK(name_job(m_job, machine.body));
     // A table that is active already would falsify what is measured.
     ZD_CHECK(m_devices.machine->switch_compensation(false));
-    ZD_CHECK(step("calibrate", 0.08, [&](const auto& c) { return calibrate(m_job, m_devices, {}, c); }));
+    CalibrateOptions calibrate_options;
+    calibrate_options.keep_views = m_options.keep_views;
+    ZD_CHECK(step("calibrate", 0.08, [&](const auto& c) { return calibrate(m_job, m_devices, calibrate_options, c); }));
     return record();
   }
 

@@ -18,6 +18,7 @@ namespace zerodrift::flow {
 struct CommissionOptions {
   acquisition::Plan plan;
   double limit_um = 5.0;
+  bool keep_views = true;                                // the pictures of the calibration's positions
   std::function<bool(const UploadPreview&)> confirm;     // absent: confirmed
   std::function<void(const std::string&)> step_started;  // "machine", "calibrate", ...
 };

@@ -14,7 +14,7 @@ import time
 from virtual_machine import BIN, VirtualMachine, cli, run_in_folder
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-UNIT = os.path.join(HERE, "../../packaging/systemd/zerodrift-compensate@.service")
+UNIT = os.path.join(HERE, "../../installer/systemd/zerodrift-compensate@.service")
 
 
 def model_of(folder):

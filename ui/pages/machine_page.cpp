@@ -185,9 +185,9 @@ QVector<Figure> MachinePage::figures() const {
   if (!m_state.jobOpen) return {};
   const auto alive = std::count_if(m_state.sensors.begin(), m_state.sensors.end(),
                                    [](const SensorHealth& s) { return s.judgement == Judgement::ok; });
-  Figure sensors = figureOf(tr("Sensors alive"), m_state.connected ? static_cast<double>(alive) : NAN, 0,
+  Figure sensors = figureOf(tr("Sensors alive"), m_state.known() ? static_cast<double>(alive) : NAN, 0,
                             tr("of %1").arg(m_state.sensors.size()));
-  if (m_state.connected) {
+  if (m_state.known()) {
     const bool all = alive == m_state.sensors.size();
     sensors.judgement = all ? Judgement::ok : Judgement::warn;
     sensors.word = all ? tr("all") : tr("%n to check", nullptr, static_cast<int>(m_state.sensors.size() - alive));
@@ -233,6 +233,7 @@ void MachinePage::render() {
 void MachinePage::renderMachine() {
   // The name stands in the list of profiles beside it.
   m_drawingCard->setTitle(m_state.connected ? m_state.address.section(QStringLiteral(", "), 0, 0)
+                          : m_state.known() ? tr("Not connected; as it stood on %1").arg(m_state.keptFrom)
                                             : tr("Not connected"));
   m_drawingCard->setToolTip(m_state.address);
   m_view->setItems({tr("Drawing"), tr("Registers")});
@@ -257,7 +258,7 @@ void MachinePage::renderMachine() {
   QVector<ChannelRow> rows;
   QVector<SensorSpot> spots;
   for (const SensorHealth& s : m_state.sensors) {
-    const bool live = m_state.connected && !std::isnan(s.value_C);
+    const bool live = m_state.known() && !std::isnan(s.value_C);
     const QString value = live ? tr("%1 °C").arg(s.value_C, 0, 'f', 2) : QStringLiteral("–");
     QString state = s.state;
     if (live && s.judgement == Judgement::ok) {
@@ -269,18 +270,18 @@ void MachinePage::renderMachine() {
                  s.tag + QStringLiteral("  ") + s.label,
                  value,
                  state,
-                 m_state.connected ? s.judgement : Judgement::none,
+                 m_state.known() ? s.judgement : Judgement::none,
                  {},
                  true,
                  s.tag + ": " + s.label + (s.state.isEmpty() ? QString() : ", " + s.state)});
     // At rest all are alike: colours spread over at least 3 K, so that noise does not look like heat.
     const double span = std::max(3.0, warmest - coldest);
     spots.append({s.id, shortTag(s.tag), s.tag + QStringLiteral("  ") + s.label, s.place, s.along, value,
-                  m_state.connected ? s.judgement : Judgement::none, live ? (s.value_C - coldest) / span : -1.0});
+                  m_state.known() ? s.judgement : Judgement::none, live ? (s.value_C - coldest) / span : -1.0});
   }
   m_table->setRows(rows);
   m_drawing->setSensors(spots);
-  m_drawing->setConnected(m_state.connected);
+  m_drawing->setConnected(m_state.known());
 }
 
 void MachinePage::renderParts() {

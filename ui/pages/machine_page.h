@@ -59,6 +59,9 @@ struct MachineState {
   bool connected = false;
   bool connecting = false;
   bool compensationOn = false;
+  /// Not connected, but the job has kept how the machine stood: when that was. Sensors and figures are those.
+  QString keptFrom{};
+  bool known() const { return connected || !keptFrom.isEmpty(); }
   QString machineName{};
   QString address{};  // "Modbus TCP 127.0.0.1:1502, unit 1"
   QStringList profiles{};

@@ -20,16 +20,28 @@ HelpPanel::HelpPanel(QWidget* parent) : QFrame(parent) {
   head->addWidget(m_title);
   head->addStretch();
   head->addWidget(m_close);
+  m_keys = new QPushButton(this);
+  m_keys->setObjectName("helpKeys");
+  m_about = new QPushButton(this);
+  m_about->setObjectName("helpAbout");
+  connect(m_keys, &QPushButton::clicked, this, [this] { Q_EMIT pageWanted("keys"); });
+  connect(m_about, &QPushButton::clicked, this, [this] { Q_EMIT pageWanted("about"); });
+  auto* foot = new QHBoxLayout;
+  foot->addWidget(m_keys);
+  foot->addWidget(m_about);
+  foot->addStretch();
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(20, 10, 8, 12);
   all->setSpacing(4);
   all->addLayout(head);
   all->addWidget(m_text, 1);
+  all->addLayout(foot);
   retranslate();
 }
 
 bool HelpPanel::open(const QString& pageId) {
   m_pageId = pageId;
+  retranslate();
   load();
   return !text().isEmpty();
 }
@@ -63,7 +75,11 @@ void HelpPanel::load() {
 }
 
 void HelpPanel::retranslate() {
-  m_title->setText(tr("Help for this step"));
+  m_title->setText(m_pageId == "about"  ? QStringLiteral("Zerodrift " ZERODRIFT_VERSION)
+                   : m_pageId == "keys" ? tr("Keys")
+                                        : tr("Help for this step"));
+  m_keys->setText(tr("Keys"));
+  m_about->setText(tr("About, licences"));
   m_close->setToolTip(tr("Close (F1)"));
   m_close->setAccessibleName(tr("Close the help"));
   m_text->setAccessibleName(m_title->text());

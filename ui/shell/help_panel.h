@@ -1,5 +1,6 @@
 #pragma once
 // Help of the open step beside the page: the pages of docs/help, which are part of the program and need no network.
+// From its foot to the list of keys and to the parts of the program with their licences.
 
 #include <QFrame>
 
@@ -22,6 +23,7 @@ class HelpPanel : public QFrame {
 
  Q_SIGNALS:
   void closeRequested();
+  void pageWanted(const QString& pageId);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -33,6 +35,8 @@ class HelpPanel : public QFrame {
   QString m_pageId;
   QLabel* m_title;
   QPushButton* m_close;
+  QPushButton* m_keys;
+  QPushButton* m_about;
   QTextBrowser* m_text;
 };
 

@@ -44,6 +44,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   connect(m_rail, &StepRail::themeClicked, this, &MainWindow::themeRequested);
   connect(m_rail, &StepRail::helpClicked, this, &MainWindow::toggleHelp);
   connect(m_help, &HelpPanel::closeRequested, this, &MainWindow::toggleHelp);
+  connect(m_help, &HelpPanel::pageWanted, this, &MainWindow::openHelp);
   connect(m_log, &LogDrawer::closeRequested, this, [this] { setLogVisible(false); });
   connect(m_palette, &CommandPalette::chosen, this, &MainWindow::runCommand);
   makeShortcuts();
@@ -124,7 +125,9 @@ void MainWindow::makeShortcuts() {
   on(QKeySequence("Ctrl+L"), [this] { setLogVisible(!m_log->isVisible()); });
   on(QKeySequence("Ctrl+K"), [this] { openPalette(); });
   on(QKeySequence("Ctrl+Z"), [this] { Q_EMIT undoRequested(); });
+  on(QKeySequence("Ctrl+O"), [this] { Q_EMIT openRequested(); });
   on(QKeySequence("F1"), [this] { toggleHelp(); });
+  on(QKeySequence("Shift+F1"), [this] { openHelp("keys"); });
   on(QKeySequence("Ctrl+Q"), [this] { close(); });
   on(QKeySequence("Ctrl+Return"), [this] { m_primary->click(); });
   on(QKeySequence("Alt+Left"), [this] { m_back->click(); });
@@ -257,6 +260,10 @@ void MainWindow::setLogVisible(bool visible) {
   m_log->setVisible(visible);
 }
 
+bool MainWindow::isLogVisible() const {
+  return !m_log->isHidden();
+}
+
 void MainWindow::setLanguagesOffered(bool offered) {
   m_languagesOffered = offered;
   m_rail->setLanguagesOffered(offered);
@@ -268,7 +275,11 @@ void MainWindow::toggleHelp() {
     m_help->hide();
     return;
   }
-  if (currentPage() == nullptr || !m_help->open(currentPage()->id())) return;
+  if (currentPage() != nullptr) openHelp(currentPage()->id());
+}
+
+void MainWindow::openHelp(const QString& id) {
+  if (!m_help->open(id)) return;
   placeHelp();
   m_help->show();
   m_help->raise();
@@ -301,6 +312,7 @@ void MainWindow::setExtraCommands(const QVector<Command>& commands) {
 }
 
 void MainWindow::openPalette() {
+  Q_EMIT paletteOpening();
   QVector<Command> commands;
   if (const Page* now = currentPage()) {
     const PageAction primary = now->primaryAction();
@@ -319,6 +331,8 @@ void MainWindow::openPalette() {
   commands.append({"theme", tr("Switch between light and dark"), tr("Window"), {}, true});
   if (m_languagesOffered) commands.append({"language", tr("Change language"), tr("Window"), {}, true});
   commands.append({"help", tr("Help for this step"), tr("Window"), "F1", true});
+  commands.append({"keys", tr("All keys"), tr("Window"), "Shift+F1", true});
+  commands.append({"about", tr("About Zerodrift, licences"), tr("Window"), {}, true});
   commands.append({"quit", tr("Quit"), tr("Window"), "Ctrl+Q", true});
   commands += m_extraCommands;
   m_palette->open(commands);
@@ -332,6 +346,7 @@ void MainWindow::runCommand(const QString& id) {
   if (id == "theme") return Q_EMIT themeRequested();
   if (id == "language") return Q_EMIT languageRequested();
   if (id == "help") return toggleHelp();
+  if (id == "keys" || id == "about") return openHelp(id);
   if (id == "quit") {
     close();
     return;

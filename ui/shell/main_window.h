@@ -53,8 +53,11 @@ class MainWindow : public QMainWindow {
   void setLanguagesOffered(bool offered);
   void appendLog(const QDateTime& time, Judgement judgement, const QString& text);
   void setLogVisible(bool visible);
+  bool isLogVisible() const;
   /// Opens the help of the open page, or closes it.
   void toggleHelp();
+  /// Another page of the help: "keys", "about".
+  void openHelp(const QString& id);
   bool isHelpVisible() const;
   /// Beside steps and page actions, which the window knows itself.
   void setExtraCommands(const QVector<Command>& commands);
@@ -70,6 +73,8 @@ class MainWindow : public QMainWindow {
   void languageRequested();
   void themeRequested();
   void undoRequested();
+  void openRequested();
+  void paletteOpening();  // the extra commands may be set anew
   void filesDropped(const QStringList& paths);
   void commandRequested(const QString& id);  // one of the extra commands
   void lampClicked(zerodrift::ui::LampId lamp);

@@ -25,6 +25,7 @@ struct Options {
   std::string report;
   double limit_um = 5.0;
   bool yes = false;
+  bool small = false;
 };
 
 /// A person at a terminal is asked; a script that calls this command has confirmed by calling it.
@@ -65,6 +66,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   flow::CommissionOptions commission_options;
   ZD_TRY(commission_options.plan, acquisition::read_plan(options.plan, &output.warnings));
   commission_options.limit_um = options.limit_um;
+  commission_options.keep_views = !options.small;
   if (!options.yes) commission_options.confirm = confirmed;
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
   ZD_TRY(const auto result, flow::commission(job, profile, document, commission_options, context));
@@ -87,6 +89,8 @@ void add_commission(Cli& cli) {
   command->add_option("--job", options->job, "Job file; a commissioning that was broken off goes on")->required();
   command->add_option("--report", options->report, "Report to write: .pdf, .html or .csv")->required();
   command->add_option("--limit-um", options->limit_um, "Largest error that may be left")->check(CLI::PositiveNumber);
+  command->add_flag("--small", options->small,
+                    "Keep no pictures of the calibration's positions: the job is a fifth as large");
   command->add_flag("--yes", options->yes, "Do not ask before the table is written");
 }
 

@@ -104,7 +104,15 @@ void show_left_out(const analysis::Model& model, const recording::Recording& run
 }  // namespace
 
 FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(bench, page), m_page(page) {
-  connect(page, &ui::FitPage::methodChosen, this, [this](const QString& method) { run(method.toStdString(), {}); });
+  connect(&bench, &Workbench::jobChanged, this, [this] {
+    m_method = "auto";
+    m_undo.clear();
+  });
+  connect(page, &ui::FitPage::methodChosen, this, [this](const QString& method) {
+    if (this->bench().tasks().running()) return;
+    m_undo.push_back(m_method);
+    run(method.toStdString(), {});
+  });
   connect(page, &ui::Page::primaryTriggered, this, [this] {
     if (this->bench().has("model")) {
       Q_EMIT nextRequested();
@@ -119,9 +127,17 @@ void FitPresenter::enter() {
   if (bench().has("sensors") && !bench().has("model") && !bench().tasks().running()) run("auto", {});
 }
 
+void FitPresenter::undo() {
+  if (m_undo.empty() || bench().tasks().running()) return;
+  const std::string before = m_undo.back();
+  m_undo.pop_back();
+  run(before, {});
+}
+
 void FitPresenter::run(const std::string& method, std::function<void(bool good)> done) {
   const auto* job = bench().job();
   if (job == nullptr) return;
+  m_method = method;
   runStep(
       tr("Fitting the model"),
       [job, method](const TaskContext& context) { return flow::fit_model(*job, {method}, context); }, std::move(done));

@@ -18,12 +18,15 @@ class FitPresenter : public Presenter {
   void refresh() override;
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
+  void undo() override;
 
  private:
   void run(const std::string& method, std::function<void(bool good)> done);
   void fill(ui::FitState& state);
 
   ui::FitPage* m_page;
+  std::string m_method = "auto";  // as asked for
+  std::vector<std::string> m_undo;
 };
 
 }  // namespace zerodrift::desktop

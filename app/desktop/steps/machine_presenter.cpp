@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/resources.h"
 #include "core/flow/devices.h"
 #include "core/flow/steps/machine_step.h"
 #include "ui/pages/machine_page.h"
@@ -86,6 +87,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     }
   });
   connect(page, &ui::MachinePage::virtualMachineRequested, this, [this] { useVirtualMachine({}); });
+  connect(page, &ui::MachinePage::sampleRequested, this, &MachinePresenter::sampleWanted);
   connect(page, &ui::MachinePage::profileImportRequested, this, &MachinePresenter::importProfile);
   connect(page, &ui::Page::primaryTriggered, this, &MachinePresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
@@ -142,6 +144,7 @@ void MachinePresenter::useVirtualMachine(const DemoOptions& options) {
 }
 
 void MachinePresenter::newJob(const QString& path) {
+  if (bench().tasks().running()) return show(busy());  // it works in the job that is open
   if (const Status made = bench().createJob(path.toStdString()); !made) {
     show(made.error());
     return;
@@ -151,6 +154,7 @@ void MachinePresenter::newJob(const QString& path) {
 }
 
 void MachinePresenter::openJob(const QString& path) {
+  if (bench().tasks().running()) return show(busy());
   if (const Status opened = bench().openJob(path.toStdString()); !opened) {
     show(opened.error());
     return;
@@ -185,7 +189,14 @@ void MachinePresenter::importProfile() {
   refresh();
 }
 
-void MachinePresenter::remember(const QString& path) {
+QStringList MachinePresenter::recentJobs() {
+  QStringList recent = QSettings().value(QStringLiteral("recentJobs")).toStringList();
+  recent.removeIf([](const QString& path) { return !QFileInfo::exists(path); });
+  return recent;
+}
+
+void MachinePresenter::remember(const QString& given) {
+  const QString path = QFileInfo(given).absoluteFilePath();  // the folder may be another one next time
   QSettings settings;
   QStringList recent = settings.value(QStringLiteral("recentJobs")).toStringList();
   recent.removeAll(path);
@@ -267,12 +278,11 @@ void MachinePresenter::refresh() {
   state.connected = bench().connected();
   state.connecting = m_connecting;
   state.compensationOn = bench().compensationOn();
-  state.sampleAvailable = false;
+  state.sampleAvailable = find_resource("samples/sample.zdj").has_value();
   state.address = connectionText();
-  const QStringList recent = QSettings().value(QStringLiteral("recentJobs")).toStringList();
+  const QStringList recent = recentJobs();
   for (const QString& path : recent) {
     const QFileInfo file(path);
-    if (!file.exists()) continue;
     state.recent.append(
         {path, file.completeBaseName(), file.lastModified().toString(QStringLiteral("d MMM yyyy, HH:mm"))});
   }
@@ -285,6 +295,8 @@ void MachinePresenter::refresh() {
     fillSensors(state);
     fillRest(state);
     fillParts(state);
+  } else if (!m_connecting) {
+    fillKept(state);
   }
   m_map->fill(state);
   m_page->setState(state);

@@ -30,10 +30,15 @@ class MachinePresenter : public Presenter {
   void openJob(const QString& path);
   void newJob(const QString& path);
   static QString jobsFolder();
-
- private:
+  /// The last jobs that are still there, the newest first.
+  static QStringList recentJobs();
   void chooseNewJob();
   void chooseJob();
+
+ Q_SIGNALS:
+  void sampleWanted();
+
+ private:
   void importProfile();
   void primary();
   void startCommissioning(std::function<void(bool good)> done);
@@ -44,6 +49,8 @@ class MachinePresenter : public Presenter {
   void fillSensors(ui::MachineState& state);
   void fillRest(ui::MachineState& state) const;
   void fillParts(ui::MachineState& state) const;
+  /// Without a connection: how the machine stood when the commissioning was started, as the job kept it.
+  void fillKept(ui::MachineState& state) const;
 
   ui::MachinePage* m_page;
   DemoMachine& m_demo;

@@ -46,7 +46,9 @@ QVector<double> standardised(const std::vector<double>& values, std::size_t stri
 }  // namespace
 
 SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Presenter(bench, page), m_page(page) {
+  connect(&bench, &Workbench::jobChanged, this, [this] { m_undo.clear(); });
   connect(page, &ui::SensorsPage::clustersChosen, this, [this](int clusters) {
+    rememberChoice();
     m_clusters = clusters;
     run(clusters, {}, {});
   });
@@ -56,7 +58,6 @@ SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Pr
   });
   connect(page, &ui::SensorsPage::keptChanged, this, [this](const QString& sensor, bool kept) {
     auto chosen = this->bench().body("sensors").value("chosen", std::vector<std::string>{});
-    m_undo.push_back(chosen);
     const std::string name = sensor.toStdString();
     std::erase(chosen, name);
     if (kept) chosen.push_back(name);
@@ -64,6 +65,7 @@ SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Pr
       refresh();
       return;
     }
+    rememberChoice();
     run(m_clusters, chosen, {});
   });
   connect(page, &ui::Page::primaryTriggered, this, [this] {
@@ -83,10 +85,20 @@ void SensorsPresenter::enter() {
 }
 
 void SensorsPresenter::undo() {
-  if (m_undo.empty()) return;
-  const auto chosen = m_undo.back();
+  if (m_undo.empty() || bench().tasks().running()) return;
+  const Choice before = m_undo.back();
   m_undo.pop_back();
-  run(m_clusters, chosen, {});
+  m_clusters = before.clusters;
+  run(before.clusters, before.chosen, {});
+}
+
+void SensorsPresenter::rememberChoice() {
+  const json body = bench().body("sensors");
+  if (!body.is_object()) return;
+  Choice choice{m_clusters, {}};
+  // What was proposed is proposed again; only a choice by hand is put back sensor by sensor.
+  if (body.value("chosen_by", "") == "hand") choice.chosen = body.value("chosen", std::vector<std::string>{});
+  m_undo.push_back(std::move(choice));
 }
 
 void SensorsPresenter::run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done) {

@@ -21,6 +21,12 @@ class SensorsPresenter : public Presenter {
   void undo() override;
 
  private:
+  struct Choice {
+    int clusters = 5;
+    std::vector<std::string> chosen;  // by hand; empty: as proposed
+  };
+  /// For Ctrl+Z: what is chosen now, before it is changed.
+  void rememberChoice();
   void run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done);
   void fill(ui::SensorsState& state, const nlohmann::json& body) const;
   void fillSeries(ui::SensorsState& state) const;
@@ -28,7 +34,7 @@ class SensorsPresenter : public Presenter {
   ui::SensorsPage* m_page;
   int m_clusters = 5;
   bool m_absolute = false;
-  std::vector<std::vector<std::string>> m_undo;
+  std::vector<Choice> m_undo;
 };
 
 }  // namespace zerodrift::desktop

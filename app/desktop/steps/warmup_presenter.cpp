@@ -182,7 +182,7 @@ void WarmupPresenter::fillRun(ui::WarmupState& state) {
 void WarmupPresenter::refresh() {
   ui::WarmupState state;
   const auto* job = bench().job();
-  if (job == nullptr || !bench().has("calibration")) {
+  if (job == nullptr || (!bench().has("calibration") && !bench().has("warmup"))) {
     state.blocked = tr("Calibrate the camera first: without it no error can be measured.");
     m_page->setState(state);
     return;

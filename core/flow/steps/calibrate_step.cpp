@@ -101,7 +101,7 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
                {"calibration", vision::to_json(outcome.calibration)}};
   if (profile.reference_roi_px) made.body["reference_roi"] = *profile.reference_roi_px;
   ZD_TRY(made.blobs.emplace_back(), picture(profile.id + "-template.png", image));
-  for (std::size_t i = 0; i < outcome.frames.size(); ++i) {
+  for (std::size_t i = 0; options.keep_views && i < outcome.frames.size(); ++i) {
     ZD_TRY(made.blobs.emplace_back(), picture(fmt::format("{}-view-{}.png", profile.id, i + 1), outcome.frames[i]));
   }
   return made;

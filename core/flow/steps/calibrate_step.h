@@ -31,6 +31,7 @@ struct CalibrateOptions {
   int per_side = 3;
   std::map<std::string, std::array<int, 4>> regions;  // of the target, by camera; absent: the profile's
   double span_mm = 0.0;                               // of the positions; 0: the profile's
+  bool keep_views = true;  // false: a job a fifth as large, in which the target's mask is not learned
   std::function<void(const CalibrationProgress&)> watcher;
   /// Asked before each sequence of moves, with the camera it is for; it may wait for a person. An error ends the step
   /// with nothing moved any more. Absent: whoever starts the step has agreed to all of them (command line).

@@ -50,7 +50,14 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   ZD_TRY(const Input warmup, need(job, "fit", "warmup"));
   ZD_TRY(const Input sensors, need(job, "fit", "sensors"));
   ZD_TRY(const auto run, run_of(job, warmup));
-  ZD_TRY(const auto profile, profile_of(job, "fit"));
+  ZD_TRY(const auto machine, job.latest("machine"));
+  controller::Profile profile;  // of no machine when the run was imported: nothing is promised of a controller
+  bool accepts_table = false;
+  if (machine) {
+    ZD_TRY(profile, profile_of(job, "fit"));
+    ZD_TRY(const json body, machine->document());
+    accepts_table = body.at("identity").value("accepts_table", false);
+  }
   analysis::FitOptions fit_options;
   fit_options.sensors = sensors.body.at("chosen").get<std::vector<std::string>>();
   ZD_TRY(fit_options.method, analysis::method_from(options.method));
@@ -58,8 +65,7 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   // A controller that computes the table itself runs static models only: fit the one it will run, so that every figure
   // is of what compensates, and say what a dynamic one would have left.
   std::string alternative;
-  ZD_TRY(const Input machine, need(job, "fit", "machine"));
-  if (options.method == "auto" && !model.is_static() && machine.body.at("identity").value("accepts_table", false)) {
+  if (options.method == "auto" && !model.is_static() && accepts_table) {
     alternative = alternative_of(model);
     fit_options.method = analysis::Method::ridge;
     ZD_TRY(model, analysis::fit({run}, fit_options, context));

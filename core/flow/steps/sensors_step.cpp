@@ -75,7 +75,11 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
                                                   const TaskContext& context) {
   ZD_TRY(const Input warmup, need(job, "sensors", "warmup"));
   ZD_TRY(const auto run, run_of(job, warmup));
-  ZD_TRY(const auto profile, profile_of(job, "sensors"));
+  ZD_TRY(const auto machine, job.latest("machine"));
+  controller::Profile profile;  // of no machine when the run was imported: then the sensors have no labels
+  if (machine) {
+    ZD_TRY(profile, profile_of(job, "sensors"));
+  }
   analysis::ClusterOptions cluster_options;
   cluster_options.clusters = options.clusters;
   ZD_TRY(const auto clusters, analysis::cluster(run, cluster_options, context));
