@@ -95,10 +95,10 @@ class CompensatorTest : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(std::abs(z.applied_um + z.predicted_um) < 1.0, 20000);
     // The machine does not err at rest: what is left is what was written.
     const bool measured = QTest::qWaitFor([&] { return std::abs(z.left_um - z.applied_um) < 1.5; }, 30000);
-    QVERIFY2(measured, qPrintable(QStringLiteral("left %1, applied %2: %3")
-                                      .arg(z.left_um)
-                                      .arg(z.applied_um)
-                                      .arg(page->state().notMeasured)));
+    QVERIFY2(
+        measured,
+        qPrintable(
+            QStringLiteral("left %1, applied %2: %3").arg(z.left_um).arg(z.applied_um).arg(page->state().notMeasured)));
 
     Q_EMIT page->primaryTriggered();
     QTRY_COMPARE_WITH_TIMEOUT(page->state().phase, CompensatorPhase::ready, 60000);

@@ -80,8 +80,8 @@ void PagesTest::emptyPagesSayHowToGetThere() {
   MainWindow window;
   samples::addPages(window);
   window.show();
-  for (const char* id :
-       {"calibrate", "warmup", "sensors", "fit", "physics", "upload", "verify", "report", "axis_errors", "compensator"}) {
+  for (const char* id : {"calibrate", "warmup", "sensors", "fit", "physics", "upload", "verify", "report",
+                         "axis_errors", "compensator"}) {
     samples::play(window, {id, "empty"});
     auto* empty = window.currentPage()->findChild<EmptyState*>();
     QVERIFY2(empty->isVisible(), id);

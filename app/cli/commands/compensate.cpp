@@ -7,8 +7,8 @@
 
 #include "app/cli/command.h"
 #include "app/cli/service_notice.h"
-#include "core/base/real_time.h"
 #include "core/analysis/model.h"
+#include "core/base/real_time.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/host_compensator.h"
 #include "core/controller/table_words.h"
