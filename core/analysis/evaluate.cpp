@@ -9,6 +9,7 @@
 #include "core/analysis/budget.h"
 #include "core/analysis/cleaning.h"
 #include "core/analysis/regressions.h"
+#include "core/analysis/structural.h"
 
 namespace zerodrift::analysis {
 namespace {
@@ -30,16 +31,27 @@ Eigen::VectorXd predict_left_out(const RidgeFit& fit, const Rows& train, const R
   return predicted;
 }
 
+/// Deviations within which a normal value lies with this probability.
+double normal_reach(double probability) {
+  double low = 0.0;
+  double high = 10.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (std::erf(middle / std::sqrt(2.0)) < probability ? low : high) = middle;
+  }
+  return high;
+}
+
+/// `by_prior`: the deviations know what one cycle leaves open, so a coverage can be stated where nothing repeats.
 Band band_of(const std::vector<FoldResult>& folds, const std::vector<double>& deviations,
-             const std::vector<double>& studentised, double coverage, int cycles) {
+             const std::vector<double>& studentised, double coverage, int cycles, bool by_prior) {
   // Never narrower than the model's own claim; the worst cycle speaks for the next one.
-  constexpr double own_claim = 1.645;
   Band band;
-  // One cycle leaves nothing out that is like another speed: the band is then the scatter about this run, and no more
-  // is claimed for it.
-  band.stated_coverage = cycles >= 2 ? coverage : 0.0;
+  // One cycle leaves nothing out that is like another speed: without a prior the band is the scatter about this run,
+  // and no more is claimed for it.
+  band.stated_coverage = cycles >= 2 || by_prior ? coverage : 0.0;
   band.guaranteed_coverage = cycles >= 2 ? static_cast<double>(cycles) / (cycles + 1.0) : 0.0;
-  band.factor = own_claim;
+  band.factor = normal_reach(coverage);
   for (const auto& fold : folds) band.factor = std::max(band.factor, upper_quantile(fold.studentised, coverage));
   band.half_width_um = band.factor * median(deviations);
   double inside = 0.0;
@@ -95,13 +107,15 @@ Eigen::MatrixXd errors_at(const TrainingSet& set, const ErrorGroup& group, const
 
 namespace {
 
-/// The mean of ridge fits on the first so many sensors: with one cycle nothing tells which number is right, and their
-/// errors on other speeds point different ways.
+/// One cycle: the mean of ridge fits on the first so many sensors (nothing tells which number is right, and their
+/// errors on other speeds point different ways), judged by the structural fit on all of them. With many sensors the
+/// mean of both is taken; on few the structural fit is loose and only says how far off the others may be.
 std::vector<RidgeFit> fit_nested(const Rows& rows, const Eigen::MatrixXd& errors_um, const Recipe& recipe,
                                  const TrainingSet& set) {
   // A controller low-passes its readings, so less is given up than single readings would ask for; the mean of several
   // fits is quieter as well.
   constexpr double share_of_noise = 0.5;
+  constexpr Eigen::Index few = 8;
   const Eigen::VectorXd noise_C = share_of_noise * set.feature_noise_C(recipe.features);
   const RidgeChoice choice = default_choice(set.duration_s());
   std::vector<std::vector<RidgeFit>> members;
@@ -112,7 +126,21 @@ std::vector<RidgeFit> fit_nested(const Rows& rows, const Eigen::MatrixXd& errors
     members.push_back(fit_ridge(part, errors_um, choice));
     for (auto& fit : members.back()) fit = for_noisy_readings(fit, part.x, noise_C.head(columns));
   }
-  return mean_of(members, rows.x.cols());
+  const auto largest = static_cast<Eigen::Index>(recipe.nested.back());
+  std::vector<RidgeFit> fits = mean_of(members, largest);
+  RidgeFit whole;
+  whole.mean = rows.x.colwise().mean().transpose();
+  whole.scale = feature_scale(rows.x.rowwise() - whole.mean.transpose());
+  for (auto& fit : fits) {  // of all columns, also where no member reached
+    whole.beta = Eigen::VectorXd::Zero(rows.x.cols());
+    whole.beta.head(largest) = fit.beta;
+    whole.intercept = fit.intercept;
+    whole.penalty = fit.penalty;
+    fit = whole;
+  }
+  // Its coefficients are small by the prior: the noise of readings needs no further care.
+  judge_by(fit_structural(rows, errors_um), rows.x.cols() > few, fits);
+  return fits;
 }
 
 }  // namespace
@@ -233,7 +261,8 @@ Result<Evaluation> evaluate(const TrainingSet& set, const Recipe& recipe, double
   for (std::size_t e = 0; e < set.errors.size(); ++e) {
     const auto column = static_cast<Eigen::Index>(e);
     out.held_out.push_back(residual_figures(set.error_um.col(column), out.predicted_um.col(column)));
-    out.bands.push_back(band_of(bands[e].folds, bands[e].deviations, bands[e].studentised, coverage, set.folds.cycles));
+    out.bands.push_back(band_of(bands[e].folds, bands[e].deviations, bands[e].studentised, coverage, set.folds.cycles,
+                                !recipe.nested.empty()));
     const double noise_square =
         bands[e].noise_square / static_cast<double>(std::max<std::size_t>(bands[e].deviations.size(), 1));
     out.noise_um.push_back(std::sqrt(noise_square));

@@ -72,19 +72,6 @@ double log_likelihood(const Whitened& w, Eigen::Index error, double penalty) {
                  w.log_determinant + std::log(w.ones_square));
 }
 
-/// Variance that white noise can have at most, from second differences of neighbouring rows (6 times its variance for
-/// white noise alone; a smooth error adds little). Robust against steps.
-double white_variance(const Rows& rows, const Eigen::VectorXd& y) {
-  std::vector<double> differences;
-  for (Eigen::Index i = 1; i + 1 < y.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (rows.run[at - 1] != rows.run[at + 1]) continue;
-    differences.push_back(std::abs(y(i - 1) - 2.0 * y(i) + y(i + 1)));
-  }
-  const double deviation = 1.4826 * median(std::move(differences));
-  return deviation * deviation / 6.0;
-}
-
 /// A noise model is out when it calls more of the residual white than neighbouring measurements can scatter.
 bool contradicts(const NoiseModel& noise, double variance, double largest_white) {
   constexpr double generous = 4.0;
@@ -152,6 +139,26 @@ Rows pick(const Rows& rows, const std::vector<int>& which) {
   return out;
 }
 
+double white_variance(const Rows& rows, const Eigen::VectorXd& y) {
+  std::vector<double> differences;
+  for (Eigen::Index i = 1; i + 1 < y.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (rows.run[at - 1] != rows.run[at + 1]) continue;
+    differences.push_back(std::abs(y(i - 1) - 2.0 * y(i) + y(i + 1)));
+  }
+  const double deviation = 1.4826 * median(std::move(differences));
+  return deviation * deviation / 6.0;
+}
+
+Eigen::VectorXd feature_scale(const Eigen::MatrixXd& centred) {
+  Eigen::VectorXd scale =
+      (centred.colwise().squaredNorm().transpose() / static_cast<double>(centred.rows())).cwiseSqrt();
+  for (double& s : scale) {
+    if (!(s > 1e-9)) s = 1e9;
+  }
+  return scale;
+}
+
 RidgeChoice default_choice(double duration_s) {
   RidgeChoice choice;
   choice.noises.push_back({0.0, 0.0});
@@ -164,14 +171,10 @@ RidgeChoice default_choice(double duration_s) {
 }
 
 std::vector<RidgeFit> fit_ridge(const Rows& rows, const Eigen::MatrixXd& errors_um, const RidgeChoice& choice) {
-  const Eigen::Index n = rows.x.rows();
   RidgeFit start;
   start.mean = rows.x.colwise().mean().transpose();
   Eigen::MatrixXd z = rows.x.rowwise() - start.mean.transpose();
-  start.scale = (z.colwise().squaredNorm().transpose() / static_cast<double>(n)).cwiseSqrt();
-  for (double& s : start.scale) {
-    if (!(s > 1e-9)) s = 1e9;  // a feature that never moved says nothing about states where it does
-  }
+  start.scale = feature_scale(z);
   z = z * start.scale.cwiseInverse().asDiagonal();
   start.likelihood = -std::numeric_limits<double>::infinity();
   std::vector<RidgeFit> fits(static_cast<std::size_t>(errors_um.cols()), start);

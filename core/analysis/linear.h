@@ -40,6 +40,13 @@ struct Rows {
 };
 Rows pick(const Rows& rows, const std::vector<int>& which);
 
+/// Variance that white noise can have at most, from second differences of neighbouring rows (6 times its variance for
+/// white noise alone; a smooth error adds little). Robust against steps.
+double white_variance(const Rows& rows, const Eigen::VectorXd& y);
+/// Deviation of each centred feature; one that never moved counts as immense, since it says nothing about states where
+/// it does.
+Eigen::VectorXd feature_scale(const Eigen::MatrixXd& centred);
+
 struct RidgeChoice {
   std::vector<NoiseModel> noises;
   std::vector<double> penalties;

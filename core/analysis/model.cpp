@@ -52,10 +52,14 @@ bool is_static(Method method) {
   }
 }
 
-Eigen::VectorXd Model::half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x) const {
+Eigen::VectorXd Model::half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x,
+                                     const Eigen::RowVectorXd* zero) const {
   const Eigen::Map<const Eigen::VectorXd> noise(noise_C.data(), static_cast<Eigen::Index>(noise_C.size()));
   const double reading_um = error.regression.raw_coefficients().cwiseProduct(noise).norm();
-  return error.band.factor * (error.regression.deviation(x).array().square() + reading_um * reading_um).sqrt();
+  RidgeFit regression = error.regression;
+  // The factor of several cycles was found with deviations about the mean of training; only a prior speaks of any zero.
+  if (zero != nullptr && error.band.by_prior()) regression.mean = zero->transpose();
+  return error.band.factor * (regression.deviation(x).array().square() + reading_um * reading_um).sqrt();
 }
 
 const ErrorModel* Model::find(std::string_view error) const {

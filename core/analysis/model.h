@@ -54,11 +54,14 @@ struct TableTerms {
 
 /// Half-width of the band: factor * deviation of the prediction, at least half_width_um.
 struct Band {
-  double stated_coverage = 0.9;      // share of unseen errors meant to lie inside; 0: none can be stated (one cycle)
+  double stated_coverage = 0.9;      // share of unseen errors meant to lie inside; 0: none can be stated
   double guaranteed_coverage = 0.0;  // n / (n + 1) with n independent cycles (split conformal); 0 when nothing is
   double factor = 0.0;
   double half_width_um = 0.0;    // typical, on the data left out
   double measured_coverage = 0;  // on the data left out
+
+  /// One cycle: the coverage rests on how machines are built (structural.h), no repetition guarantees it.
+  bool by_prior() const { return stated_coverage > 0.0 && guaranteed_coverage <= 0.0; }
 };
 
 struct ErrorModel {
@@ -126,7 +129,9 @@ struct Model {
 
   bool is_static() const { return analysis::is_static(method); }
   /// Half-width of the band at each row of features: noise, uncertain coefficients, reading noise of the sensors.
-  Eigen::VectorXd half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x) const;
+  /// `zero`: the state from which errors are counted; at it nothing is uncertain.
+  Eigen::VectorXd half_width_um(const ErrorModel& error, const Eigen::MatrixXd& x,
+                                const Eigen::RowVectorXd* zero = nullptr) const;
   const ErrorModel* find(std::string_view error) const;
   const TableTerms* table_terms(std::string_view error) const;
 };

@@ -76,13 +76,13 @@ Frame frame_of(const Model& model, const Prepared& data, Zero asked) {
   return frame;
 }
 
-/// What the regression says at the very start, with every rise exactly 0: free of the noise of the first reading.
-double at_start_um(const Model& model, const ErrorModel& error, const Eigen::MatrixXd& x) {
-  Eigen::MatrixXd start = x.row(0);
+/// The features at the very start, with every rise exactly 0: free of the noise of the first reading.
+Eigen::RowVectorXd start_of(const Model& model, const Eigen::MatrixXd& x) {
+  Eigen::RowVectorXd start = x.row(0);
   for (std::size_t f = 0; f < model.features.size(); ++f) {
-    if (model.features[f].temperature) start(0, static_cast<Eigen::Index>(f)) = 0.0;
+    if (model.features[f].temperature) start(static_cast<Eigen::Index>(f)) = 0.0;
   }
-  return error.regression.predict(start)(0);
+  return start;
 }
 
 void add_residual(const Recording& recording, PredictedError& predicted) {
@@ -195,16 +195,17 @@ Result<Prediction> predict(const Model& model, const Recording& recording, Zero 
   out.findings = data.findings;
   const bool own_start = frame.zero == Zero::start;
   add_extrapolation(model, data, own_start ? sensor_starts(model, data) : model.start_C, out);
+  const Eigen::RowVectorXd start = start_of(model, x);
   for (const auto& e : model.errors) {
     Eigen::VectorXd value = e.regression.predict(x);
-    if (own_start) value.array() -= at_start_um(model, e, x);
+    if (own_start) value.array() -= e.regression.predict(start)(0);
     if (frame.remembers && e.regression.noise.memory_s > 0.0) {
       for (Eigen::Index i = 0; i < value.size(); ++i) {
         const double after_s = data.time_s[static_cast<std::size_t>(i)] - frame.remember_from_s;
         if (after_s >= 0.0) value(i) += e.remembered_um * std::exp(-after_s / e.regression.noise.memory_s);
       }
     }
-    const Eigen::VectorXd half_width = model.half_width_um(e, x);
+    const Eigen::VectorXd half_width = model.half_width_um(e, x, own_start ? &start : nullptr);
     PredictedError predicted;
     predicted.error = e.error;
     predicted.value_um.assign(value.begin(), value.end());
@@ -261,9 +262,10 @@ Result<LivePredictor::Sample> LivePredictor::update(double time_s, const std::ma
   m_started = true;
   Sample out;
   out.extrapolation = extrapolation_of(m_model.domain, rise, values, &out.extrapolation_channel);
+  const Eigen::RowVectorXd start = start_of(m_model, x);
   for (const auto& e : m_model.errors) {
-    out.errors.push_back(
-        {e.error, e.regression.predict(x)(0), std::max(1.0, out.extrapolation) * m_model.half_width_um(e, x)(0)});
+    out.errors.push_back({e.error, e.regression.predict(x)(0),
+                          std::max(1.0, out.extrapolation) * m_model.half_width_um(e, x, &start)(0)});
   }
   return out;
 }

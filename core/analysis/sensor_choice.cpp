@@ -53,6 +53,8 @@ std::vector<SensorSet> sets_to_try(const TrainingSet& set, const ChoiceOptions& 
     add(SetKind::nearest, first_of(nearest, allowed));
   }
   if (!points.empty()) add(SetKind::sensitive_plus_spread, filled_up(points, spread, points.size() + more_sensors));
+  // What one cycle is fitted on, see take_all_nearest.
+  if (set.folds.cycles < 2 && options.most > 0) add(SetKind::nearest, first_of(nearest, options.most));
   add(SetKind::all, set.sensors);
   std::stable_sort(sets.begin(), sets.end(),
                    [](const auto& a, const auto& b) { return a.sensors.size() < b.sensors.size(); });
@@ -85,14 +87,16 @@ std::size_t best_of(const std::vector<SensorSet>& sets) {
   return best;
 }
 
-/// The set of the kind "nearest" of at most eight; the smallest of all when there is none.
-std::size_t eight_nearest(const std::vector<SensorSet>& sets) {
-  constexpr std::size_t most_averaged = 8;
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < sets.size(); ++i) {  // from few to many
-    if (sets[i].kind == SetKind::nearest && sets[i].sensors.size() <= most_averaged) best = i;
-  }
-  return best;
+/// One cycle: the largest set there is, in the order of nearness (the sets are there to be compared; this one is taken
+/// because the structural fit needs every body to have its sensor).
+std::size_t take_all_nearest(std::vector<SensorSet>& sets, const Names& nearest, std::size_t most) {
+  const Names taken = most > 0 ? first_of(nearest, most) : nearest;
+  const auto same = std::find_if(sets.begin(), sets.end(), [&](const SensorSet& s) {
+    return std::set<std::string>(s.sensors.begin(), s.sensors.end()) ==
+           std::set<std::string>(taken.begin(), taken.end());
+  });
+  same->sensors = taken;
+  return static_cast<std::size_t>(same - sets.begin());
 }
 
 std::string comparison(const std::vector<SensorSet>& sets, std::size_t chosen, const std::string& left_out) {
@@ -150,27 +154,32 @@ Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptio
                                        const TaskContext& context) {
   ZD_TRY(const Names nearest, nearest_order(set));
   SensorChoice out;
-  for (auto& candidate : sets_to_try(set, options, spread_order(set), nearest)) {
-    const auto judged = evaluate(set, make_recipe(Method::ridge, candidate.sensors, set), 0.9, context);
+  out.sets = sets_to_try(set, options, spread_order(set), nearest);
+  out.one_cycle = set.folds.count < 2;
+  if (out.one_cycle) out.chosen = take_all_nearest(out.sets, nearest, options.most);
+  for (auto& candidate : out.sets) {
+    Recipe recipe = make_recipe(Method::ridge, candidate.sensors, set);
+    if (out.one_cycle && &candidate == &out.sets[out.chosen]) recipe.nested = out.nested();
+    const auto judged = evaluate(set, recipe, 0.9, context);
     if (!judged) return fail(judged.error());
     candidate.held_out_rms_um = judged->rms_um;
     candidate.held_out_peak_um = judged->peak_um;
     candidate.expected_um = judged->expected_um;
     candidate.fold_um = judged->fold_um;
     candidate.noise_um = judged->mean_noise_um;
-    out.sets.push_back(std::move(candidate));
   }
-  const bool one_cycle = set.folds.count < 2;
-  out.one_cycle = one_cycle;
-  out.chosen = one_cycle ? eight_nearest(out.sets) : best_of(out.sets);
+  if (!out.one_cycle) out.chosen = best_of(out.sets);
   out.reason = comparison(out.sets, out.chosen, set.folds.in_words);
-  if (one_cycle)
-    out.reason += "; one cycle cannot rank them (a second speed would), so fits on the first few of them are averaged";
+  if (out.one_cycle) {
+    out.reason +=
+        "; one cycle cannot rank them (a second speed would), so fits on the first few of them are averaged, and what "
+        "the run leaves open is filled by how machines are built";
+  }
   return out;
 }
 
 std::vector<std::size_t> SensorChoice::nested() const {
-  if (!one_cycle || sets.empty() || sets[chosen].kind != SetKind::nearest) return {};
+  if (!one_cycle || sets.empty()) return {};
   return averaged_counts(sets[chosen].sensors.size());
 }
 
@@ -179,7 +188,7 @@ std::vector<std::size_t> averaged_counts(std::size_t sensors) {
   for (const std::size_t count : {2U, 3U, 4U, 5U, 6U, 8U}) {
     if (count <= sensors) counts.push_back(count);
   }
-  if (sensors == 7 || sensors > 8) counts.push_back(sensors);  // all that were asked for have their say
+  if (sensors == 1 || sensors == 7) counts.push_back(sensors);  // all that were asked for have their say
   return counts;
 }
 

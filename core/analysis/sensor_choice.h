@@ -55,10 +55,11 @@ struct ChoiceOptions {
   std::size_t most = 0;                       // 0: no limit; else no set is larger
 };
 
-/// One cycle ranks nothing: the eight sensors nearest to the model on all are taken, because sensors that rose together
-/// in it need not do so at other speeds, and the mean of the fits on the first two to eight of them. With more: the
-/// largest set whose error is not told apart from the least one: a few left-out stretches do not rank sets of sensors,
-/// and the mean of many sensors is quieter and stays right when a slow body goes where it was never seen.
+/// One cycle ranks nothing: all usable sensors are taken (as many as allowed, nearest to the model on all first), since
+/// bodies that rose together in it need not do so at other speeds; fits on the first two to eight are averaged and
+/// joined with the structural fit on all (structural.h). With more cycles: the largest set whose error is not told
+/// apart from the least one: a few left-out stretches do not rank sets of sensors, and the mean of many sensors is
+/// quieter and stays right when a slow body goes where it was never seen.
 Result<SensorChoice> choose_sensor_set(const TrainingSet& set, const ChoiceOptions& options,
                                        const TaskContext& context = {});
 

@@ -110,10 +110,10 @@ void scale_terms(AxisTable& axis, double kappa) {
   for (auto& point : axis.points) point.um_per_K *= kappa;
 }
 
-/// residual = (kappa - 1) e_T + offset by least squares with a normal prior round the model as it is. A residual is for
-/// the most part slow: however many measurements there are, a verification counts as a few independent ones whose
-/// scatter is that of the model. What is far
-/// outside the prior widens it: a machine that has really changed is believed.
+/// residual = (kappa - 1) e_T + offset by least squares with a normal prior round the model as it is; kappa only when
+/// it explains more than chance does. A residual is for the most part slow: however many measurements there are, a
+/// verification counts as a few independent ones whose scatter is that of the model. What is far outside the prior
+/// widens it: a machine that has really changed is believed.
 struct Change {
   double kappa = 0.0;
   double offset_um = 0.0;
@@ -124,12 +124,18 @@ Change shrunk(const Eigen::VectorXd& thermal, const Eigen::VectorXd& residual, c
   Eigen::MatrixXd design(thermal.size(), 2);
   design << thermal, Eigen::VectorXd::Ones(thermal.size());
   const Eigen::Vector2d plain = design.colPivHouseholderQr().solve(residual);
-  const double scatter_um = std::max((residual - design * plain).norm() / std::sqrt(n), options.model_scatter_um);
+  const double left = (residual - design * plain).squaredNorm();
+  const double scatter_um = std::max(std::sqrt(left / n), options.model_scatter_um);
   const double weight = std::min(options.independent, n) / n / (scatter_um * scatter_um);
   const auto precision = [](double sigma, double seen) {
     const double excess = std::max(std::abs(seen) - 2.0 * sigma, 0.0);
     return 1.0 / (sigma * sigma + excess * excess);
   };
+  const double mean_um = residual.mean();
+  const double explained = weight * ((residual.array() - mean_um).matrix().squaredNorm() - left);
+  if (explained < options.kappa_evidence) {
+    return {0.0, weight * n * mean_um / (weight * n + precision(options.offset_sigma_um, mean_um))};
+  }
   Eigen::Matrix2d normal = weight * design.transpose() * design;
   normal(0, 0) += precision(options.kappa_sigma, plain(0));
   normal(1, 1) += precision(options.offset_sigma_um, plain(1));
@@ -155,8 +161,13 @@ Status fit_kappa(const AxisTable& axis, const Samples& samples, const ResidualOp
   if (varies_um >= options.resolution_um) {  // slope and offset can be told apart
     const Change both = shrunk(thermal, residual, options);
     change = both.kappa;
-    row.kind = CorrectionKind::both;
+    row.kind = change == 0.0 ? CorrectionKind::offset : CorrectionKind::both;
     row.offset_um = both.offset_um;
+    if (change == 0.0) {
+      row.reason = fmt::format(
+          "the offset is moved by {:.2f} um; the run does not show that the temperature terms are wrong, so they stay",
+          options.smoothing * row.offset_um);
+    }
   } else if (thermal.norm() / std::sqrt(n) >= options.resolution_um) {
     // One state only: the whole residual is laid on the temperatures, as kappa = 1 + residual / e_T.
     change = thermal.dot(residual) / thermal.squaredNorm();
@@ -224,7 +235,7 @@ Result<Correction> correct_residual(const Table& table, const std::map<std::stri
     ZD_CHECK(fit_kappa(axis, used, options, row));
     scale_terms(axis, row.kappa);
     axis.offset_um += row.offset_um;
-    row.reason = sentence(row);
+    if (row.reason.empty()) row.reason = sentence(row);
     return {};
   });
 }

@@ -2,7 +2,9 @@
 // Residual correction (C2). Measured while compensating, the error is what is left: residual = true error - predicted.
 // With the thermal prediction e_T the true error is e_T + residual, so the coefficient kappa = 1 + residual / e_T
 // corrects the temperature terms concerned; over several measurements by least squares with a prior round the model,
-// since one verification says less than it seems: taken whole, the next one finds the opposite. Where the prediction is
+// since one verification says less than it seems: taken whole, the next one finds the opposite. A moved offset is that
+// day's zero and does another day no harm; kappa stays, so it is touched only when the run shows that it must be:
+// when it explains clearly more than the offset alone. Where the prediction is
 // near zero kappa means nothing and an offset is corrected instead. kappa is bounded and smoothed, and one bad frame
 // corrects nothing. Beside it a Bayesian update of the single coefficients (normal prior around the model) is offered.
 
@@ -30,6 +32,7 @@ struct ResidualOptions {
   int fewest_samples = 3;             // evidence needed
   double kappa_sigma = 0.05;          // how well kappa = 1 is believed beforehand
   double offset_sigma_um = 1.5;       // and the offset
+  double kappa_evidence = 3.84;       // chi-squared that kappa must explain beyond the offset (95 %, one degree)
   double model_scatter_um = 1.0;      // least scatter that the model itself is taken to have
   double independent = 4.0;           // measurements that a verification counts for
   double prior_relative_sigma = 0.3;  // Bayesian update: how well the model's coefficients are trusted

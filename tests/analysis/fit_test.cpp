@@ -225,21 +225,43 @@ TEST(LivePredictor, HoldsAMissingSensorBrieflyThenRefuses) {
   EXPECT_EQ(late.error().code, ErrorCode::sensor_dead);
 }
 
-TEST(Fit, OneCycleAveragesFitsOnTheNearestSensors) {
+TEST(Fit, OneCycleAveragesFitsOnTheNearestSensorsAndTheStructuralOne) {
   const auto run = machine_run({});
   const auto model = fit({run});
   ASSERT_TRUE(model) << describe(model.error());
   EXPECT_EQ(model->averaged, (std::vector<std::size_t>{2, 3, 4, 5, 6, 8}));
+  EXPECT_GT(model->sensors.size(), 8U);
   for (const auto& e : model->errors) EXPECT_LT(e.fit.rms_um, 1.0) << e.error;
   FitOptions by_hand;
   by_hand.sensors = {"T1_C", "T5_C", "T9_C", "T13_C", "T17_C", "T2_C", "T3_C", "T4_C", "T6_C", "T7_C"};
   const auto ten = fit({run}, by_hand);
   ASSERT_TRUE(ten) << describe(ten.error());
   EXPECT_EQ(ten->sensors.size(), 10U);
-  EXPECT_EQ(ten->averaged.back(), 10U);
+  for (const auto& term : ten->table.back().terms) EXPECT_NE(term.um_per_K, 0.0) << term.sensor;  // all have their say
   const auto again = model_from_json(to_json(*ten), "test");
   ASSERT_TRUE(again) << describe(again.error());
   EXPECT_EQ(again->averaged, ten->averaged);
+}
+
+/// One cycle: the band knows that bodies may warm in other proportions, however well this run was followed.
+TEST(Fit, TheBandOfOneCycleGrowsWhereTheRunLeftThingsOpen) {
+  const auto run = machine_run({});
+  const auto model = fit({run});
+  ASSERT_TRUE(model);
+  const ErrorModel& error = model->errors.back();
+  EXPECT_TRUE(error.band.by_prior());
+  EXPECT_DOUBLE_EQ(error.band.stated_coverage, 0.9);
+  Eigen::RowVectorXd as_trained(static_cast<Eigen::Index>(model->sensors.size()));
+  for (std::size_t s = 0; s < model->sensors.size(); ++s) {
+    as_trained(static_cast<Eigen::Index>(s)) = model->end_C[s] - model->start_C[s];
+  }
+  Eigen::RowVectorXd other = as_trained;
+  for (Eigen::Index s = 0; s < other.size(); s += 2) other(s) *= 1.5;
+  const Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(other.size());
+  const double rest_um = model->half_width_um(error, zero, &zero)(0);
+  const double trained_um = model->half_width_um(error, as_trained, &zero)(0);
+  EXPECT_LT(rest_um, trained_um);
+  EXPECT_GT(model->half_width_um(error, other, &zero)(0), 2.0 * trained_um);
 }
 
 /// The simulation comes as inputs; a machine whose simulation is right up to a scale needs little else.

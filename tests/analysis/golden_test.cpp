@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/kmeans.h"
@@ -45,6 +47,29 @@ TEST(Golden, LloydFromTheSameCentres) {
   }
   EXPECT_NEAR(adjusted_rand(c.cluster_of, g["other_labels"].get<std::vector<int>>()), g["adjusted_rand"].get<double>(),
               1e-12);
+}
+
+/// The draws are random in both programs: compared are the probabilities of the second centre and the best partition.
+TEST(Golden, PlusPlusDrawsAndFindsTheBestPartition) {
+  const auto g = golden();
+  const Eigen::MatrixXd items = items_of(g);
+  constexpr int draws = 6000;
+  std::vector<double> drawn(static_cast<std::size_t>(items.rows()), 0.0);
+  double least = std::numeric_limits<double>::infinity();
+  Clustering best;
+  for (int seed = 0; seed < draws; ++seed) {
+    const Clustering c = kmeans_plus_plus(items, 5, 0, static_cast<std::uint64_t>(seed));
+    drawn[static_cast<std::size_t>(c.initial_items[1])] += 1.0;
+    if (c.inertia >= least) continue;
+    least = c.inertia;
+    best = c;
+  }
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const double p = g["second_centre_probability"][i].get<double>();
+    EXPECT_NEAR(drawn[i] / draws, p, 4.5 * std::sqrt(p * (1.0 - p) / draws) + 1e-12) << i;
+  }
+  EXPECT_NEAR(least, g["best_of_five_inertia"].get<double>(), 1e-9);
+  EXPECT_DOUBLE_EQ(adjusted_rand(best.cluster_of, g["best_of_five"].get<std::vector<int>>()), 1.0);
 }
 
 TEST(Golden, AverageLinkage) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/analysis/budget.h"
 #include "core/analysis/evaluate.h"
 #include "tests/analysis/support.h"
 
@@ -101,17 +102,20 @@ TEST(SensorChoice, TakesWhatIsToBeExpectedToLeaveLeastAndSaysWhy) {
   EXPECT_NE(choice->reason.find("sensitive points"), std::string::npos);
 }
 
-TEST(SensorChoice, OneCycleRanksNothingSoTheNearestAreAveraged) {
+TEST(SensorChoice, OneCycleRanksNothingSoAllAreTakenNearestFirst) {
   const auto set = make_training({test::machine_run({})}, {});
   ASSERT_TRUE(set);
   ChoiceOptions options;
   options.sensitive_points = {"T1_C", "T5_C", "T9_C", "T13_C", "T17_C"};
   const auto choice = choose_sensor_set(*set, options);
   ASSERT_TRUE(choice) << describe(choice.error());
-  EXPECT_EQ(choice->sets[choice->chosen].sensors.size(), 8U);
+  EXPECT_EQ(choice->sets[choice->chosen].sensors, *nearest_order(*set));
   EXPECT_EQ(choice->nested(), (std::vector<std::size_t>{2, 3, 4, 5, 6, 8}));
-  EXPECT_EQ(choice->sets[choice->chosen].kind, SetKind::nearest);
   EXPECT_NE(choice->reason.find("one cycle"), std::string::npos);
+  options.most = 12;
+  const auto twelve = choose_sensor_set(*set, options);
+  ASSERT_TRUE(twelve) << describe(twelve.error());
+  EXPECT_EQ(twelve->sets[twelve->chosen].sensors.size(), 12U);
 }
 
 TEST(SensorChoice, NoSetIsLargerThanAllowed) {

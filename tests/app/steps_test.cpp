@@ -5,13 +5,17 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/desktop/application.h"
+#include "app/desktop/steps/fit_presenter.h"
 #include "core/base/json.h"
 #include "core/base/resources.h"
+#include "core/flow/steps/inputs.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/flow/steps/verify_step.h"
+#include "core/recording/csv.h"
 #include "ui/pages/fit_page.h"
 #include "ui/pages/verify_page.h"
 
@@ -84,6 +88,29 @@ class StepsTest : public QObject {
       QCOMPARE(ids(), offered);
       QCOMPARE(page->state().proposed, proposed);
     }
+  }
+
+  void aNewerRunCorrectsTheModel() {
+    Application application(*m_theme);
+    QVERIFY(recorded(application));
+    application.openPage(QStringLiteral("fit"));
+    auto* presenter = qobject_cast<zerodrift::desktop::FitPresenter*>(application.presenter(QStringLiteral("fit")));
+    auto* page = qobject_cast<zerodrift::ui::FitPage*>(presenter->page());
+    auto& tasks = application.bench().tasks();
+    QTRY_VERIFY_WITH_TIMEOUT(application.bench().has("model") && !tasks.running(), 60000);
+    QVERIFY(page->state().updatedBy.isEmpty());
+    auto& job = *application.bench().job();
+    const auto warmup = job.latest("warmup");
+    const auto run = zerodrift::flow::run_of(job, {(*warmup)->id, application.bench().body("warmup")});
+    QVERIFY(run.has_value());
+    const auto file = std::filesystem::path(m_folder.path().toStdString()) / "newer.csv";
+    QVERIFY(zerodrift::recording::write_recording(file, *run).has_value());
+    const auto before = job.history("model")->size();
+    presenter->update(file.string(), {});
+    QTRY_VERIFY_WITH_TIMEOUT(!tasks.running(), 60000);
+    QCOMPARE(job.history("model")->size(), before + 1);
+    QVERIFY2(page->state().updatedBy.contains(QStringLiteral("newer")), qPrintable(page->state().updatedBy));
+    QVERIFY(!application.bench().body("model").value("table", nlohmann::json::array()).empty());
   }
 
   /// Page, job and report name the same coefficient, also after the threshold was changed by hand.

@@ -60,6 +60,18 @@ TEST(Residual, ASlowWaveOfModelErrorIsNotTakenForASlope) {
   EXPECT_NEAR(out->axes.front().kappa, 1.0, 0.05);
 }
 
+/// A day's zero is no fault of the model: the next day would suffer for it.
+TEST(Residual, AnOffsetLeavesTheTemperatureTermsAlone) {
+  const auto out = correct_residual(model(), {{"Z", measured(1.0, 4.0, 0.0, 12.0)}});
+  ASSERT_TRUE(out);
+  const AxisCorrection& row = out->axes.front();
+  EXPECT_EQ(row.kind, CorrectionKind::offset);
+  EXPECT_DOUBLE_EQ(row.kappa, 1.0);
+  EXPECT_DOUBLE_EQ(out->table.axes.at("Z").terms[0].um_per_K, 2.0);
+  EXPECT_NEAR(out->table.axes.at("Z").offset_um, 4.0, 1.0);
+  EXPECT_NE(row.reason.find("they stay"), std::string::npos) << row.reason;
+}
+
 TEST(Residual, OneStateGivesThePublishedCoefficient) {
   // C = 25 um of prediction, residual 5 um: kappa = 1 + 5 / 25.
   const auto out = correct_residual(model(), {{"Z", measured(1.2, 0.0, 10.0, 10.0)}});

@@ -103,6 +103,14 @@ PageAction FitPage::primary() const {
   return {"primary", tr("Use this model"), ready, m_state.blocked.isEmpty() ? tr("Choose a method.") : m_state.blocked};
 }
 
+QVector<PageAction> FitPage::secondary() const {
+  if (!m_state.blocked.isEmpty()) return {};
+  return {
+      {"update", tr("Update by a new run…"), !m_state.method.isEmpty(), tr("Choose a method."),
+       tr("Machines age. A recording of half an hour corrects this model instead of starting over: what it does not "
+          "excite stays as it was.")}};
+}
+
 QVector<Figure> FitPage::figures() const {
   Figure peak =
       figureAtMost(tr("Attainable peak error"), m_state.attainablePeak_um, 1, "µm", m_state.attainableLimit_um);
@@ -247,6 +255,7 @@ void FitPage::renderWords() {
                             .arg(m_state.attainable90_um, 0, 'f', 1));
   }
   QStringList lines;
+  if (!m_state.updatedBy.isEmpty()) lines.append(tr("Corrected by the newer run %1.").arg(m_state.updatedBy));
   if (!m_state.sensors.isEmpty()) lines.append(tr("From %1.").arg(m_state.sensors.join(", ")));
   lines += m_state.advice;
   m_advice->setText(lines.join('\n'));

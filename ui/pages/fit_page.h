@@ -64,6 +64,7 @@ struct FitState {
   QString validity{};        // "18 to 41 °C"
   QString validityLimits{};  // "0 to 6000 rpm"
   QStringList advice{};      // about the run and the model, one sentence each
+  QString updatedBy{};       // the newer run that corrected the model
 };
 
 class FitPage : public Page {
@@ -77,6 +78,8 @@ class FitPage : public Page {
   QString title() const override;
   QString sentence() const override;
   PageAction primary() const override;
+  /// "update": correct the model by a short newer run.
+  QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
   void methodChosen(const QString& methodId);

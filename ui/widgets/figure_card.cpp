@@ -17,7 +17,7 @@ Figure judged(Figure figure, double value, double excess) {
     figure.word = words(QT_TRANSLATE_NOOP("Figure", "good"));
   } else if (excess <= 1.25) {
     figure.judgement = Judgement::warn;
-    figure.word = words(QT_TRANSLATE_NOOP("Figure", "near the limit"));
+    figure.word = words(QT_TRANSLATE_NOOP("Figure", "just outside"));
   } else {
     figure.judgement = Judgement::bad;
     figure.word = words(QT_TRANSLATE_NOOP("Figure", "outside"));

@@ -46,12 +46,19 @@ std::string text_of(const analysis::Model& model) {
   }
   for (const auto& advice : model.quality.advice) text += advice + "\n";
   const auto& band = model.errors.front().band;
-  text += band.guaranteed_coverage > 0.0
-              ? fmt::format("Band: stated {:.0f} %, guaranteed {:.0f} % (worst of {} cycles).",
-                            100.0 * band.stated_coverage, 100.0 * band.guaranteed_coverage, model.quality.cycles)
-              : std::string(
-                    "Band: no coverage is stated. One cycle says nothing about other speeds; the band is the scatter "
-                    "about this run. A second stretch at another speed would make it a statement.");
+  if (band.guaranteed_coverage > 0.0) {
+    text += fmt::format("Band: stated {:.0f} %, guaranteed {:.0f} % (worst of {} cycles).",
+                        100.0 * band.stated_coverage, 100.0 * band.guaranteed_coverage, model.quality.cycles);
+  } else if (band.by_prior()) {
+    text += fmt::format(
+        "Band: stated {:.0f} %, nothing guaranteed: one cycle says little about other speeds, so the band rests on how "
+        "machines are built and grows with what this run left open. A second stretch at another speed would test it.",
+        100.0 * band.stated_coverage);
+  } else {
+    text +=
+        "Band: no coverage is stated. One cycle says nothing about other speeds; the band is the scatter about this "
+        "run. A second stretch at another speed would make it a statement.";
+  }
   return text;
 }
 

@@ -1,5 +1,7 @@
 #include "app/desktop/steps/fit_presenter.h"
 
+#include <QDir>
+#include <QFileDialog>
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@
 #include "core/analysis/predict.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
+#include "core/recording/csv.h"
 #include "core/report/limits.h"
 #include "ui/pages/fit_page.h"
 
@@ -113,6 +116,13 @@ FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(benc
     m_undo.push_back(m_method);
     run(method.toStdString(), {});
   });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) {
+    const QString path = QFileDialog::getOpenFileName(m_page, tr("Recording of a newer run"), QDir::homePath(),
+                                                      tr("Recordings (*.csv)"));
+    if (path.isEmpty() || this->bench().tasks().running()) return;
+    m_undo.push_back(m_method);  // undone by fitting as before
+    update(path.toStdString(), {});
+  });
   connect(page, &ui::Page::primaryTriggered, this, [this] {
     if (this->bench().has("model")) {
       Q_EMIT nextRequested();
@@ -143,6 +153,18 @@ void FitPresenter::run(const std::string& method, std::function<void(bool good)>
       [job, method](const TaskContext& context) { return flow::fit_model(*job, {method}, context); }, std::move(done));
 }
 
+void FitPresenter::update(const std::string& recording, std::function<void(bool good)> done) {
+  const auto* job = bench().job();
+  if (job == nullptr) return;
+  runStep(
+      tr("Updating the model"),
+      [job, recording](const TaskContext&) -> Result<commissioning::NewArtefact> {
+        ZD_TRY(const auto run, recording::read_recording(recording));
+        return flow::update_model(*job, run);
+      },
+      std::move(done));
+}
+
 void FitPresenter::fill(ui::FitState& state) {
   const auto artefact = bench().job()->latest("model");
   if (!artefact || !*artefact) return;
@@ -161,7 +183,7 @@ void FitPresenter::fill(ui::FitState& state) {
     rms = std::max(rms, error.held_out.rms_um);
     band = std::max(band, error.band.half_width_um);
     coverage = std::min(coverage, error.band.measured_coverage);
-    stated = stated && error.band.stated_coverage > 0.0;
+    stated = stated && error.band.guaranteed_coverage > 0.0;
   }
   range = model->quality.error_range_um;
   state.attainablePeak_um = peak;
@@ -169,12 +191,13 @@ void FitPresenter::fill(ui::FitState& state) {
   state.removedTarget_percent = report::limits::removed_percent;
   state.coverageTarget_percent = report::limits::coverage_percent;
   state.attainableRms_um = rms;
-  if (stated) {  // one cycle allows no statement
+  if (stated) {  // one cycle: nothing was left out that is like another speed
     state.attainable90_um = band;
     state.coverage_percent = 100.0 * coverage;
   }
   if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
   for (const auto& sensor : model->sensors) state.sensors << bench().channelInWords(sensor);
+  if (model->recordings.size() > 1) state.updatedBy = QString::fromStdString(model->recordings.back());
   state.proposed.clear();
   state.methods = methods_of(bench(), **artefact, state.proposed);
   double low = 1e9;

@@ -19,6 +19,8 @@ class FitPresenter : public Presenter {
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
+  /// The model of the job corrected by a recording (CSV) of a newer, short run.
+  void update(const std::string& recording, std::function<void(bool good)> done);
 
  private:
   void run(const std::string& method, std::function<void(bool good)> done);

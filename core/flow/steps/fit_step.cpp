@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/analysis/ageing.h"
 #include "core/analysis/fit.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/table_words.h"
@@ -38,6 +39,37 @@ json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
+/// What a fit leaves in the job; `alternative` is added to its summary.
+Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, const std::string& alternative,
+                                               const controller::Profile& profile,
+                                               std::vector<commissioning::ArtefactId> inputs) {
+  ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
+  json figures = json::array();
+  for (const auto& error : model.errors) {
+    figures.push_back({{"channel", error.error},
+                       {"rms_fit_um", number(error.fit.rms_um)},
+                       {"rms_held_out_um", number(error.held_out.rms_um)},
+                       {"peak_held_out_um", number(error.held_out.peak_um)},
+                       {"band_um", number(error.band.half_width_um)}});
+  }
+  json rows = json::array();
+  json offsets = json::object();
+  for (const auto& [axis, record] : table.axes) {
+    offsets[axis] = record.offset_um;
+    for (const auto& term : record.terms) {
+      rows.push_back(
+          {{"axis", axis}, {"sensor", term.sensor}, {"um_per_K", term.um_per_K}, {"reference_C", term.reference_C}});
+    }
+  }
+  const json document = {{"model", analysis::to_json(model)},
+                         {"summary", summary_of(model) + alternative},
+                         {"runs_on_controller", model.is_static()},
+                         {"figures", figures},
+                         {"table", rows},
+                         {"offset_um", offsets}};
+  return commissioning::NewArtefact::of("model", document, std::move(inputs));
+}
+
 }  // namespace
 
 Result<analysis::Model> model_of(const commissioning::Artefact& artefact) {
@@ -70,31 +102,18 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
     fit_options.method = analysis::Method::ridge;
     ZD_TRY(model, analysis::fit({run}, fit_options, context));
   }
-  ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
-  json figures = json::array();
-  for (const auto& error : model.errors) {
-    figures.push_back({{"channel", error.error},
-                       {"rms_fit_um", number(error.fit.rms_um)},
-                       {"rms_held_out_um", number(error.held_out.rms_um)},
-                       {"peak_held_out_um", number(error.held_out.peak_um)},
-                       {"band_um", number(error.band.half_width_um)}});
-  }
-  json rows = json::array();
-  json offsets = json::object();
-  for (const auto& [axis, record] : table.axes) {
-    offsets[axis] = record.offset_um;
-    for (const auto& term : record.terms) {
-      rows.push_back(
-          {{"axis", axis}, {"sensor", term.sensor}, {"um_per_K", term.um_per_K}, {"reference_C", term.reference_C}});
-    }
-  }
-  const json body = {{"model", analysis::to_json(model)},
-                     {"summary", summary_of(model) + alternative},
-                     {"runs_on_controller", model.is_static()},
-                     {"figures", figures},
-                     {"table", rows},
-                     {"offset_um", offsets}};
-  return commissioning::NewArtefact::of("model", body, {warmup.id, sensors.id});
+  return artefact_of(model, alternative, profile, {warmup.id, sensors.id});
+}
+
+Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run) {
+  ZD_TRY(const Input warmup, need(job, "fit", "warmup"));
+  ZD_TRY(const Input sensors, need(job, "fit", "sensors"));
+  ZD_TRY(const auto profile, profile_of(job, "fit"));
+  ZD_TRY(const auto latest, job.latest("model"));
+  if (!latest) return fail(ErrorCode::step_blocked, {{"step", "fit"}, {"needs", "model"}});
+  ZD_TRY(const auto old, model_of(*latest));
+  ZD_TRY(const auto model, analysis::update(old, run));
+  return artefact_of(model, {}, profile, {warmup.id, sensors.id});
 }
 
 }  // namespace zerodrift::flow

@@ -10,6 +10,7 @@
 #include "core/analysis/model.h"
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
+#include "core/recording/recording.h"
 
 namespace zerodrift::flow {
 
@@ -19,6 +20,10 @@ struct FitStepOptions {
 
 Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, const FitStepOptions& options,
                                              const TaskContext& context);
+
+/// The latest model corrected by a short newer run of the machine instead of fitted anew (core/analysis/ageing.h): what
+/// the run does not excite stays as it was.
+Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run);
 
 /// The model of an artefact "model".
 Result<analysis::Model> model_of(const commissioning::Artefact& artefact);

@@ -21,6 +21,8 @@ constexpr int longest_budget = 12;
 /// More leave little less on what was seen (0.05 um rms of 0.5), cost a cable each and fill the controller: the
 /// engineer may still take all.
 constexpr std::size_t most_sensors = 8;
+/// One cycle does not say which bodies matter at other speeds: more of them keep a sensor.
+constexpr std::size_t most_of_one_cycle = 12;
 
 using Names = std::vector<std::string>;
 
@@ -89,7 +91,7 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   analysis::ChoiceOptions choice_options;
   choice_options.sensitive_points = clusters.sensitive_points;
   choice_options.few = clusters.sensitive_points.size();
-  choice_options.most = std::max(most_sensors, choice_options.few);
+  choice_options.most = std::max(training.folds.cycles < 2 ? most_of_one_cycle : most_sensors, choice_options.few);
   ZD_TRY(const auto choice, analysis::choose_sensor_set(training, choice_options, context));
   const auto& best = choice.sets[choice.chosen];
   const auto& chosen = options.chosen.empty() ? best.sensors : options.chosen;

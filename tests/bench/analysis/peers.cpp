@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "core/analysis/kmeans.h"
@@ -178,6 +179,39 @@ MatrixXd predict(Peer peer, const analysis::TrainingSet& set, const std::vector<
   for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
     const double setting = best_setting(peer, set, x, set.error_um.col(e), train);
     out.col(e) = predict_one(peer, rows(x, train), y_train.col(e), rows(x, test), setting);
+  }
+  return out;
+}
+
+std::vector<analysis::TableTerms> table_of(Peer peer, const analysis::TrainingSet& set) {
+  const MatrixXd& all = set.samples.front().temperature_C;
+  std::vector<int> sensors;
+  for (int c = 0; c < static_cast<int>(set.sensors.size()); ++c)
+    sensors.push_back(set.runs.front().sensor(set.sensors[static_cast<std::size_t>(c)]));
+  MatrixXd x = all(Eigen::all, sensors);
+  if (peer == Peer::published_pipeline) {
+    const std::vector<int> kept = pipeline_sensors(x, set.error_um);
+    x = MatrixXd(x(Eigen::all, kept));
+    std::vector<int> names;
+    for (const int k : kept) names.push_back(sensors[static_cast<std::size_t>(k)]);
+    sensors = names;
+  }
+  std::vector<int> rows_taken(static_cast<std::size_t>(x.rows()));
+  std::iota(rows_taken.begin(), rows_taken.end(), 0);
+  const Standard standard(x);
+  std::vector<analysis::TableTerms> out;
+  for (Eigen::Index e = 0; e < set.error_um.cols(); ++e) {
+    const VectorXd y = set.error_um.col(e);
+    const double setting = best_setting(peer, set, x, y, rows_taken);
+    const VectorXd beta = solve(peer, standard(x), y.array() - y.mean(), setting);
+    analysis::TableTerms terms;
+    terms.error = set.errors[static_cast<std::size_t>(e)];
+    terms.offset_um = y.mean();
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      terms.terms.push_back({set.runs.front().sensors[static_cast<std::size_t>(sensors[static_cast<std::size_t>(c)])],
+                             beta(c) / standard.scale(c), standard.mean(c)});
+    }
+    out.push_back(std::move(terms));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/model.h"
 #include "core/analysis/training.h"
 
 namespace zerodrift::bench {
@@ -23,5 +24,8 @@ std::vector<Peer> all_peers();
 /// Fits on the samples `train` and predicts the samples `test`: one column an error.
 Eigen::MatrixXd predict(Peer peer, const analysis::TrainingSet& set, const std::vector<int>& train,
                         const std::vector<int>& test);
+
+/// The same fitted to all samples of one run, as a controller's table.
+std::vector<analysis::TableTerms> table_of(Peer peer, const analysis::TrainingSet& set);
 
 }  // namespace zerodrift::bench

@@ -1,12 +1,16 @@
-// Prints what remains of the virtual machine's errors under the table of a fit, seed by seed: the continuation of the
-// warm-up as the commissioning verifies it, and another day at other speeds. Usage: virtual_bench FIRST_SEED COUNT.
+// Prints what remains of the virtual machine's errors under the table of a fit, mean over seeds: the continuation of
+// the warm-up as the commissioning verifies it, and another day at other speeds; beside the plain peers of
+// analysis_bench. Usage: virtual_bench FIRST_SEED COUNT.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
-#include "core/analysis/clustering.h"
 #include "core/analysis/fit.h"
+#include "core/analysis/predict.h"
+#include "tests/bench/analysis/peers.h"
 #include "tests/bench/analysis/virtual_runs.h"
 
 namespace zerodrift::bench {
@@ -29,6 +33,7 @@ struct Totals {
   std::array<double, 3> worst{};
   std::array<double, 3> noise{};
   std::array<double, 3> removed{};
+  double of_largest = 0.0;  // removed of the largest error of any axis
   int count = 0;
   void add(const Remaining& r) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -37,13 +42,55 @@ struct Totals {
       noise[a] += r.noise_um[a];
       removed[a] += 100.0 * (1.0 - r.peak_um[a] / r.before_um[a]);
     }
+    of_largest += 100.0 * (1.0 - *std::max_element(r.peak_um.begin(), r.peak_um.end()) /
+                                     *std::max_element(r.before_um.begin(), r.before_um.end()));
     ++count;
   }
   void print(const char* what) const {
-    std::printf("    %-14s", what);
+    std::printf("    %-12s", what);
     for (std::size_t a = 0; a < 3; ++a) {
       std::printf("  %c peak %5.2f worst %5.2f noise %4.2f removed %5.1f %%", "XYZ"[a], peak[a] / count, worst[a],
                   noise[a] / count, removed[a] / count);
+    }
+    std::printf("  axes' mean %5.1f %%, of the largest %5.1f %%\n", (removed[0] + removed[1] + removed[2]) / 3 / count,
+                of_largest / count);
+  }
+};
+
+/// Coverage and half-width of the band on another day, which counts from its own first five minutes.
+struct BandTotals {
+  std::array<double, 3> covered{};
+  std::array<double, 3> least{1.0, 1.0, 1.0};
+  std::array<double, 3> half_width_um{};
+  int count = 0;
+  void add(const analysis::Model& model, const VirtualRun& run) {
+    const auto prediction = analysis::predict(model, run.recording, analysis::Zero::start);
+    if (!prediction) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto& p = prediction->errors[a];
+      const auto truth = [&](std::size_t row) {
+        return run.thermal_um[static_cast<std::size_t>(prediction->time_s[row])][a];
+      };
+      constexpr std::size_t first = 30;
+      double zero = 0.0;
+      for (std::size_t i = 0; i < first; ++i) zero += (truth(i) - p.value_um[i]) / first;
+      double inside = 0.0;
+      const auto rows = static_cast<double>(p.value_um.size());
+      for (std::size_t i = 0; i < p.value_um.size(); ++i) {
+        if (std::abs(truth(i) - p.value_um[i] - zero) <= p.half_width_um[i]) inside += 1.0 / rows;
+        half_width_um[a] += p.half_width_um[i] / rows;
+      }
+      covered[a] += inside;
+      least[a] = std::min(least[a], inside);
+    }
+    ++count;
+  }
+  void print() const {
+    if (count == 0) return;
+    std::printf("    band        ");
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::printf("  %c covers %5.1f %% (least %5.1f %%), half-width %4.1f um", "XYZ"[a], 100.0 * covered[a] / count,
+                  100.0 * least[a], half_width_um[a] / count);
     }
     std::printf("\n");
   }
@@ -51,12 +98,37 @@ struct Totals {
 
 struct Way {
   std::string name;
-  Totals same;
-  Totals other;
+  std::optional<Peer> peer{};
+  int most = 0;
+  Totals same{};
+  Totals other{};
+  BandTotals band{};
 };
 
+/// The table of one way on one run; our ways also add their band on another day.
+std::vector<analysis::TableTerms> fitted(Way& way, const VirtualRun& train, const VirtualRun& other) {
+  if (way.peer) {
+    const auto set = analysis::make_training({train.recording}, {});
+    return set ? table_of(*way.peer, *set) : std::vector<analysis::TableTerms>{};
+  }
+  analysis::FitOptions options;
+  options.method = analysis::Method::ridge;  // what a controller runs
+  options.max_sensors = way.most;
+  const auto model = analysis::fit({train.recording}, options);
+  if (!model) {
+    std::printf("%s: %s\n", way.name.c_str(), describe(model.error()).c_str());
+    return {};
+  }
+  way.band.add(*model, other);
+  return model->table;
+}
+
 void run(std::uint64_t first, int count, double filter_s, bool one_speed) {
-  std::vector<Way> ways{{"sensitive points", {}, {}}, {"spread 5", {}, {}}, {"auto", {}, {}}, {"all", {}, {}}};
+  std::vector<Way> ways;
+  for (const Peer peer : all_peers()) ways.push_back({name_of(peer), peer});
+  ways.push_back({"ours"});
+  ways.push_back({"ours, at most 12 sensors", {}, 12});
+  ways.push_back({"ours, at most 8 sensors", {}, 8});
   for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(count); ++seed) {
     machine::Machine machine(machine::build_machine(seed));
     machine.advance_to(2600.0);
@@ -69,41 +141,18 @@ void run(std::uint64_t first, int count, double filter_s, bool one_speed) {
     machine::Machine later(tomorrow);
     later.advance_to(1800.0);
     const VirtualRun other = run_machine(later, other_day(), 120.0, seed + 900);
-    analysis::ClusterOptions cluster_options;
-    cluster_options.suggest = cluster_options.stability = false;
-    const auto clusters = analysis::cluster(train.recording, cluster_options);
-    if (!clusters) continue;
-    const auto& spread = clusters->spread_order;
     for (Way& way : ways) {
-      analysis::FitOptions options;
-      options.method = analysis::Method::ridge;
-      if (way.name == "sensitive points") options.sensors = clusters->sensitive_points;
-      if (way.name == "spread 5") options.sensors.assign(spread.begin(), spread.begin() + 5);
-      if (way.name == "all") options.sensors = spread;
-      const auto model = analysis::fit({train.recording}, options);
-      if (!model) {
-        std::printf("seed %llu, %s: %s\n", static_cast<unsigned long long>(seed), way.name.c_str(),
-                    describe(model.error()).c_str());
-        continue;
-      }
-      const Remaining a = run_table(model->table, same, filter_s, false);
-      const Remaining b = run_table(model->table, other, filter_s, true);
-      way.same.add(a);
-      way.other.add(b);
-      std::printf(
-          "seed %llu %-18s Z %5.2f of %4.1f (noise %4.2f), other day %5.2f of %4.1f; X %5.2f %5.2f  Y %5.2f %5.2f;",
-          static_cast<unsigned long long>(seed), way.name.c_str(), a.peak_um[2], a.before_um[2], a.noise_um[2],
-          b.peak_um[2], b.before_um[2], a.peak_um[0], b.peak_um[0], a.peak_um[1], b.peak_um[1]);
-      for (const auto& s : model->sensors) {
-        if (model->sensors.size() <= 8) std::printf(" %s", s.c_str());
-      }
-      std::printf("\n");
+      const auto table = fitted(way, train, other);
+      if (table.empty()) continue;
+      way.same.add(run_table(table, same, filter_s, false));
+      way.other.add(run_table(table, other, filter_s, true));
     }
   }
   for (const Way& way : ways) {
     std::printf("%s\n", way.name.c_str());
     way.same.print("continued");
     way.other.print("another day");
+    way.band.print();
   }
 }
 

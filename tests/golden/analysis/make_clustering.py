@@ -9,6 +9,7 @@ from sklearn.cluster import KMeans
 from sklearn.decomposition import PCA
 from sklearn.linear_model import LinearRegression, Ridge
 from sklearn.metrics import adjusted_rand_score, silhouette_samples
+from sklearn.metrics.pairwise import euclidean_distances
 
 rng = np.random.default_rng(20)
 hours = np.linspace(0, 4, 12)
@@ -19,6 +20,8 @@ for tau, rise in ((0.3, 12), (0.8, 8), (1.6, 5), (3.0, 3)):
 items = np.round(np.array(series), 4)
 start = [0, 3, 6, 9]
 fit = KMeans(n_clusters=4, init=items[start], n_init=1, algorithm="lloyd", tol=0, max_iter=1000).fit(items)
+square = euclidean_distances(items, items[:1], squared=True).ravel()  # k-means++ draws the second centre by these
+best = KMeans(n_clusters=5, init="k-means++", n_init=400, tol=0, max_iter=1000, random_state=1).fit(items)
 links = linkage(items, "average")
 pca = PCA().fit(items)
 error = np.round(2.0 * items[0] - 1.5 * items[5] + 0.1 * rng.standard_normal(12), 4)
@@ -34,6 +37,8 @@ print(json.dumps({
     "made_by": "make_clustering.py, scikit-learn 1.2.1, scipy 1.10.1, numpy 1.24.2",
     "items": items.tolist(), "initial_items": start,
     "labels": fit.labels_.tolist(), "inertia": fit.inertia_,
+    "second_centre_probability": (square / square.sum()).tolist(),
+    "best_of_five": best.labels_.tolist(), "best_of_five_inertia": best.inertia_,
     "silhouettes": silhouette_samples(items, fit.labels_).tolist(),
     "merges": [[int(min(a, b)), int(max(a, b)), h, int(n)] for a, b, h, n in links],
     "explained": pca.explained_variance_ratio_[:3].tolist(),
