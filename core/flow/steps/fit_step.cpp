@@ -110,7 +110,11 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
 Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run) {
   ZD_TRY(const Input warmup, need(job, "fit", "warmup"));
   ZD_TRY(const Input sensors, need(job, "fit", "sensors"));
-  ZD_TRY(const auto profile, profile_of(job, "fit"));
+  ZD_TRY(const auto machine, job.latest("machine"));
+  controller::Profile profile;
+  if (machine) {
+    ZD_TRY(profile, profile_of(job, "fit"));
+  }
   ZD_TRY(const auto latest, job.latest("model"));
   if (!latest) return fail(ErrorCode::step_blocked, {{"step", "fit"}, {"needs", "model"}});
   ZD_TRY(const auto old, model_of(*latest));
