@@ -25,11 +25,10 @@ Axes Compensator::asked_um(const CompensationTable& table, const Motion& motion,
 
 void Compensator::advance(double duration_s, const Motion& motion, const TableTemperatures& temperature_C) {
   const Axes asked = asked_um(m_table, motion, temperature_C);
-  Axes rate{};
-  for (const AxisRecord& record : m_table) rate[record.axis] = record.rate_um_s;
+  for (const AxisRecord& record : m_table) m_rate_um_s[record.axis] = record.rate_um_s;
   const bool silent = m_ramp == 0.0;  // nothing is applied: the ramp alone makes the beginning smooth
   for (int axis = 0; axis < linear_axes; ++axis) {
-    const double reach = silent ? largest_compensation_um * 2 : rate[axis] * duration_s;
+    const double reach = silent ? largest_compensation_um * 2 : m_rate_um_s[axis] * duration_s;
     m_limited_um[axis] += std::clamp(asked[axis] - m_limited_um[axis], -reach, reach);
   }
   m_ramp = std::clamp(m_ramp + (m_on ? duration_s : -duration_s) / ramp_s, 0.0, 1.0);

@@ -46,6 +46,7 @@ class Compensator {
   bool m_on = false;
   double m_ramp = 0.0;
   Axes m_limited_um{};
+  Axes m_rate_um_s{};  // of the last table that had the axis: an axis that left the table returns to 0 at it
   Axes m_offset_um{};
   double m_offset_fall_um_s = 0.0;  // while it goes to 0
   OffsetState m_offset_state = OffsetState::none;

@@ -128,12 +128,36 @@ class Loop {
            beats ? m_machine.read_values({"host_offset_um", "heartbeat"}) : m_machine.read_values({"host_offset_um"}));
     if (beats) ZD_CHECK(hear(held.at("heartbeat").front()));
     const auto& values = held.at("host_offset_um");
-    m_follower.start_from({values.at(0), values.at(1), values.at(2)});
+    const std::array<double, 3> offset_um{values.at(0), values.at(1), values.at(2)};
+    watch_applied(sample, offset_um, report);
+    m_follower.start_from(offset_um);
+    auto reasons = std::move(report.output.reasons);
     report.output = m_follower.step(sample.machine_time_s, channels, sample.axes);
+    report.output.reasons.insert(report.output.reasons.end(), reasons.begin(), reasons.end());
     for (std::size_t i = 0; i < 3; ++i) {
       m_summary.largest_offset_um[i] = std::max(m_summary.largest_offset_um[i], std::abs(report.output.offset_um[i]));
     }
     return m_machine.write_host_offset(report.output.offset_um);
+  }
+
+  /// What the controller applies must be what it was given: anything else is another compensation, or a wrong map.
+  void watch_applied(const acquisition::MachineSample& sample, const std::array<double, 3>& offset_um,
+                     CompensatorTurn& report) {
+    std::size_t worst = 0;
+    const auto beside_um = [&](std::size_t axis) { return std::abs(sample.applied_um[axis] - offset_um[axis]); };
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+      if (beside_um(axis) > beside_um(worst)) worst = axis;
+    }
+    if (!(beside_um(worst) > m_options.foreign_um)) {
+      m_foreign_since_s.reset();
+      return;
+    }
+    if (!m_foreign_since_s) m_foreign_since_s = sample.machine_time_s;
+    if (sample.machine_time_s - *m_foreign_since_s < m_options.foreign_s) return;
+    report.foreign = true;
+    report.output.reasons.push_back(
+        fmt::format("the controller applies {:.1f} um in {} where {:.1f} um was written: something else compensates",
+                    sample.applied_um[worst], "XYZ"[worst], offset_um[worst]));
   }
 
   /// A controller that answers but no longer beats has stopped: what it says is old, and it applies what it likes.
@@ -169,6 +193,7 @@ class Loop {
   SystemClock m_clock;
   CompensatorSummary m_summary;
   double m_last_good_s = 0.0;
+  std::optional<double> m_foreign_since_s;  // machine time
   std::optional<double> m_beat;  // the controller's, as last read
   double m_beat_s = 0.0;         // when it changed
   bool m_beats = false;          // it has been seen to change

@@ -24,6 +24,8 @@ struct HostCompensatorOptions {
   std::optional<double> duration_s;  // host seconds; none: until stopped
   double give_up_s = 60.0;           // host seconds without the machine before it ends with the link's error
   double silence_s = 3.0;  // host seconds its heartbeat may stand still; a controller that never beats is not watched
+  double foreign_um = 2.0;  // applied beside what is written, for foreign_s of the machine's time: something else moves
+  double foreign_s = 60.0;
   compensation::FollowerOptions follower;
   compensation::Predictor predictor;  // a model that remembers; none: the table predicts
 };
@@ -37,6 +39,7 @@ struct CompensatorTurn {
   std::array<double, 3> applied_um{};  // as the controller tells
   bool switch_on = true;               // off: nothing was written (R4)
   bool link_lost = false;
+  bool foreign = false;  // the controller applies something else than what was written
 };
 
 /// How late turns began against their schedule, in bins of 1 ms up to a second: a figure for days in constant memory.
@@ -63,7 +66,8 @@ struct CompensatorSummary {
   std::array<double, 3> largest_offset_um{};  // absolute
 };
 
-/// Runs until stopped, or for the duration. data_does_not_fit when the controller's own table already compensates.
+/// Runs until stopped, or for the duration. data_does_not_fit when the controller's own table already compensates, or
+/// when it applies something although nothing is written.
 Result<CompensatorSummary> run_host_compensator(ModbusMachine& machine, const compensation::Table& table,
                                                 const HostCompensatorOptions& options, const TaskContext& context,
                                                 const std::function<void(const CompensatorTurn&)>& observer = {});

@@ -25,6 +25,7 @@ using nlohmann::json;
 namespace {
 
 const std::string elsewhere = "the machine is not at the measuring position";
+const std::string no_answer = "the controller does not answer";
 
 /// Measures on a thread of its own, with devices of its own: a camera needs longer than a turn of the compensator.
 class Watch {
@@ -46,7 +47,9 @@ class Watch {
     m_there = stands_there(turn.turn);
     if (!m_there) ++m_moves;
     turn.left = std::exchange(m_sample, std::nullopt);
-    turn.not_measured = m_thread.joinable() && !m_there ? elsewhere : m_why;
+    turn.not_measured = turn.turn.link_lost                  ? no_answer
+                        : m_thread.joinable() && !m_there ? elsewhere
+                                                          : m_why;
     if (m_there) m_arrived.notify_all();
   }
 

@@ -123,11 +123,13 @@ void CompensatorPresenter::drain() {
     m_state.notMeasured = bench().inWords(live.not_measured);
     m_state.reasons.clear();
     for (const auto& reason : turn.output.reasons) m_state.reasons << bench().inWords(reason);
-    m_state.good = !turn.link_lost && turn.switch_on && turn.output.mode == compensation::FollowerMode::following;
+    m_state.good = !turn.link_lost && turn.switch_on && !turn.foreign &&
+                   turn.output.mode == compensation::FollowerMode::following;
     if (turn.link_lost) {
       ++m_state.lostTurns;
       m_state.doing = tr("no answer");
       m_state.reasons << tr("The controller does not answer; its watchdog takes the offset out meanwhile.");
+      m_state.axes = {};
       continue;
     }
     m_state.doing = turn.switch_on ? wordsOf(turn.output.mode) : tr("switch is OFF");

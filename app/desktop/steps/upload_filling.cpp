@@ -77,7 +77,7 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
-  state.written = isWritten();
+  state.written = isWritten() && !m_correction;  // a correction is another table, not written yet
   const json record = body.value("record", json::object());
   if (!m_sign) state.sign = sign_of(body.value("sign_check", json()));
   if (m_preview && (!state.written || m_correction)) return;
@@ -86,7 +86,7 @@ void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body)
   state.oldVersion = record.value("old_sequence", 0);
   state.largestChange_um = body.value("largest_change_um", std::nan(""));
   state.registers = body.value("registers", std::nan(""));
-  if (m_steps.empty() || !m_dryRunAt.isNull())
+  if (!m_correction && (m_steps.empty() || !m_dryRunAt.isNull()))
     state.stages = stages_of(steps_from(body.value("states", json::array())), false, false);
 }
 

@@ -246,6 +246,8 @@ void UploadPresenter::writeCorrection(const compensation::Table& table, Done don
   m_correction = table;
   askAndWrite([this, done = std::move(done)](bool good) {
     m_correction.reset();
+    m_preview.reset();  // a correction that was not agreed to is not what this page shows
+    refresh();
     if (done) done(good);
   });
 }
