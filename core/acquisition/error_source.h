@@ -2,6 +2,7 @@
 // Where the errors of a run come from: camera and target (V1 to V4), displacement probes (V5).
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct ErrorSample {
   std::array<double, 3> sigma_um;     // standard uncertainty of each
   std::vector<std::string> problems;  // why a direction is missing, one short reason each
   std::optional<Error> remark = {};   // what was seen and overcome: the numbers hold
+  /// The moment the errors belong to, as the mean of the pictures' own; nothing: the middle of the call.
+  std::optional<std::chrono::steady_clock::time_point> seen = {};
 };
 
 class ErrorSource {

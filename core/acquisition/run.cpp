@@ -191,15 +191,22 @@ Status Run::measure() {
 }
 
 Status Run::measure_here() {
+  using WallClock = std::chrono::steady_clock;
   ZD_TRY(const MachineSample before, read());
+  const WallClock::time_point begin = WallClock::now();
   m_log.commit_before_waiting(m_options.commit_period_s);  // a camera may take its time
   const Result<ErrorSample> measured = m_errors.measure(m_context);
   if (!measured && measured.error().code == ErrorCode::cancelled) return cancelled();
   note_measurement(measured);
   ZD_TRY(const MachineSample after, read());
-  // Frames are averaged over the measurement: the row belongs to its middle.
+  const WallClock::duration all = WallClock::now() - begin;
+  // The row belongs to the moment of the pictures, not to that at which they were measured.
+  double part = 0.5;
+  if (measured && measured->seen && all.count() > 0) {
+    part = std::clamp(Seconds(*measured->seen - begin) / Seconds(all), 0.0, 1.0);
+  }
   const bool whole = after.machine_time_s >= before.machine_time_s;
-  ZD_CHECK(keep(whole ? midway(before, after) : after, measured ? &*measured : nullptr, true));
+  ZD_CHECK(keep(whole ? between(before, after, part) : after, measured ? &*measured : nullptr, true));
   // A run whose first measurement fails has nothing to stand on; later the source may come back.
   const int allowed = m_summary.measurements == 0 ? 1 : m_options.failed_measurements;
   if (m_failed_measurements >= allowed) return fail(measured.error());

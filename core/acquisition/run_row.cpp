@@ -47,15 +47,15 @@ std::vector<double> RowLayout::row(const MachineSample& sample, const ErrorSampl
   return values;
 }
 
-MachineSample midway(const MachineSample& before, const MachineSample& after) {
-  const auto mean = [](double a, double b) { return 0.5 * (a + b); };
+MachineSample between(const MachineSample& before, const MachineSample& after, double part) {
+  const auto at = [part](double a, double b) { return a + part * (b - a); };
   MachineSample middle = after;
-  middle.machine_time_s = mean(before.machine_time_s, after.machine_time_s);
-  middle.ambient_C = mean(before.ambient_C, after.ambient_C);
+  middle.machine_time_s = at(before.machine_time_s, after.machine_time_s);
+  middle.ambient_C = at(before.ambient_C, after.ambient_C);
   for (std::size_t i = 0; i < std::min(before.temperature_C.size(), after.temperature_C.size()); ++i) {
-    middle.temperature_C[i] = mean(before.temperature_C[i], after.temperature_C[i]);
+    middle.temperature_C[i] = at(before.temperature_C[i], after.temperature_C[i]);
   }
-  for (std::size_t i = 0; i < 3; ++i) middle.applied_um[i] = mean(before.applied_um[i], after.applied_um[i]);
+  for (std::size_t i = 0; i < 3; ++i) middle.applied_um[i] = at(before.applied_um[i], after.applied_um[i]);
   return middle;
 }
 

@@ -27,7 +27,7 @@ class RowLayout {
   bool m_with_compensation;
 };
 
-/// The state half way between two readings; switches and inputs as in the later one.
-MachineSample midway(const MachineSample& before, const MachineSample& after);
+/// The state between two readings, `part` (0 .. 1) of the way from the first; switches and inputs as in the later one.
+MachineSample between(const MachineSample& before, const MachineSample& after, double part);
 
 }  // namespace zerodrift::acquisition

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,9 @@ struct CalibrationLimits {
 /// Two views: similarity as in the published method. Three or more: full 2x2 by least squares.
 /// Errors: not_enough_data, calibration_refused with the reason.
 Result<Calibration> calibrate(std::vector<CalibrationView> views, const CalibrationLimits& limits = {});
+
+/// Which view the others predict worst; nothing below five views, which cannot tell.
+std::optional<std::size_t> oddest_view(const std::vector<CalibrationView>& views);
 
 /// A position to drive to, relative to the place of the template, always reached from the same side (backlash).
 struct ProposedPosition {

@@ -60,6 +60,31 @@ Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Ta
   return seen;
 }
 
+// A picture may be spoilt by something that is over a moment later: a position where the target is refused gets a
+// second look.
+Result<Seen> see_patiently(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
+                           const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
+  Result<Seen> seen = see(machine, camera, target, plan, at, context);
+  if (seen || seen.error().code != ErrorCode::target_refused || context.cancelled()) return seen;
+  return see(machine, camera, target, plan, at, context);
+}
+
+// The positions measured with what their pictures teach together: the pixels that stand still taken out.
+CalibrationOutcome taught(const Target& target, const std::vector<Seen>& all, std::vector<CalibrationView>& views) {
+  CalibrationOutcome out{{}, target, {}};
+  for (const Seen& seen : all) out.frames.push_back(seen.frames.back());
+  out.target = target.learned_from(out.frames);
+  for (const Seen& seen : all) {
+    CalibrationView view = seen.view;
+    if (const MeanLocation mean = located(out.target, seen.frames); mean.location.ok) {
+      view.x_px = mean.location.x_px;
+      view.y_px = mean.location.y_px;
+    }
+    views.push_back(view);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
@@ -70,30 +95,27 @@ Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, cons
   std::vector<Seen> all;
   for (const ProposedPosition& at : positions) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);
-    ZD_TRY(Seen seen, see(machine, camera, target, plan, at, context));
+    ZD_TRY(Seen seen, see_patiently(machine, camera, target, plan, at, context));
     all.push_back(std::move(seen));
     const int done = static_cast<int>(all.size());
     if (watcher) watcher(done, count, all.back().frames.back(), target.locate(all.back().frames.back()));
     context.progress(static_cast<double>(done) / count, "calibration");
   }
+  std::vector<CalibrationView> views;
+  CalibrationOutcome out = taught(target, all, views);
+  Result<Calibration> calibration = calibrate(views);
+  // One view that does not fit the others may be a picture of another moment: it is taken anew before all is refused.
+  const std::optional<std::size_t> odd = oddest_view(views);
+  if (!calibration && calibration.error().code == ErrorCode::calibration_refused && odd) {
+    ZD_TRY(all[*odd], see_patiently(machine, camera, target, plan, positions[*odd], context));
+    views.clear();
+    out = taught(target, all, views);
+    calibration = calibrate(std::move(views));
+  }
   ZD_CHECK(machine.move_to(place(plan, positions[0].approach_x_mm, positions[0].approach_y_mm)));
   ZD_CHECK(machine.move_to(place(plan, 0.0, 0.0)));
-
-  // With the pixels that stand still taken out, the positions are measured again on the stored frames.
-  std::vector<GrayImage> frames;
-  for (const Seen& seen : all) frames.push_back(seen.frames.back());
-  const Target masked = target.learned_from(frames);
-  std::vector<CalibrationView> views;
-  for (const Seen& seen : all) {
-    CalibrationView view = seen.view;
-    if (const MeanLocation mean = located(masked, seen.frames); mean.location.ok) {
-      view.x_px = mean.location.x_px;
-      view.y_px = mean.location.y_px;
-    }
-    views.push_back(view);
-  }
-  ZD_TRY(Calibration calibration, calibrate(std::move(views)));
-  return CalibrationOutcome{std::move(calibration), masked, std::move(frames)};
+  ZD_TRY(out.calibration, std::move(calibration));
+  return out;
 }
 
 }  // namespace zerodrift::vision

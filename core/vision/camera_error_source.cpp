@@ -51,13 +51,17 @@ Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskConte
   ViewState state;
   state.id = view.id;
   std::vector<Location> locations;
+  const Camera::Time begin = std::chrono::steady_clock::now();
+  Camera::Time::duration since_begin{0};
   Camera::Time after = std::chrono::steady_clock::now() + m_options.settle;
   for (int k = 0; k < m_options.frames; ++k) {
     ZD_TRY(state.frame, view.camera->fresh_frame(after, m_options.frame_timeout, context.stop));
     // Only the first frame can have been on its way when the machine came to stand; the others follow it.
     after = state.frame->arrived - std::chrono::milliseconds(1);
+    since_begin += state.frame->arrived - begin;
     locations.push_back(locate_against(*view.target, view.references, state.frame->image, &state.references));
   }
+  state.seen = begin + since_begin / std::max(m_options.frames, 1);
   for (const Location& one : locations) {
     if (one.ok) state.least_share = std::min(state.least_share, one.inlier_share);
   }
@@ -103,6 +107,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
   acquisition::ErrorSample sample;
   std::optional<Error> dead;
   std::size_t dead_count = 0;
+  std::vector<Camera::Time> seen;
   auto looks = look_all(context);
   for (std::size_t k = 0; k < m_views.size(); ++k) {
     const ErrorView& view = m_views[k];
@@ -124,6 +129,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
       since_zero.sigma_x_px = std::hypot(since_zero.sigma_x_px, m_zero[k].sigma_x_px);
       since_zero.sigma_y_px = std::hypot(since_zero.sigma_y_px, m_zero[k].sigma_y_px);
       state.error = view.calibration.to_um(since_zero);
+      seen.push_back(state.seen);
       combined[view.axes[0]].add(state.error.x_um, state.error.sigma_x_um);
       combined[view.axes[1]].add(state.error.y_um, state.error.sigma_y_um);
       if (state.least_share < covered_share) {
@@ -141,9 +147,14 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
   }
   if (dead && dead_count == m_views.size()) return fail(*dead);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool seen = combined[axis].weight > 0.0;
-    sample.error_um[axis] = seen ? combined[axis].sum / combined[axis].weight : nan_value;
-    sample.sigma_um[axis] = seen ? 1.0 / std::sqrt(combined[axis].weight) : nan_value;
+    const bool measured = combined[axis].weight > 0.0;
+    sample.error_um[axis] = measured ? combined[axis].sum / combined[axis].weight : nan_value;
+    sample.sigma_um[axis] = measured ? 1.0 / std::sqrt(combined[axis].weight) : nan_value;
+  }
+  if (!seen.empty()) {
+    Camera::Time::duration sum{0};
+    for (const Camera::Time& one : seen) sum += one - seen.front();
+    sample.seen = seen.front() + sum / static_cast<int>(seen.size());
   }
   return sample;
 }

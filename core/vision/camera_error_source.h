@@ -38,6 +38,7 @@ struct ViewState {
   std::shared_ptr<const CameraFrame> frame;
   Location location;                 // of the mean, camera motion taken off
   std::vector<Location> references;  // in the last frame
+  Camera::Time seen{};               // mean arrival of the frames
   int good_frames = 0;
   int refused_frames = 0;
   double least_share = 1.0;   // of the target's pixels measured, over the good frames

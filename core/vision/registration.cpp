@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "core/vision/frame_patch.h"
@@ -28,7 +29,10 @@ constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nea
 constexpr double glare_share = 0.005;   // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
-constexpr int largest_rounds = 5;
+constexpr int largest_rounds = 6;
+constexpr float seen_through = 0.02f;
+constexpr int within_outline_px = 8;
+constexpr double outline_share = 0.7;  // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
 double fit_of(const Registration& r) {
@@ -78,6 +82,31 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   return true;
 }
 
+// The source with what lies well within its outline left out; nothing where that would be lost too much, or where
+// there is no outline.
+std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model) {
+  if (!source.backdrop || model.shown.empty()) return std::nullopt;
+  const FloatImage& clear = source.backdrop->clear;
+  cv::Mat near(clear.height, clear.width, CV_8U);
+  for (std::size_t k = 0; k < clear.values.size(); ++k) near.data[k] = clear.values[k] > seen_through ? 1 : 0;
+  const int side = 2 * within_outline_px + 1;
+  cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+  TemplateSource out = source;
+  for (int y = 0; y < source.region.height; ++y) {
+    for (int x = 0; x < source.region.width; ++x) {
+      const bool keep = near.at<std::uint8_t>(y + source.margin_px, x + source.margin_px) != 0;
+      out.usable[static_cast<std::size_t>(y) * source.region.width + x] &= keep ? 1 : 0;
+    }
+  }
+  double kept = 0.0, all = 0.0;
+  for (int k = 0; k < model.pixels; ++k) {
+    const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
+    all += energy;
+    if (out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]]) kept += energy;
+  }
+  return kept > outline_share * all ? std::optional(std::move(out)) : std::nullopt;
+}
+
 }  // namespace
 
 // The part of a frame at one place, made anew only when another blur is asked for.
@@ -108,6 +137,8 @@ Registrar::Registrar(TemplateSource source)
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
   find_noise_growth(m_model);
+  m_outline = outline_of(m_source, m_model);
+  if (m_outline) m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
 }
 
 Region Registrar::patch_at(int dx_px, int dy_px) const {
@@ -165,6 +196,12 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   Registration out;
   bool field_helped = false;
   bool on_trial = false;
+  const TemplateSource* source = &m_source;
+  const auto remodel = [&] {
+    const bool plain =
+        source != &m_source && setup.template_blur == m_model.blur_px2 && setup.frame_blur == m_model.blur_px2;
+    blurred_model = plain ? *m_outline_model : make_template_model(*source, setup.template_blur, setup.frame_blur);
+  };
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = blurred_model ? *blurred_model : m_model;
     std::optional<SmoothField> field;
@@ -177,6 +214,15 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
       continue;
     }
     const Registration found = solver.fit(model.pixels);
+    if (m_outline && source == &m_source && found.structure > doubtful_structure) {
+      // What disagrees may be what is reflected within the outline: from here on it does without.
+      source = &*m_outline;
+      match_blur(solver.extra_blur_px2(), setup);
+      remodel();
+      solver.hand_over(start);
+      start.linear.setIdentity();
+      continue;
+    }
     const bool field_is_new = setup.with_field && out.converged && !field_helped;
     if (field_is_new && found.structure > out.structure) break;  // it explained nothing
     field_helped = setup.with_field;
@@ -196,8 +242,8 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
     if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
     solver.tell_uncertainty(out);
     if (!blurs && next.with_field == setup.with_field) break;
-    if (blurs) blurred_model = make_template_model(m_source, next.template_blur, next.frame_blur);
     setup = next;
+    if (blurs) remodel();
   }
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;

@@ -62,6 +62,10 @@ class Registrar {
 
   TemplateSource m_source;
   TemplateModel m_model;  // with the smallest blur
+  // Of a target that hardly shows more than its outline: with the outline alone. What a ball shows within it is the
+  // reflection of a lamp, which may have moved.
+  std::optional<TemplateSource> m_outline;
+  std::optional<TemplateModel> m_outline_model;
 };
 
 }  // namespace zerodrift::vision

@@ -127,6 +127,24 @@ void RegistrationSolver::sample(int count) {
     m_pixel_state[k] = known ? m_patch.state[m_place[k]] : std::uint8_t{FramePatch::outside};
   }
   m_patch.spline.sample(m_place.data(), m_fx.data(), m_fy.data(), count, m_frame.data());
+  look_behind(count);
+}
+
+// The model's values where the target lets through what now stands behind it.
+void RegistrationSolver::look_behind(int count) {
+  const int width = m_patch.spline.width();
+  const float left = static_cast<float>(m_model.region.x + m_whole_px(0)) - patch_margin_px;
+  const float top = static_cast<float>(m_model.region.y + m_whole_px(1)) - patch_margin_px;
+  for (std::size_t i = 0; i < m_model.shown.size() && m_model.shown[i] < count; ++i) {
+    const int k = m_model.shown[i];
+    if (m_pixel_state[k] == FramePatch::outside) continue;
+    const float x = left + static_cast<float>(m_place[k] % width) + m_fx[k];
+    const float y = top + static_cast<float>(m_place[k] / width) + m_fy[k];
+    const float value = m_model.value[k] + m_model.clear[i] * (m_model.backdrop->at(x, y) - m_model.behind[i]);
+    m_rows(gain, k) = value;
+    m_rows(gain_x, k) = value * m_model.x[k] / static_cast<float>(length_px);
+    m_rows(gain_y, k) = value * m_model.y[k] / static_cast<float>(length_px);
+  }
 }
 
 void RegistrationSolver::predict(int count) {

@@ -67,6 +67,7 @@ class RegistrationSolver {
   void fill_row(int k);
   Normal normal_of(const float* rows, const float* weights, int begin, int end) const;
   void sample(int count);
+  void look_behind(int count);
   void predict(int count);
   void find_noise_model(int count);
   double scale_of_errors(int count);

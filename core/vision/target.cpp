@@ -14,7 +14,6 @@ namespace zerodrift::vision {
 namespace {
 
 constexpr int smallest_region_px = 24;
-constexpr int template_margin_px = 12;
 constexpr int candidates_refined = 2;
 constexpr double rival_merit = 0.75;           // of the best glance: the candidate is refined as well, unless
 constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
@@ -24,6 +23,8 @@ constexpr double rival_correlation = 0.3;   // a candidate further behind the be
 constexpr double clear_correlation = 0.85;  // when the best is above this
 constexpr double sure_correlation = 0.98;   // of the best candidate with its rivals far behind: they need no look
 constexpr double sure_lead = 0.15;
+// Of the best glance: targets under glare, chips or strong blur have 0.9 and more, other patterns seldom 0.8.
+constexpr double least_glance_correlation = 0.8;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
 
@@ -111,27 +112,37 @@ struct Target::Impl {
   Region region;
   PixelPoint point;
   std::vector<std::uint8_t> mask;
+  std::shared_ptr<const Backdrop> backdrop;
   CoarseSearch coarse;
   Registrar fine;
 
-  Impl(GrayImage picture, const Region& at, const PixelPoint& named, std::vector<std::uint8_t> usable)
+  Impl(GrayImage picture, const Region& at, const PixelPoint& named, std::vector<std::uint8_t> usable,
+       std::shared_ptr<const Backdrop> behind = nullptr)
       : image(std::move(picture)),
         region(at),
         point(named),
         mask(std::move(usable)),
+        backdrop(std::move(behind)),
         coarse(image, at),
         fine(source_of(*this)) {}
 
-  // Candidates that a glance finds best, best first.
+  // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
     const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
     if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
     std::vector<std::pair<double, Candidate>> rated;
+    double best_merit = -1.0;
+    double best_correlation = 1.0;  // if no glance converges, the fine registration is tried nevertheless
     const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
     for (const Candidate& one : candidates) {
       if (one.correlation < candidates.front().correlation - behind) break;
-      rated.emplace_back(merit(fine.glance(frame, one.dx_px, one.dy_px)), one);
+      const Registration seen = fine.glance(frame, one.dx_px, one.dy_px);
+      rated.emplace_back(merit(seen), one);
+      if (merit(seen) <= best_merit) continue;
+      best_merit = merit(seen);
+      best_correlation = seen.correlation;
     }
+    if (best_correlation < least_glance_correlation) return {};
     std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Candidate> out;
     for (std::size_t k = 0; k < std::min<std::size_t>(rated.size(), candidates_refined); ++k) {
@@ -149,6 +160,7 @@ struct Target::Impl {
     source.region = at;
     source.point = {self.point.x_px - at.x, self.point.y_px - at.y};
     source.usable = self.mask;
+    source.backdrop = self.backdrop;
     return source;
   }
 };
@@ -202,7 +214,9 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
 
   Registration best;
   double best_coarse = candidates.front().correlation;
-  for (const Candidate& one : m_impl->likeliest(frame, candidates)) {
+  const std::vector<Candidate> likeliest = m_impl->likeliest(frame, candidates);
+  if (likeliest.empty()) return refuse(best_coarse < 0.5 ? Refusal::missing : Refusal::wrong_target);
+  for (const Candidate& one : likeliest) {
     const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
     if (merit(found) > merit(best)) {
       best = found;
@@ -234,18 +248,35 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   return out;
 }
 
+// Twice: the second time from where the target is found with what the first time taught.
+Target Target::learned_backdrop(const std::vector<GrayImage>& frames) const {
+  Target out = *this;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<RegisteredFrame> registered;
+    for (const GrayImage& frame : frames) {
+      const Location at = out.locate(frame);
+      if (at.ok) registered.push_back({&frame, {at.x_px, at.y_px}, at.linear, at.lens});
+    }
+    const auto backdrop = learn_backdrop(m_impl->image, m_impl->region, m_impl->point, registered);
+    if (!backdrop) break;
+    out = with_backdrop(backdrop);
+  }
+  return out;
+}
+
 Target Target::learned_from(const std::vector<GrayImage>& frames) const {
+  const Target with = learned_backdrop(frames);
   std::vector<std::vector<float>> maps;
   int moved = 0;
   for (const GrayImage& frame : frames) {
     std::vector<float> map;
-    const Location at = search(frame, &map);
+    const Location at = with.search(frame, &map);
     if (!at.ok) continue;
     maps.push_back(std::move(map));
     moved += std::hypot(at.x_px, at.y_px) > least_move_px;
   }
-  Target masked = *this;
-  if (moved >= 3) masked = with_mask(travelling_pixels(m_impl->region, maps));
+  Target masked = with;
+  if (moved >= 3) masked = with.with_mask(travelling_pixels(m_impl->region, maps));
   std::vector<LensTerm> lenses;
   for (const GrayImage& frame : frames) {
     const Location at = masked.locate(frame);
@@ -262,12 +293,25 @@ Target Target::with_mask(const std::vector<std::uint8_t>& mask) const {
   if (mask.size() != m_impl->mask.size()) return *this;
   std::vector<std::uint8_t> both = m_impl->mask;
   for (std::size_t k = 0; k < both.size(); ++k) both[k] = both[k] && mask[k];
-  auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(both));
+  auto impl =
+      std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(both), m_impl->backdrop);
   // A mask that leaves hardly anything was learned from frames that do not show the target's motion.
   const double kept = static_cast<double>(impl->fine.model().pixels) / std::max(m_impl->fine.model().pixels, 1);
   return kept > 0.4 ? Target(std::move(impl), m_lens) : *this;
 }
 
+Target Target::with_backdrop(std::shared_ptr<const Backdrop> backdrop) const {
+  const bool fits = !backdrop || (backdrop->clear.width == m_impl->region.width + 2 * template_margin_px &&
+                                  backdrop->clear.height == m_impl->region.height + 2 * template_margin_px);
+  if (!fits) return *this;
+  return Target(
+      std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, m_impl->mask, std::move(backdrop)),
+      m_lens);
+}
+
+const std::shared_ptr<const Backdrop>& Target::backdrop() const {
+  return m_impl->backdrop;
+}
 const LensTerm& Target::lens() const {
   return m_lens;
 }

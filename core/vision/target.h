@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/vision/backdrop.h"
 #include "core/vision/image.h"
 #include "core/vision/lens_term.h"
 
@@ -48,8 +49,9 @@ class Target {
 
   Location locate(const GrayImage& frame) const;
 
-  /// The same target, having learned from frames in which it was moved (the calibration's): which pixels of its region
-  /// do not travel with it, and the lens. Frames in which it is not found are left out; fewer than three teach no mask.
+  /// The same target, having learned from frames in which it was moved (the calibration's): what stands behind it,
+  /// which pixels of its region do not travel with it, and the lens. Frames in which it is not found are left out;
+  /// fewer than three teach no mask.
   Target learned_from(const std::vector<GrayImage>& frames) const;
   /// The same with what was measured of the lens.
   Target with_lens(const LensTerm& lens) const;
@@ -57,7 +59,11 @@ class Target {
   /// The same target with a stored mask (one byte a pixel of the region); itself if the mask does not suit.
   Target with_mask(const std::vector<std::uint8_t>& mask) const;
 
+  /// The same target with what stands behind it; null forgets it.
+  Target with_backdrop(std::shared_ptr<const Backdrop> backdrop) const;
+
   const LensTerm& lens() const;
+  const std::shared_ptr<const Backdrop>& backdrop() const;
   const Region& region() const;
   const PixelPoint& point() const;
   const GrayImage& image() const;
@@ -66,6 +72,7 @@ class Target {
 
  private:
   struct Impl;
+  Target learned_backdrop(const std::vector<GrayImage>& frames) const;
   Location search(const GrayImage& frame, std::vector<float>* residual_map) const;
   explicit Target(std::shared_ptr<const Impl> impl, LensTerm lens = {}) : m_impl(std::move(impl)), m_lens(lens) {}
   std::shared_ptr<const Impl> m_impl;

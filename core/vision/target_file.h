@@ -1,7 +1,8 @@
 #pragma once
-// The target in calibration.json: template file name, region, named point, and mask and lens learned from the views, so
-// that `locate` measures with the same pixels the calibration was made with.
+// The target in calibration.json: template file name, region, named point, and what was learned from the views - mask,
+// lens, backdrop - so that `locate` measures with the same pixels the calibration was made with.
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ struct StoredTarget {
   PixelPoint point;
   std::vector<std::uint8_t> mask;  // region's width * height
   LensTerm lens;
+  std::shared_ptr<const Backdrop> backdrop;  // null: none was learned
 };
 /// What calibration.json says of the target; nothing when it says nothing or something else than we write.
 std::optional<StoredTarget> target_from_json(const nlohmann::json& calibration_document);

@@ -8,12 +8,14 @@
 namespace zerodrift::vision {
 namespace {
 
-constexpr int border_px = 3;            // of the region: its gradients use what lies outside the template
-constexpr double energy_share = 0.98;   // of the gradient energy is worked on, the rest costs time and tells little
+constexpr int border_px = 3;           // of the region: its gradients use what lies outside the template
+constexpr double energy_share = 0.98;  // of the gradient energy is worked on, the rest costs time and tells little
+constexpr float least_clear = 0.01f;
+constexpr double noise_energies = 4.0;  // a gradient's energy below so many of the noise's is mostly noise
 constexpr std::size_t sparse_step = 9;  // and every ninth of the flat pixels, for the light
 
 // Pixels of the region to work on.
-std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<float>& energy) {
+std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<float>& energy, double noise_energy) {
   std::vector<int> usable;
   for (int y = border_px; y < source.region.height - border_px; ++y) {
     for (int x = border_px; x < source.region.width - border_px; ++x) {
@@ -34,7 +36,8 @@ std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<f
   }
   int bin = bins - 1;
   for (double sum = sums[bins - 1]; bin > 0 && sum <= energy_share * total; sum += sums[bin]) --bin;
-  const float limit = static_cast<float>(bin) / to_bin;
+  const auto above_noise = static_cast<float>(noise_energies * noise_energy);
+  const float limit = std::max(static_cast<float>(bin) / to_bin, std::min(above_noise, 0.25f * highest));
   std::vector<int> kept;
   for (std::size_t k = 0; k < usable.size(); ++k) {
     if (energy[usable[k]] >= limit || k % sparse_step == 0) kept.push_back(usable[k]);
@@ -47,6 +50,61 @@ std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<f
     }
   }
   return out;
+}
+
+// Variance of a gradient's component along x for noise of variance 1 in the pixels.
+double gradient_noise(const Eigen::Matrix2d& blur_px2) {
+  const int middle = 12 + static_cast<int>(std::ceil(3.0 * std::sqrt(blur_px2.trace())));
+  FloatImage one(2 * middle + 1, 2 * middle + 1);
+  one.row(middle)[middle] = 1.0f;
+  const FloatImage answer = SplineImage(blurred(one, blur_px2)).derivative(1, 0);
+  double sum = 0.0;
+  for (const float value : answer.values) sum += double{value} * value;
+  return sum;
+}
+
+// Standard deviation of the noise in the template's pixels: from second differences along both axes, which a smooth
+// pattern hardly has (Immerkaer, Computer Vision and Image Understanding 64 (1996) 300); their median, so that a sharp
+// pattern on part of them does not matter.
+double noise_of_pixels(const FloatImage& image) {
+  std::vector<float> sizes;
+  for (int y = 1; y + 1 < image.height; y += 2) {
+    const float* above = image.row(y - 1);
+    const float* here = image.row(y);
+    const float* below = image.row(y + 1);
+    for (int x = 1; x + 1 < image.width; x += 2) {
+      const float corners = above[x - 1] + above[x + 1] + below[x - 1] + below[x + 1];
+      sizes.push_back(std::abs(corners - 2.0f * (above[x] + below[x] + here[x - 1] + here[x + 1]) + 4.0f * here[x]));
+    }
+  }
+  if (sizes.empty()) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * double{*middle} / 6.0;
+}
+
+// What stands behind the template's pixels.
+FloatImage behind_of(const TemplateSource& source) {
+  FloatImage out(source.pixels.width, source.pixels.height);
+  for (int row = 0; row < out.height; ++row) {
+    for (int column = 0; column < out.width; ++column) {
+      out.row(row)[column] = source.backdrop->at(static_cast<float>(source.region.x - source.margin_px + column),
+                                                 static_cast<float>(source.region.y - source.margin_px + row));
+    }
+  }
+  return out;
+}
+
+// Gradients are those of what travels: of what is seen behind the target they are taken off.
+void take_off_standing(const FloatImage& behind, const FloatImage& clear, FloatImage& fx, FloatImage& fy) {
+  for (int row = 1; row + 1 < clear.height; ++row) {
+    for (int column = 1; column + 1 < clear.width; ++column) {
+      const float share = clear.row(row)[column];
+      if (share < least_clear) continue;
+      fx.row(row)[column] -= share * 0.5f * (behind.row(row)[column + 1] - behind.row(row)[column - 1]);
+      fy.row(row)[column] -= share * 0.5f * (behind.row(row + 1)[column] - behind.row(row - 1)[column]);
+    }
+  }
 }
 
 // Share of independent noise's variance that the blur lets through.
@@ -81,6 +139,14 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   const SplineImage spline(smooth);
   FloatImage fx = spline.derivative(1, 0);
   FloatImage fy = spline.derivative(0, 1);
+  FloatImage clear, behind;
+  if (source.backdrop) {
+    clear = blurred(source.backdrop->clear, blur_px2);
+    // Blurred with the rest of the template; in the frame it is not: a moving target does not smear what stands behind,
+    // and that is out of focus anyway.
+    behind = blurred(behind_of(source), blur_px2);
+    take_off_standing(behind, clear, fx, fy);
+  }
   const FloatImage fxx = spline.derivative(2, 0);
   const FloatImage fxy = spline.derivative(1, 1);
   const FloatImage fyy = spline.derivative(0, 2);
@@ -97,9 +163,13 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     }
   }
   TemplateModel model;
+  model.region = source.region;
+  model.backdrop = source.backdrop;
   model.blur_px2 = blur_px2;
   model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
-  const std::vector<int> chosen = choose_pixels(source, energy);
+  const double noise = noise_of_pixels(source.pixels);
+  const double noise_energy = 2.0 * noise * noise * gradient_noise(blur_px2);
+  const std::vector<int> chosen = choose_pixels(source, energy, noise_energy);
   for (std::vector<int>* one : {&model.column, &model.row}) one->reserve(chosen.size());
   for (std::vector<float>* one :
        {&model.x, &model.y, &model.value, &model.fx, &model.fy, &model.fxx, &model.fxy, &model.fyy}) {
@@ -119,6 +189,11 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     model.fxx.push_back(fxx.values[k]);
     model.fxy.push_back(fxy.values[k]);
     model.fyy.push_back(fyy.values[k]);
+    if (source.backdrop && clear.values[k] > least_clear) {
+      model.shown.push_back(static_cast<int>(model.fyy.size()) - 1);
+      model.clear.push_back(clear.values[k]);
+      model.behind.push_back(behind.values[k]);
+    }
   }
   model.pixels = static_cast<int>(model.column.size());
   model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));

@@ -3,21 +3,27 @@
 // blurred template, as arrays. Coordinates are relative to the named point, whose displacement is asked.
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
+#include "core/vision/backdrop.h"
 #include "core/vision/spline_image.h"
 
 namespace zerodrift::vision {
 
 struct TemplateModel {
+  Region region;  // in the template's image
   int pixels = 0;
-  std::vector<int> column, row;      // in the region
-  std::vector<float> x, y;           // px from the named point
-  std::vector<float> value;          // grey levels
-  std::vector<float> fx, fy;         // per px
-  std::vector<float> fxx, fxy, fyy;  // per px^2
-  Eigen::Matrix2d blur_px2;          // covariance of the blur in it
-  Eigen::Matrix2d frame_blur_px2;    // and in the frame it is compared with
+  std::vector<int> column, row;              // in the region
+  std::vector<float> x, y;                   // px from the named point
+  std::vector<float> value;                  // grey levels
+  std::vector<float> fx, fy;                 // per px
+  std::vector<float> fxx, fxy, fyy;          // per px^2
+  std::shared_ptr<const Backdrop> backdrop;  // null: not known; then nothing is clear
+  std::vector<int> shown;                    // pixels through which it is seen, rising
+  std::vector<float> clear, behind;          // of those: how much, and its level in the template
+  Eigen::Matrix2d blur_px2;                  // covariance of the blur in it
+  Eigen::Matrix2d frame_blur_px2;            // and in the frame it is compared with
   FloatImage gradient_x, gradient_y;
   double noise_growth_x = 0.0;     // by how much the blur's noise correlation raises the variance of x and y over the
   double noise_growth_y = 0.0;     // formula for independent noise; 0 until find_noise_growth
@@ -28,8 +34,9 @@ struct TemplateModel {
 struct TemplateSource {
   FloatImage pixels;  // the region with a margin on each side
   int margin_px = 0;
-  PixelPoint point;                  // named point, relative to the region's first pixel
-  Region region;                     // in the template's image
+  PixelPoint point;  // named point, relative to the region's first pixel
+  Region region;     // in the template's image
+  std::shared_ptr<const Backdrop> backdrop;
   std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
 };
 

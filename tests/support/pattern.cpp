@@ -59,7 +59,14 @@ Pattern::Pattern(PatternKind kind, double half_um, std::uint64_t seed) : m_kind(
 
 Paint Pattern::at(double x, double y, double sigma, const LampDirection& lamp) const {
   if (m_kind == PatternKind::ball) {
-    return {1.0 - edge(std::hypot(x, y) - 0.95 * m_half_um, sigma), ball(x, y, lamp)};
+    // What is blurred is the shaded disc: its brightness at the middle of what the blur gathers from within the
+    // outline.
+    const double r = std::hypot(x, y);
+    const double away = (r - 0.95 * m_half_um) / sigma;
+    const double coverage = 1.0 - edge(away, 1.0);
+    const double density = std::exp(-0.5 * away * away) / std::sqrt(2.0 * std::numbers::pi);
+    const double inwards = coverage > 1e-9 ? std::min(sigma * density / coverage / std::max(r, sigma), 1.0) : 0.0;
+    return {coverage, ball((1.0 - inwards) * x, (1.0 - inwards) * y, sigma, lamp)};
   }
   const double coverage = band(x, -m_half_um, m_half_um, sigma) * band(y, -m_half_um, m_half_um, sigma);
   if (coverage <= 0.0) return {0.0, 0.0};
@@ -208,12 +215,16 @@ double Pattern::speckle(double x, double y, double sigma) const {
   return sum;
 }
 
-double Pattern::ball(double x, double y, const LampDirection& lamp) const {
+// The sphere's mirror image of the lamp and of a bright sky, blurred: Gaussians stay Gaussians.
+double Pattern::ball(double x, double y, double sigma, const LampDirection& lamp) const {
   const double nx = x / (0.95 * m_half_um);
   const double ny = y / (0.95 * m_half_um);
-  const double sky = 0.06 + 0.07 * (1.0 + ny) + 0.04 * nx * nx;
+  const double blur2 = std::pow(sigma / (0.95 * m_half_um), 2);
+  const double sky = 0.06 + 0.07 * (1.0 + ny) + 0.04 * (nx * nx + blur2);
   const auto lobe = [&](double cx, double cy, double width, double height) {
-    return height * std::exp(-0.5 * ((nx - cx) * (nx - cx) + (ny - cy) * (ny - cy)) / (width * width));
+    const double variance = width * width + blur2;
+    const double squares = (nx - cx) * (nx - cx) + (ny - cy) * (ny - cy);
+    return height * width * width / variance * std::exp(-0.5 * squares / variance);
   };
   return sky + lobe(lamp.x, lamp.y, 0.055, 0.65) + lobe(lamp.x, lamp.y, 0.18, 0.12) +
          lobe(-0.9 * lamp.x, -0.8 * lamp.y, 0.10, 0.08);

@@ -64,7 +64,7 @@ class Pattern {
   double speckle(double x, double y, double sigma) const;
   double mark(double x, double y, double sigma) const;
   double code(double x, double y, double sigma) const;
-  double ball(double x, double y, const LampDirection& lamp) const;
+  double ball(double x, double y, double sigma, const LampDirection& lamp) const;
   void scatter_bumps(std::uint64_t seed);
 
   PatternKind m_kind;

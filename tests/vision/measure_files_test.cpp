@@ -103,6 +103,7 @@ TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {
   ASSERT_TRUE(stored);
   EXPECT_EQ(stored->region.width, file_region.width);
   EXPECT_EQ(stored->mask, result->target.mask());
+  ASSERT_EQ(stored->backdrop != nullptr, result->target.backdrop() != nullptr);
   document["target"]["mask_runs"] = {1, 2, 3};
   EXPECT_FALSE(target_from_json(document));
 }

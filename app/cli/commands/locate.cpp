@@ -57,7 +57,7 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
     request.learn = false;
   } else if (stored && stored->region.x == at.x && stored->region.y == at.y && stored->region.width == at.width &&
              stored->region.height == at.height) {
-    target = target.with_mask(stored->mask).with_lens(stored->lens);
+    target = target.with_backdrop(stored->backdrop).with_mask(stored->mask).with_lens(stored->lens);
     request.learn = false;
   }
   for (const std::string& text : options.references) {
