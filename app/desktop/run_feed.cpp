@@ -44,6 +44,16 @@ ui::RunChannel channel_of(const std::string& name, const QString& label) {
   return channel;
 }
 
+// The channel with the standard uncertainty of an error: sigma_X_nm of dX_um; none of the others.
+std::string sigma_channel(const std::string& error) {
+  const bool known = error.size() > 4 && error.front() == 'd' && error.ends_with("_um");
+  return known ? "sigma_" + error.substr(1, error.size() - 4) + "_nm" : std::string("-");
+}
+
+QString uncertainty_text(double sigma_nm) {
+  return std::isnan(sigma_nm) ? QString() : QStringLiteral("± %1 µm").arg(sigma_nm / 1000.0, 0, 'f', 2);
+}
+
 }  // namespace
 
 RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject(parent), m_bench(bench), m_view(view) {
@@ -129,7 +139,14 @@ void RunFeed::showRecording(const recording::Recording& run) {
   if (run.rows() == 0) return;
   QVector<ui::RunValue> last;
   for (const auto& channel : run.channels) {
-    last.append({QString::fromStdString(channel.name), recording::value_at(run, channel, run.time_s.back()), {}, {}});
+    const auto sigma = std::find_if(run.channels.begin(), run.channels.end(),
+                                    [&](const auto& one) { return one.name == sigma_channel(channel.name); });
+    const double sigma_nm =
+        sigma == run.channels.end() ? std::nan("") : recording::value_at(run, *sigma, run.time_s.back());
+    last.append({QString::fromStdString(channel.name),
+                 recording::value_at(run, channel, run.time_s.back()),
+                 uncertainty_text(sigma_nm),
+                 {}});
   }
   m_view->setValues(last);
   if (!m_compensated) return;
@@ -288,10 +305,13 @@ void RunFeed::appendRows(const std::vector<RunUpdate>& updates) {
           {id, values[c].back(), good ? QString() : bad->second, good ? ui::Judgement::none : ui::Judgement::bad});
       continue;
     }
+    const auto sigma = std::find(names.begin(), names.end(), sigma_channel(names[c]));
     for (qsizetype r = 0; r < times.size(); ++r) {  // errors are sparse: only what was measured makes the curve
       if (std::isnan(values[c][r])) continue;
       m_view->append(id, {times[r]}, {values[c][r]});
-      last.append({id, values[c][r], {}, ui::Judgement::none});
+      const double sigma_nm =
+          sigma == names.end() ? std::nan("") : values[static_cast<std::size_t>(sigma - names.begin())][r];
+      last.append({id, values[c][r], uncertainty_text(sigma_nm), ui::Judgement::none});
     }
   }
   m_view->setValues(last);

@@ -33,7 +33,12 @@ std::string fault_of(Bytes bytes) {
     const auto number_at = [&](std::size_t at) {
       return (std::int64_t{bytes[at]} << 24) | (bytes[at + 1] << 16) | (bytes[at + 2] << 8) | bytes[at + 3];
     };
-    if (number_at(16) * number_at(20) > largest_image_px) return "the picture is larger than 100 megapixels";
+    const std::int64_t width = number_at(16);
+    const std::int64_t height = number_at(20);
+    // Each by itself first: sizes of 32 bits can have a product beyond 64.
+    if (std::max(width, height) > largest_image_px || width * height > largest_image_px) {
+      return "the picture is larger than 100 megapixels";
+    }
     return contains_near_end(bytes, "IEND") ? "" : "the PNG file ends early";
   }
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) {

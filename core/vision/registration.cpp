@@ -29,6 +29,7 @@ constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nea
 constexpr double glare_share = 0.005;   // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
+constexpr double poor_residual = 4.0;  // grey levels at middle grey: no camera's noise is so large after the blur
 constexpr int largest_rounds = 6;
 constexpr float seen_through = 0.02f;
 constexpr int within_outline_px = 8;
@@ -190,6 +191,18 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
+  const Registration first = attempt(patches, start, with_residual_map);
+  if (first.converged && first.residual < poor_residual) return first;
+  // Under many chips the light, which is guessed first, may have been guessed from them: once more from that of the
+  // template.
+  start.light.emplace();
+  start.light->setZero();
+  (*start.light)(0) = 1.0;
+  const Registration second = attempt(patches, start, with_residual_map);
+  return second.converged && (!first.converged || fit_of(second) > fit_of(first)) ? second : first;
+}
+
+Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
   ImageSetup setup{m_model.blur_px2, m_model.blur_px2, false};
   std::optional<TemplateModel> blurred_model;
   match_blur_at_a_glance(patches, setup, blurred_model, start);

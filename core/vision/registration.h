@@ -56,6 +56,7 @@ class Registrar {
   const TemplateSource& source() const { return m_source; }
 
  private:
+  Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
   Region patch_at(int dx_px, int dy_px) const;
   void match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup, std::optional<TemplateModel>& blurred_model,
                               RegistrationStart& start) const;

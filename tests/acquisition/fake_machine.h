@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/acquisition/error_source.h"
@@ -114,12 +115,17 @@ class FakeErrors : public ErrorSource {
     return keeps_zero;
   }
   Result<ErrorSample> measure(const TaskContext& context) override {
+    const auto begin = std::chrono::steady_clock::now();
     if (!m_clock.wait_for(Seconds(measure_s), context.stop)) return fail(ErrorCode::cancelled);
     if (failure && failure(m_clock.steady().count())) {
       return fail(ErrorCode::camera_silent, {{"url", "fake"}, {"seconds", "1"}});
     }
     const auto now = raw();
     ErrorSample sample{{now[0] - zero[0], now[1] - zero[1], now[2] - zero[2]}, {0.2, 0.2, 0.3}, {}};
+    if (seen_at_once) {
+      sample.seen = begin;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     if (refuse) {
       sample.error_um[1] = std::nan("");
       sample.problems.push_back("glare");
@@ -136,6 +142,7 @@ class FakeErrors : public ErrorSource {
 
   std::array<double, 3> zero{};
   std::function<bool(double time_s)> failure;
+  bool seen_at_once = false;  // the pictures come first, then they are worked on
   bool refuse = false;
   bool keeps_zero = true;
   double offset_um = 7.0;

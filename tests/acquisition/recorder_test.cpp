@@ -100,6 +100,21 @@ TEST_F(RecorderTest, MeasuresAtRestAtItsPositionWithTheSpindleTurning) {
   EXPECT_GE(machine.moves, 31);
 }
 
+TEST_F(RecorderTest, ARowBelongsToTheMiddleOfAMeasurement) {
+  plan.steps = {{120.0, 0.0, false, false}};
+  errors.measure_s = 5.0;
+  ASSERT_TRUE(run());
+  EXPECT_NEAR(sink.times.front(), 2.5, 0.1);
+}
+
+TEST_F(RecorderTest, ARowBelongsToTheMomentOfItsPicturesWhenTheSourceTellsIt) {
+  plan.steps = {{120.0, 0.0, false, false}};
+  errors.measure_s = 5.0;
+  errors.seen_at_once = true;
+  ASSERT_TRUE(run());
+  EXPECT_LT(sink.times.front(), 0.5);
+}
+
 TEST_F(RecorderTest, DoesNotStartOnACompensatedMachine) {
   machine.change = [](MachineSample& sample) { sample.compensation_on = true; };
   const auto summary = run();

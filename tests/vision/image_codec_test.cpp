@@ -48,6 +48,15 @@ TEST(ImageCodec, EveryTruncationIsAnError) {
   }
 }
 
+TEST(ImageCodec, AHugeSizeInTheHeaderIsRefused) {
+  auto bytes = encode_png(ramp(64, 64));
+  ASSERT_TRUE(bytes);
+  std::fill(bytes->begin() + 16, bytes->begin() + 24, std::uint8_t{0xff});  // 4294967295 x 4294967295
+  const auto picture = decode(*bytes, "a.png");
+  ASSERT_FALSE(picture);
+  EXPECT_NE(picture.error().context.at("detail").find("100 megapixels"), std::string::npos);
+}
+
 TEST(ImageCodec, OtherFilesAreNamed) {
   const std::vector<std::uint8_t> text{'h', 'e', 'l', 'l', 'o'};
   const auto result = decode(text, "notes.txt");

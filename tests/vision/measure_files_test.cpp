@@ -104,6 +104,13 @@ TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {
   EXPECT_EQ(stored->region.width, file_region.width);
   EXPECT_EQ(stored->mask, result->target.mask());
   ASSERT_EQ(stored->backdrop != nullptr, result->target.backdrop() != nullptr);
+  if (stored->backdrop) {
+    const FloatImage& kept = stored->backdrop->levels;
+    ASSERT_EQ(kept.values.size(), result->target.backdrop()->levels.values.size());
+    for (std::size_t k = 0; k < kept.values.size(); ++k) {
+      ASSERT_NEAR(kept.values[k], result->target.backdrop()->levels.values[k], 0.51);
+    }
+  }
   document["target"]["mask_runs"] = {1, 2, 3};
   EXPECT_FALSE(target_from_json(document));
 }

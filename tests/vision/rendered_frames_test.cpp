@@ -58,6 +58,33 @@ TEST(RenderedFrames, AGlaringSpotDoesNotHideTheBall) {
   EXPECT_LT(largest_error_px(PatternKind::ball, Disturbance::glare, 77), 0.1);
 }
 
+// A polished ball shows little but its outline, through which what stands behind it draws the result.
+TEST(RenderedFrames, WhatStandsBehindABallDoesNotDrawIt) {
+  EXPECT_LT(largest_error_px(PatternKind::ball, Disturbance::large_motion, 77), 0.03);
+  const test_support::Session session = test_support::make_session(PatternKind::ball, Disturbance::clean, 77, 1);
+  const auto target = Target::create(image_of(session.renderer.render(session.template_spec)), region_of(session.roi),
+                                     std::nullopt, "template");
+  ASSERT_TRUE(target);
+  std::vector<GrayImage> views;
+  for (const auto& view : session.grid_views) views.push_back(image_of(session.renderer.render(view.spec)));
+  const auto backdrop = target->learned_from(views).backdrop();
+  ASSERT_TRUE(backdrop);
+  const FloatImage& clear = backdrop->clear;
+  EXPECT_GT(clear.row(2)[2], 0.9f);
+  EXPECT_LT(clear.row(clear.height / 2)[clear.width / 2], 0.1f);
+  // Where the target now stands, the other frames show what it hides.
+  test_support::FrameSpec bare = session.template_spec;
+  bare.target_present = false;
+  const auto truth = session.renderer.levels(bare);
+  const int x = session.roi.x + 20;
+  const int y = session.roi.y + session.roi.height / 2;
+  const double behind = truth[static_cast<std::size_t>(y) * session.renderer.camera().width_px + x];
+  EXPECT_NEAR(backdrop->at(static_cast<float>(x), static_cast<float>(y)), behind, 1.5);
+  // Two frames are too few to tell one from the other.
+  views.resize(2);
+  EXPECT_FALSE(target->learned_from(views).backdrop());
+}
+
 TEST(RenderedFrames, BlurIsToldWhateverThePattern) {
   for (const PatternKind kind : {PatternKind::checkerboard, PatternKind::rings, PatternKind::code}) {
     const test_support::Session session = test_support::make_session(kind, Disturbance::clean, 5, 1);

@@ -345,9 +345,9 @@ void CalibratePage::renderMoves() {
   m_clear->setEnabled(!m_state.running || m_state.waiting);
   QStringList notes;
   if (!m_state.movePosition.isEmpty() && !m_state.running) {
-    notes << tr("First all axes go to the measuring position: %1.").arg(m_state.movePosition);
+    notes << tr("First the machine drives to %1; an axis not named here stays where it is.").arg(m_state.movePosition);
   }
-  if (m_state.moveOf > 1) notes << tr("Each camera's moves are confirmed by themselves.");
+  if (m_state.moveOf > 1) notes << tr("Before the next camera is calibrated, you are asked again.");
   m_moveNote->setText(notes.join(QLatin1Char(' ')));
   m_moveNote->setVisible(!notes.isEmpty());
 }

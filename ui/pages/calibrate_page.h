@@ -51,7 +51,7 @@ struct CalibrateState {
   int moveNumber = 1;
   int moveOf = 1;
   QStringList moveAxes{};
-  QString movePosition{};  // "X 0, Y 0, Z 300 mm": all axes go there first
+  QString movePosition{};  // "X 0.0 mm, Y 0.0 mm, A 0.0°": these axes go there first
   bool solved = false;
   bool accepted = false;
   QVector<CalibrationPoint> points{};

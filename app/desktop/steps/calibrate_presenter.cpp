@@ -269,9 +269,13 @@ void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
   for (const auto& axis : camera.axes) state.moveAxes << QString::fromStdString(axis);
   QStringList position;
   for (const auto& [axis, place_mm] : profile->measure_position_mm) {
-    position << QStringLiteral("%1 %2").arg(QString::fromStdString(axis)).arg(place_mm, 0, 'f', 1);
+    const bool turns = !axis.empty() && axis[0] >= 'A' && axis[0] <= 'C';
+    position << QStringLiteral("%1 %2%3")
+                    .arg(QString::fromStdString(axis))
+                    .arg(place_mm, 0, 'f', 1)
+                    .arg(turns ? QStringLiteral("°") : QStringLiteral(" mm"));
   }
-  if (!position.isEmpty()) state.movePosition = tr("%1 (mm, deg)").arg(position.join(QStringLiteral(", ")));
+  state.movePosition = position.join(QStringLiteral(", "));
   if (!state.waiting || m_shownFor == waiting) return;
   // Once: whoever is asked sees the camera that is meant.
   m_shownFor = waiting;
