@@ -21,6 +21,10 @@
 namespace zerodrift::desktop {
 namespace {
 
+const QString english = QStringLiteral("en");
+const QString chinese = QStringLiteral("zh_CN");
+const QString language_key = QStringLiteral("language");
+
 ui::Judgement judgement_of(LogKind kind) {
   switch (kind) {
     case LogKind::good:
@@ -44,7 +48,7 @@ Application::Application(ui::Theme& theme)
       m_window(std::make_unique<ui::MainWindow>()),
       m_opener(new FileOpener(*this)) {
   m_presenters = makePages(*m_bench, *m_window, *m_demo);
-  m_window->setLanguagesOffered(QFile::exists(QStringLiteral(":/i18n/zerodrift_zh_CN.qm")));
+  setLanguage(english);  // its plurals are translations too
   wire();
   openPage(m_presenters.front()->id());
   updateSteps();
@@ -66,11 +70,16 @@ void Application::wire() {
   connect(m_window.get(), &ui::MainWindow::commandRequested, this, &Application::runCommand);
   connect(m_window.get(), &ui::MainWindow::closing, this, &Application::mayClose);
   connect(m_window.get(), &ui::MainWindow::jobRequested, this, [this] { openPage(m_presenters.front()->id()); });
-  connect(m_window.get(), &ui::MainWindow::languageRequested, this,
-          [this] { setLanguage(m_language == QStringLiteral("en") ? QStringLiteral("zh_CN") : QStringLiteral("en")); });
+  connect(m_window.get(), &ui::MainWindow::languageRequested, this, [this] {
+    setLanguage(m_language == chinese ? english : chinese);
+    QSettings().setValue(language_key, m_language);
+  });
   connect(m_window.get(), &ui::MainWindow::themeRequested, this, [this] {
     m_theme.setMode(m_theme.isDark() ? ui::ThemeMode::light : ui::ThemeMode::dark);
     QSettings().setValue(QStringLiteral("dark"), m_theme.isDark());
+  });
+  connect(&m_theme, &ui::Theme::changed, this, [this] {
+    for (auto* presenter : m_presenters) presenter->themeChanged();
   });
   connect(m_bench.get(), &Workbench::logged, this, [this](const QDateTime& time, LogKind kind, const QString& text) {
     m_window->appendLog(time, judgement_of(kind), text);
@@ -205,19 +214,25 @@ void Application::startDemo(const DemoOptions& options, const QString& jobPath) 
   machine->useVirtualMachine(options);
 }
 
+QString Application::rememberedLanguage() {
+  const QString system = QLocale::system().language() == QLocale::Chinese ? chinese : english;
+  return QSettings().value(language_key, system).toString();
+}
+
 void Application::setLanguage(const QString& code) {
-  auto translator = std::make_unique<QTranslator>();
-  if (code != QStringLiteral("en") && !translator->load(QStringLiteral(":/i18n/zerodrift_") + code)) {
-    m_bench->log(LogKind::warning, tr("The language %1 is not part of this program.").arg(code));
-    return;
+  // Removing and installing a translator tells every widget, and each page draws itself anew from its state.
+  QApplication::removeTranslator(&m_translator);
+  QApplication::removeTranslator(&m_qtTranslator);
+  m_language = code == chinese ? chinese : english;
+  QLocale::setDefault(m_language == chinese ? QLocale(QLocale::Chinese, QLocale::China)
+                                            : QLocale(QLocale::English, QLocale::UnitedStates));
+  if (m_translator.load(QStringLiteral(":/i18n/zerodrift_") + m_language))
+    QApplication::installTranslator(&m_translator);
+  if (m_language == chinese && m_qtTranslator.load(QStringLiteral(":/i18n/qtbase_zh_CN"))) {
+    QApplication::installTranslator(&m_qtTranslator);
   }
-  if (m_translator) QApplication::removeTranslator(m_translator.get());
-  m_translator = std::move(translator);
-  m_language = code;
-  if (code != QStringLiteral("en")) QApplication::installTranslator(m_translator.get());
-  m_window->setLanguageName(code == QStringLiteral("en") ? QStringLiteral("EN") : QStringLiteral("中文"));
-  QSettings().setValue(QStringLiteral("language"), code);
-  for (auto* presenter : m_presenters) presenter->refresh();
+  m_window->setLanguageName(m_language == chinese ? QStringLiteral("中文") : QStringLiteral("EN"));
+  for (auto* presenter : m_presenters) presenter->languageChanged();
   updateSteps();
   updateLamps();
 }
@@ -233,7 +248,7 @@ void Application::updateSteps() {
       case flow::StepState::current:
         return tr("Done");
       case flow::StepState::stale:
-        return tr("Out of date: %1 changed").arg(QString::fromStdString(reason));
+        return tr("Out of date: %1 changed").arg(stepName(reason));
     }
     return {};
   };

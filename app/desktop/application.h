@@ -38,7 +38,10 @@ class Application : public QObject {
   const std::vector<Presenter*>& presenters() const { return m_presenters; }
   Presenter* presenter(const QString& id) const;
   void openPage(const QString& id);
+  /// "en" or "zh_CN".
   void setLanguage(const QString& code);
+  /// The language kept by the user's last choice, else the desktop's.
+  static QString rememberedLanguage();
 
  private:
   void wire();
@@ -60,7 +63,8 @@ class Application : public QObject {
   std::unique_ptr<ui::MainWindow> m_window;
   std::vector<Presenter*> m_presenters;
   FileOpener* m_opener;
-  std::unique_ptr<QTranslator> m_translator;
+  QTranslator m_translator;
+  QTranslator m_qtTranslator;  // Qt's own words: Cancel, Copy, the file dialog
   QString m_language = QStringLiteral("en");
   QString m_open;
 };

@@ -1,5 +1,6 @@
 #include "app/desktop/ask.h"
 
+#include <QCoreApplication>
 #include <QMessageBox>
 #include <QPushButton>
 
@@ -7,6 +8,7 @@ namespace zerodrift::desktop {
 
 bool ask(QWidget* parent, const QString& heading, const QString& text, const QString& deed) {
   QMessageBox box(QMessageBox::NoIcon, heading, heading, QMessageBox::Cancel, parent);
+  box.button(QMessageBox::Cancel)->setText(QCoreApplication::translate("ask", "Cancel"));
   box.setInformativeText(text);
   const auto* agree = box.addButton(deed, QMessageBox::AcceptRole);
   box.setDefaultButton(QMessageBox::Cancel);

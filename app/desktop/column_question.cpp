@@ -17,6 +17,10 @@ using compensation::LaserPreview;
 
 namespace {
 
+struct ColumnQuestion {
+  Q_DECLARE_TR_FUNCTIONS(ColumnQuestion)
+};
+
 constexpr std::array<double, 3> position_units_mm = {1.0, 1e-3, 25.4};
 constexpr std::array<double, 3> error_units_um = {1.0, 1000.0, 25400.0};
 
@@ -67,11 +71,9 @@ void judge(ui::ColumnDialog& dialog, const std::string& bytes, const std::string
     low = std::min(low, reading.deviation_um);
     high = std::max(high, reading.deviation_um);
   }
-  const auto words = [](const char* text) {
-    return QCoreApplication::translate("zerodrift::desktop::ColumnQuestion", text);
-  };
-  const QString both = report->bidirectional() ? words("both directions") : words("one direction");
-  dialog.setVerdict(words("%1 targets from %2 to %3 mm, %4; errors from %5 to %6 µm")
+  const QString both =
+      report->bidirectional() ? ColumnQuestion::tr("both directions") : ColumnQuestion::tr("one direction");
+  dialog.setVerdict(ColumnQuestion::tr("%1 targets from %2 to %3 mm, %4; errors from %5 to %6 µm")
                         .arg(report->targets_mm.size())
                         .arg(report->targets_mm.front())
                         .arg(report->targets_mm.back())

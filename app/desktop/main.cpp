@@ -51,7 +51,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option(
       "--conceal", arguments.conceal,
       "Effect that the virtual machine's description leaves out, for the Physics page to find; none: nothing");
-  app.add_option("--language", arguments.language, "en or zh_CN")->check(CLI::IsMember({"en", "zh_CN"}));
+  app.add_option("--language", arguments.language, "en or zh")->check(CLI::IsMember({"en", "zh", "zh_CN"}));
   app.add_option("--theme", arguments.theme, "light or dark")->check(CLI::IsMember({"light", "dark"}));
   app.add_option("--size", arguments.size, "Size of the window for the tour, for example 1280x720");
   app.set_version_flag("--version", ZERODRIFT_VERSION);
@@ -89,10 +89,9 @@ int main(int argc, char** argv) {
     theme.setMode(dark.toBool() ? zerodrift::ui::ThemeMode::dark : zerodrift::ui::ThemeMode::light);
   }
   zerodrift::desktop::Application desktop(theme);
-  const QString language = arguments.language.empty()
-                               ? QSettings().value(QStringLiteral("language"), QStringLiteral("en")).toString()
-                               : QString::fromStdString(arguments.language);
-  if (language != QStringLiteral("en")) desktop.setLanguage(language);
+  desktop.setLanguage(arguments.language.empty()   ? zerodrift::desktop::Application::rememberedLanguage()
+                      : arguments.language == "en" ? QStringLiteral("en")
+                                                   : QStringLiteral("zh_CN"));
   const DemoOptions demo{arguments.speedup, arguments.seed, QString::fromStdString(arguments.conceal), {}};
 
   std::unique_ptr<zerodrift::desktop::Tour> tour;

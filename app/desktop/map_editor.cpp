@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <algorithm>
 
+#include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "core/base/json.h"
 #include "core/controller/register_names.h"
@@ -31,7 +32,7 @@ ui::RegisterRow row_of(const Register& entry, const json& document) {
   ui::RegisterRow row;
   row.name = QString::fromStdString(entry.name);
   row.meaning = known == nullptr ? QCoreApplication::translate("zerodrift::desktop::MapEditor", "no use known")
-                                 : QString::fromUtf8(known->meaning.data(), static_cast<int>(known->meaning.size()));
+                                 : coreText(std::string(known->meaning));
   row.address = entry.address;
   row.function = entry.space == controller::RegisterSpace::input ? QStringLiteral("input") : QStringLiteral("holding");
   row.type = QString::fromStdString(document.value("type", ""));
@@ -143,7 +144,7 @@ void MapEditor::fill(ui::MachineState& state) {
       for (const auto& value : look->registers) {
         if (value.name != name) continue;
         row.failed = !value.result;
-        row.value = value.result ? QString::fromStdString(controller::text_of(value, entry)) : tr("refused");
+        row.value = value.result ? coreText(controller::text_of(value, entry)) : tr("refused");
         row.raw = value.result ? QString::fromStdString(value.raw) : lineOf(value.result.error());
       }
     }
@@ -153,7 +154,7 @@ void MapEditor::fill(ui::MachineState& state) {
   for (const auto& use : controller::uses_of(*m_draft)) {
     if (use.missing.empty()) continue;
     const auto first = QString::fromStdString(use.missing.front());
-    const QString name = QString::fromUtf8(use.use.data(), static_cast<int>(use.use.size()));
+    const QString name = coreText(std::string(use.use));
     notes << (use.missing.size() == 1
                   ? tr("no %1 without %2").arg(name, first)
                   : tr("no %1 without %2 and %n more", nullptr, static_cast<int>(use.missing.size()) - 1)
@@ -225,7 +226,7 @@ void MapEditor::remove(int row) {
 Status MapEditor::import(const QString& path) {
   std::vector<std::string> warnings;
   ZD_TRY(RegisterMap map, controller::read_register_list(path.toStdString(), &warnings));
-  for (const auto& warning : warnings) m_bench.log(LogKind::warning, QString::fromStdString(warning));
+  for (const auto& warning : warnings) m_bench.log(LogKind::warning, coreText(warning));
   m_draft = std::move(map);
   m_changed = true;
   watch();

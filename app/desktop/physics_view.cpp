@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/text/core_text.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/sentences.h"
 #include "core/flow/steps/inputs.h"
@@ -21,9 +22,9 @@ constexpr int map_columns = 160;
 constexpr int map_rows = 60;
 constexpr std::size_t most_sparks = 120;
 
-QString say(const char* text) {
-  return QCoreApplication::translate("zerodrift::desktop::PhysicsView", text);
-}
+struct PhysicsView {
+  Q_DECLARE_TR_FUNCTIONS(PhysicsView)
+};
 
 /// "T14", and for the error "dY_um" plainly "Y".
 QString short_tag(const std::string& channel) {
@@ -178,11 +179,11 @@ QString rivals_of(const json& diagnosis) {
   for (const auto& rival : diagnosis.value("ambiguous_with", json::array())) {
     QString name = effect_name(rival.value("id", ""));
     if (rival.contains("position_mm") && rival["position_mm"].is_number()) {
-      name += say(" at %1 mm").arg(rival["position_mm"].get<double>(), 0, 'f', 0);
+      name += PhysicsView::tr(" at %1 mm").arg(rival["position_mm"].get<double>(), 0, 'f', 0);
     }
     names << name;
   }
-  return names.isEmpty() ? QString() : say("Cannot be told from: %1").arg(names.join(QStringLiteral(", ")));
+  return names.isEmpty() ? QString() : PhysicsView::tr("Cannot be told from: %1").arg(names.join(QStringLiteral(", ")));
 }
 
 /// The channel that the effect changes most, in widths of its noise.
@@ -216,10 +217,26 @@ void fill_curves(const Compared& runs, const recording::Channel& simulated, bool
 
 }  // namespace
 
+namespace {
+
+/// "drift = 2.1 K/h, T = 21 °C": signs that are words, each in the user's language.
+QString parametersInWords(const std::string& parameters) {
+  QStringList parts = QString::fromStdString(parameters).split(QStringLiteral(", "));
+  for (QString& part : parts) part = coreText(part);
+  return parts.join(QStringLiteral(", "));
+}
+
+}  // namespace
+
 QString sentence_of(const json& stored, const std::string& english) {
-  const std::string text = diagnosis::said(diagnosis::sentence_from_json(stored),
-                                           [](const std::string& words) { return say(words.c_str()).toStdString(); });
-  return QString::fromStdString(text.empty() ? english : text);
+  auto sentence = diagnosis::sentence_from_json(stored);
+  if (auto& component = sentence.facts["component"]; !component.empty()) component = coreText(component).toStdString();
+  if (auto& parameters = sentence.facts["parameters"]; !parameters.empty()) {
+    parameters = parametersInWords(parameters).toStdString();
+  }
+  const std::string text =
+      diagnosis::said(sentence, [](const std::string& words) { return coreText(words).toStdString(); });
+  return text.empty() ? coreText(english) : QString::fromStdString(text);
 }
 
 QString sentences_of(const json& body) {
@@ -233,9 +250,9 @@ QString sentences_of(const json& body) {
 }
 
 QString effect_name(const std::string& id) {
-  if (id == "none") return say("Nothing hidden");
-  if (id == "unexplained") return say("Unexplained");
-  QString name = say(diagnosis::plain_name(id).c_str());
+  if (id == "none") return PhysicsView::tr("Nothing hidden");
+  if (id == "unexplained") return PhysicsView::tr("Unexplained");
+  QString name = coreText(diagnosis::plain_name(id));
   if (!name.isEmpty()) name[0] = name[0].toUpper();
   return name;
 }
@@ -282,13 +299,13 @@ QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const
   for (const auto& component : machine.components) {
     if (component.lump) continue;
     ui::DrawnComponent rod;
-    rod.name = QString::fromStdString(component.id);
+    rod.name = coreText(component.id);
     if (!rod.name.isEmpty()) rod.name[0] = rod.name[0].toUpper();
     rod.length_mm = component.length_mm;
     rod.diameter_mm = component.outer_diameter_mm;
     for (const auto& source : component.sources) {
-      rod.sources.append({QString::fromStdString(source.id).replace(QLatin1Char('_'), QLatin1Char(' ')), source.from_mm,
-                          source.to_mm});
+      rod.sources.append({coreText(QString::fromStdString(source.id).replace(QLatin1Char('_'), QLatin1Char(' '))),
+                          source.from_mm, source.to_mm});
     }
     for (const auto& sensor : machine.sensors) {
       if (sensor.component == component.id) rod.sensors.append({short_tag(sensor.channel), sensor.position_mm});
@@ -367,14 +384,14 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     card.sentence = sentence_of(effect.value("said", json()), effect.value("explanation", ""));
     card.magnitude = magnitude_of(effect);
     if (effect["component"].is_string()) {
-      card.place = QString::fromStdString(effect["component"].get<std::string>());
+      card.place = coreText(effect["component"].get<std::string>());
       if (effect["position_mm"].is_number()) {
         card.place += QStringLiteral(", %1 mm").arg(effect["position_mm"].get<double>(), 0, 'f', 0);
       }
     } else if (effect["channel"].is_string()) {
       const std::string channel = effect["channel"].get<std::string>();
       const bool error = recording::kind_of(channel) == recording::ChannelKind::error;
-      card.place = error ? say("error in %1").arg(short_tag(channel)) : short_tag(channel);
+      card.place = error ? PhysicsView::tr("error in %1").arg(short_tag(channel)) : short_tag(channel);
     }
     card.confidence = effect.value("confidence", 0.0);
     card.adopted = listed("adopted", id);
@@ -391,7 +408,7 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     if (detectable.contains(id)) {
       const std::string least =
           diagnosis::parameter_in_words(detectable[id].value("key", ""), number_of(detectable[id], "value"), 0.0);
-      if (!least.empty()) card.couldDetect = say("Would have shown from %1 on").arg(QString::fromStdString(least));
+      if (!least.empty()) card.couldDetect = PhysicsView::tr("Would have shown from %1 on").arg(coreText(least));
     }
     state.explanations.append(card);
   }

@@ -9,13 +9,25 @@ Presenter::Presenter(Workbench& bench, ui::Page* page) : QObject(page), m_bench(
 }
 
 void Presenter::show(const Error& error) {
-  if (error.code == ErrorCode::cancelled) {
-    m_page->setProblem({ui::ProblemKind::note, textOf(error).sentence, textOf(error).remedy, {}});
-    return;
-  }
-  const ErrorText text = textOf(error);
-  m_page->setProblem({ui::ProblemKind::failure, text.sentence, text.remedy, {}});
-  m_bench.log(LogKind::bad, text.sentence);
+  tell([error] {
+    const ErrorText text = textOf(error);
+    const bool cancelled = error.code == ErrorCode::cancelled;
+    return ui::Problem{cancelled ? ui::ProblemKind::note : ui::ProblemKind::failure, text.sentence, text.remedy, {}};
+  });
+  if (error.code != ErrorCode::cancelled) m_bench.log(LogKind::bad, textOf(error).sentence);
+}
+
+void Presenter::tell(std::function<ui::Problem()> problem) {
+  const ui::Problem now = problem();
+  m_page->setProblem(now);
+  m_told = std::move(problem);
+  m_toldText = now.sentence;
+}
+
+void Presenter::languageChanged() {
+  const QString shown = m_page->problem().sentence;
+  if (m_told && !shown.isEmpty() && shown == m_toldText) tell(m_told);
+  refresh();
 }
 
 void Presenter::whenIdle(std::function<void()> act) {

@@ -19,6 +19,10 @@ class Presenter : public QObject {
   QString id() const { return m_page->id(); }
   /// Draws the page from the job and the machine as they are now.
   virtual void refresh() = 0;
+  /// Says again, in the language chosen now, what was said in another one.
+  virtual void languageChanged();
+  /// Light or dark: what carries colours of its own is coloured anew.
+  virtual void themeChanged() {}
   /// The page was opened or left.
   virtual void enter() { refresh(); }
   virtual void leave() {}
@@ -58,6 +62,8 @@ class Presenter : public QObject {
   /// Whether work of this page may be stopped by Cancel.
   virtual bool cancellable() const { return true; }
   void show(const Error& error);
+  /// Into the banner; asked again when the language changes.
+  void tell(std::function<ui::Problem()> problem);
   /// Why nothing else can be done now: the task that runs.
   Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.
@@ -69,6 +75,8 @@ class Presenter : public QObject {
 
   Workbench& m_bench;
   ui::Page* m_page;
+  std::function<ui::Problem()> m_told;  // in the banner, unless it shows something else by now
+  QString m_toldText;
 };
 
 }  // namespace zerodrift::desktop

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/desktop/steps/calibrate_presenter.h"
+#include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "app/text/happening_text.h"
 #include "ui/pages/run_view.h"
@@ -35,7 +36,7 @@ ui::RunChannel channel_of(const std::string& name, const QString& label) {
   channel.id = QString::fromStdString(name);
   channel.tag = channel.id.section(QLatin1Char('_'), 0, 0);
   if (kind == recording::ChannelKind::error && channel.tag.startsWith(QLatin1Char('d'))) channel.tag.remove(0, 1);
-  if (kind == recording::ChannelKind::ambient) channel.tag = RunFeed::tr("Room");
+  if (kind == recording::ChannelKind::ambient) channel.tag = coreText(QStringLiteral("Room"));
   channel.label = label;
   channel.unit = QString::fromUtf8(recording::unit_of(kind).data());
   if (channel.unit == QStringLiteral("C")) channel.unit = QStringLiteral("°C");
@@ -61,13 +62,14 @@ RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject
   connect(&m_timer, &QTimer::timeout, this, &RunFeed::drain);
 }
 
-void RunFeed::setChannels() {
+void RunFeed::nameChannels() {
+  m_named = true;
   QVector<ui::RunChannel> temperatures;
   QVector<ui::RunChannel> errors;
   QVector<ui::RunChannel> inputs;
   if (const auto& profile = m_bench.profile()) {
     for (const auto& sensor : profile->sensors) {
-      temperatures.append(channel_of(sensor.channel, QString::fromStdString(sensor.label)));
+      temperatures.append(channel_of(sensor.channel, coreText(sensor.label)));
     }
   }
   temperatures.append(channel_of("ambient_C", tr("Room")));
@@ -108,7 +110,7 @@ void RunFeed::begin() {
   m_received = false;
   m_view->clear();
   m_view->setTrouble({});
-  setChannels();
+  nameChannels();
   m_timer.start();
 }
 
@@ -119,7 +121,7 @@ void RunFeed::stop() {
 
 void RunFeed::showRecording(const recording::Recording& run) {
   m_view->clear();
-  setChannels();
+  nameChannels();
   m_largest_um = 0.0;
   m_longestHole_s = 0.0;
   m_lastRow_s = -1.0;
@@ -346,7 +348,7 @@ void RunFeed::showPicture() {
     }
     marks.judgement = ui::Judgement::ok;
   } else {
-    marks.message = QString::fromStdString(view.problem);
+    marks.message = coreText(view.problem);
     marks.judgement = ui::Judgement::warn;
   }
   m_view->setFrame(image_of(view.frame->image), marks);

@@ -42,6 +42,10 @@ class RunFeed : public QObject {
   std::function<void(acquisition::RunControl*)> control();
   std::function<void(vision::CameraErrorSource*)> cameras();
 
+  /// Names and colours of the channels, in the language and theme of now.
+  void nameChannels();
+  bool named() const { return m_named; }
+
   // What a person asks; nothing when no run is on.
   void pause();
   void resume();
@@ -73,7 +77,6 @@ class RunFeed : public QObject {
   };
 
   void drain();
-  void setChannels();
   void appendRows(const std::vector<acquisition::RunUpdate>& updates);
   void showPicture();
   void showTrouble();
@@ -97,6 +100,7 @@ class RunFeed : public QObject {
   double m_lastRow_s = -1.0;
   QString m_largestAxis;
   bool m_received = false;
+  bool m_named = false;
   bool m_compensated = false;
   std::map<std::string, QString> m_badSensors;  // now: channel -> what is wrong with it
 };

@@ -47,6 +47,15 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
       });
 }
 
+void RunPresenter::languageChanged() {
+  themeChanged();
+  Presenter::languageChanged();
+}
+
+void RunPresenter::themeChanged() {
+  if (m_feed->named()) m_feed->nameChannels();  // else there is nothing yet that has a name or a colour
+}
+
 void RunPresenter::pauseOrResume() {
   if (m_feed->paused()) {
     m_feed->resume();

@@ -14,6 +14,8 @@ class RunPresenter : public Presenter {
 
  public:
   RunPresenter(Workbench& bench, ui::Page* page, ui::RunView* view);
+  void languageChanged() override;
+  void themeChanged() override;
 
  protected:
   using Step = std::function<Result<commissioning::NewArtefact>(commissioning::Job&, flow::Devices&,

@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <algorithm>
 
+#include "app/text/core_text.h"
 #include "core/base/file.h"
 
 namespace zerodrift::desktop {
@@ -14,9 +15,9 @@ using controller::ExportFormat;
 
 namespace {
 
-QString said(const char* text) {
-  return QCoreApplication::translate("zerodrift::desktop::TableExport", text);
-}
+struct TableExport {
+  Q_DECLARE_TR_FUNCTIONS(TableExport)
+};
 
 QString id_of(const ExportFormat& format) {
   return QString::fromUtf8(format.id.data(), static_cast<int>(format.id.size()));
@@ -31,8 +32,8 @@ Status write_one(const ExportFormat& format, const compensation::Table& table, c
     ZD_CHECK(write_file(name, file.text));
     out.files << QString::fromStdString(name);
   }
-  for (const auto& line : made.losses) out.losses << QString::fromStdString(line);
-  for (const auto& line : made.confirm) out.confirm << QString::fromStdString(line);
+  for (const auto& line : made.losses) out.losses << coreText(line);
+  for (const auto& line : made.confirm) out.confirm << coreText(line);
   out.loss_um = std::max(out.loss_um, made.loss_um);
   return {};
 }
@@ -67,7 +68,7 @@ Result<WrittenExport> write_export(const ExportFormat& format, const compensatio
 
 bool export_with_question(QWidget* parent, Workbench& bench, const compensation::Table& table,
                           const ExportFormat* format, bool one_point, const std::function<void(const Error&)>& show) {
-  const QString own = said("Zerodrift table (*.json)");
+  const QString own = TableExport::tr("Zerodrift table (*.json)");
   QStringList filters = {own};
   if (format == nullptr) {
     for (const auto& one : controller::export_formats()) filters << id_of(one) + QStringLiteral(" (*)");
@@ -76,7 +77,7 @@ bool export_with_question(QWidget* parent, Workbench& bench, const compensation:
   }
   QString chosen;
   const QString name = format == nullptr ? QStringLiteral("/table.json") : QLatin1Char('/') + id_of(*format);
-  const QString path = QFileDialog::getSaveFileName(parent, said("Export"), QDir::homePath() + name,
+  const QString path = QFileDialog::getSaveFileName(parent, TableExport::tr("Export"), QDir::homePath() + name,
                                                     filters.join(QStringLiteral(";;")), &chosen);
   if (path.isEmpty()) return false;
   if (format == nullptr && chosen != own) {
@@ -89,7 +90,7 @@ bool export_with_question(QWidget* parent, Workbench& bench, const compensation:
       show(written.error());
       return false;
     }
-    bench.log(LogKind::good, said("Table saved: %1").arg(path));
+    bench.log(LogKind::good, TableExport::tr("Table saved: %1").arg(path));
     return true;
   }
   const auto written = write_export(*format, table, path, one_point);
@@ -97,10 +98,12 @@ bool export_with_question(QWidget* parent, Workbench& bench, const compensation:
     show(written.error());
     return false;
   }
-  bench.log(LogKind::good, said("Exported: %1").arg(written->files.join(QStringLiteral(", "))));
-  for (const auto& line : written->losses) bench.log(LogKind::warning, said("Lost: %1").arg(line));
+  bench.log(LogKind::good, TableExport::tr("Exported: %1").arg(written->files.join(QStringLiteral(", "))));
+  for (const auto& line : written->losses) bench.log(LogKind::warning, TableExport::tr("Lost: %1").arg(line));
   for (const auto& line : written->confirm) {
-    bench.log(LogKind::warning, (one_point ? said("Expect: %1") : said("Confirm on one point first: %1")).arg(line));
+    bench.log(
+        LogKind::warning,
+        (one_point ? TableExport::tr("Expect: %1") : TableExport::tr("Confirm on one point first: %1")).arg(line));
   }
   return true;
 }

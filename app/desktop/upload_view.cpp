@@ -7,8 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/text/core_text.h"
 #include "core/compensation/sign.h"
 #include "core/controller/table_words.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -20,16 +22,16 @@ namespace {
 
 constexpr std::size_t curve_points = 400;
 
-QString words_for(const char* text) {
-  return QCoreApplication::translate("zerodrift::desktop::UploadView", text);
-}
+struct UploadView {
+  Q_DECLARE_TR_FUNCTIONS(UploadView)
+};
 
 QString name_of_sensor(const controller::Profile& profile, const std::string& channel) {
   QString name = QString::fromStdString(channel).remove(QStringLiteral("_C"));
   for (const auto& sensor : profile.sensors) {
-    if (sensor.channel == channel) return name + QLatin1Char(' ') + QString::fromStdString(sensor.label);
+    if (sensor.channel == channel) return name + QLatin1Char(' ') + coreText(sensor.label);
   }
-  return channel == "ambient_C" ? words_for("Room") : name;
+  return channel == "ambient_C" ? UploadView::tr("Room") : name;
 }
 
 const compensation::AxisTable* axis_in(const compensation::Table& table, const std::string& name) {
@@ -53,11 +55,12 @@ QVector<ui::TableTerm> terms_of(const compensation::AxisTable* before, const com
       auto& term = row(name, unit);
       (is_new ? term.after : term.before) = compensation::compensation_from_error_um(error);
     };
-    put(words_for("Constant"), QStringLiteral("µm"), axis->offset_um);
+    put(UploadView::tr("Constant"), QStringLiteral("µm"), axis->offset_um);
     for (const auto& term : axis->terms)
       put(name_of_sensor(profile, term.sensor), QStringLiteral("µm/K"), term.um_per_K);
     for (const auto& point : axis->points) {
-      put(words_for("Point %1 mm").arg(point.position_mm, 0, 'f', 1), QStringLiteral("µm"), point.error_up_um);
+      put(UploadView::tr("Point %1 mm").arg(ui::fixedText(point.position_mm, 1)), QStringLiteral("µm"),
+          point.error_up_um);
     }
   };
   add(before, false);
@@ -88,7 +91,7 @@ void over_run(ui::AxisTable& out, const compensation::AxisTable* before, const c
               const compensation::Table& old_table, const compensation::Table& new_table, double position_mm,
               const recording::Recording& run) {
   out.overTime = true;
-  out.abscissa = words_for("time of the warm-up run");
+  out.abscissa = UploadView::tr("time of the warm-up run");
   const std::size_t stride = run.rows() / curve_points + 1;
   for (std::size_t r = 0; r < run.rows(); r += stride) {
     const double old_um = value_or_zero(before, position_mm, temperatures_at(run, old_table, r));
@@ -102,7 +105,7 @@ void over_run(ui::AxisTable& out, const compensation::AxisTable* before, const c
 
 void over_position(ui::AxisTable& out, const compensation::AxisTable* before, const compensation::AxisTable* after,
                    const compensation::Table& old_table, const compensation::Table& new_table) {
-  out.abscissa = words_for("position / mm");
+  out.abscissa = UploadView::tr("position / mm");
   std::vector<double> positions;
   for (const auto* axis : {before, after}) {
     if (axis == nullptr) continue;
@@ -120,35 +123,35 @@ void over_position(ui::AxisTable& out, const compensation::AxisTable* before, co
 QString stage_text(UploadState state) {
   switch (state) {
     case UploadState::checking:
-      return words_for("Machine ready, table within its limits");
+      return UploadView::tr("Machine ready, table within its limits");
     case UploadState::saving_old:
-      return words_for("Old table read and kept");
+      return UploadView::tr("Old table read and kept");
     case UploadState::switching_off:
-      return words_for("Compensation off");
+      return UploadView::tr("Compensation off");
     case UploadState::staging:
-      return words_for("New table staged");
+      return UploadView::tr("New table staged");
     case UploadState::reading_back:
-      return words_for("Read back and compared");
+      return UploadView::tr("Read back and compared");
     case UploadState::announcing:
-      return words_for("Count and check sum announced");
+      return UploadView::tr("Count and check sum announced");
     case UploadState::committing:
-      return words_for("Committed");
+      return UploadView::tr("Committed");
     case UploadState::waiting:
-      return words_for("Checked by the controller");
+      return UploadView::tr("Checked by the controller");
     case UploadState::comparing:
-      return words_for("Active table compared");
+      return UploadView::tr("Active table compared");
     case UploadState::switching_on:
-      return words_for("Compensation on");
+      return UploadView::tr("Compensation on");
     case UploadState::ramping:
-      return words_for("Ramped in");
+      return UploadView::tr("Ramped in");
     case UploadState::done:
-      return words_for("Done");
+      return UploadView::tr("Done");
     case UploadState::restoring:
-      return words_for("Restoring the old table");
+      return UploadView::tr("Restoring the old table");
     case UploadState::restored:
-      return words_for("The old table is active");
+      return UploadView::tr("The old table is active");
     case UploadState::restore_failed:
-      return words_for("The old table could not be restored");
+      return UploadView::tr("The old table could not be restored");
   }
   return {};
 }
@@ -196,12 +199,12 @@ QVector<ui::Stage> stages_of(const std::vector<controller::UploadStep>& steps, b
     const int index = static_cast<int>(step.state);
     if (index < stages.size()) {
       stages[index].state = ui::StageState::done;
-      stages[index].detail = QString::fromStdString(step.detail);
+      stages[index].detail = coreText(step.detail);
       last = index;
     } else if (step.state != UploadState::done) {
       const bool worst = step.state == UploadState::restore_failed;
-      stages.append({stage_text(step.state), worst ? ui::StageState::failed : ui::StageState::done,
-                     QString::fromStdString(step.detail)});
+      stages.append(
+          {stage_text(step.state), worst ? ui::StageState::failed : ui::StageState::done, coreText(step.detail)});
     }
   }
   if (last < 0) return stages;
@@ -238,7 +241,7 @@ ui::SignCheckResult sign_of(const json& sign_check) {
     result.axes.append(axis);
   }
   const bool passed = sign_check.value("passed", false);
-  result.word = passed ? words_for("same direction and size") : words_for("not as commanded");
+  result.word = passed ? UploadView::tr("same direction and size") : UploadView::tr("not as commanded");
   result.judgement = passed ? ui::Judgement::ok : ui::Judgement::bad;
   return result;
 }
@@ -247,17 +250,18 @@ QVector<ui::TableVersion> history_of(const std::vector<controller::FormerTable>&
                                      const controller::ActiveTable& active, const controller::Profile& profile) {
   const auto words_of = [&](const std::vector<std::uint16_t>& words) {
     const auto table = controller::decode_table(words, profile);
-    if (!table || table->axes.empty()) return words_for("no compensation");
+    if (!table || table->axes.empty()) return UploadView::tr("no compensation");
     QStringList axes;
     for (const auto& [name, axis] : table->axes) axes << QString::fromStdString(name);
-    return words_for("%1, %2 registers").arg(axes.join(QLatin1Char(' '))).arg(words.size());
+    return UploadView::tr("%1, %2 registers").arg(axes.join(QLatin1Char(' '))).arg(words.size());
   };
   QVector<ui::TableVersion> rows;
   // The history says when and by whom a table was replaced: that is when, and by whom, the next one was written.
   const auto written = [](const controller::FormerTable* before, ui::TableVersion& row) {
     if (before == nullptr) return;
     const auto time = QDateTime::fromString(QString::fromStdString(before->time), Qt::ISODate);
-    row.when = QLocale().toString(time.toLocalTime(), QStringLiteral("d MMM HH:mm"));
+    row.when =
+        QLocale().toString(time.toLocalTime(), UploadView::tr("d MMM HH:mm", "date and time, as QLocale writes it"));
     row.who = QString::fromStdString(before->who);
   };
   ui::TableVersion now;

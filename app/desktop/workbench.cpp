@@ -1,5 +1,8 @@
 #include "app/desktop/workbench.h"
 
+#include <QRegularExpression>
+
+#include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "core/base/json.h"
 
@@ -63,7 +66,7 @@ void Workbench::closeJob() {
 Status Workbench::keep(const commissioning::NewArtefact& made) {
   if (!m_job) return fail(ErrorCode::step_blocked, {{"step", made.kind}, {"needs", "a job"}});
   ZD_TRY(const auto kept, m_job->put(made));
-  log(LogKind::good, tr("Kept %1 #%2").arg(QString::fromStdString(kept.kind)).arg(kept.id));
+  log(LogKind::good, tr("Kept %1 #%2").arg(stepName(kept.kind)).arg(kept.id));
   Q_EMIT artefactsChanged();
   return {};
 }
@@ -92,7 +95,7 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
   std::vector<std::string> warnings;
   ZD_TRY(auto profile, controller::read_profile(path, &warnings));
   ZD_TRY(m_profileDocument, read_json_file(path));
-  for (const auto& warning : warnings) log(LogKind::warning, QString::fromStdString(warning));
+  for (const auto& warning : warnings) log(LogKind::warning, coreText(warning));
   m_profile = std::move(profile);
   m_cameras.clear();
   m_look.reset();
@@ -135,17 +138,29 @@ const std::vector<std::shared_ptr<vision::Camera>>& Workbench::cameras() {
 report::Labels Workbench::labels() const {
   report::Labels labels;
   if (m_profile) {
-    for (const auto& sensor : m_profile->sensors) labels[sensor.channel] = sensor.label;
+    for (const auto& sensor : m_profile->sensors) labels[sensor.channel] = coreText(sensor.label).toStdString();
   }
   return labels;
 }
 
 QString Workbench::inWords(const std::string& text) const {
-  return QString::fromStdString(report::readable(text, labels()));
+  const QString said = coreText(text);
+  const QString room = QStringLiteral("Room");
+  if (coreText(room) == room) return QString::fromStdString(report::readable(text, labels()));
+  static const QRegularExpression channels(QStringLiteral(
+      "(?<![A-Za-z0-9_])(T\\d+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)(?![A-Za-z0-9_])"));
+  QString words;
+  qsizetype from = 0;
+  for (auto at = channels.globalMatch(said); at.hasNext();) {
+    const auto found = at.next();
+    words += said.mid(from, found.capturedStart() - from) + channelInWords(found.captured().toStdString());
+    from = found.capturedEnd();
+  }
+  return words + said.mid(from);
 }
 
 QString Workbench::channelInWords(const std::string& channel) const {
-  return QString::fromStdString(report::channel_in_words(channel, labels()));
+  return coreText(report::channel_in_words(channel, labels()));
 }
 
 void Workbench::tellSample(const acquisition::MachineSample& sample) {

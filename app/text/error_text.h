@@ -15,5 +15,7 @@ struct ErrorText {
 ErrorText textOf(const Error& error);
 /// Both in one line, for the command line and the log.
 QString lineOf(const Error& error);
+/// A step or the artefact it makes, in words: "warmup" is "warm-up".
+QString stepName(const std::string& id);
 
 }  // namespace zerodrift

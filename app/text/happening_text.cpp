@@ -4,6 +4,8 @@
 #include <QStringList>
 #include <array>
 
+#include "app/text/core_text.h"
+
 namespace zerodrift {
 namespace {
 
@@ -45,7 +47,7 @@ QString textOf(const acquisition::Happening& happening) {
   QString text = wordsOf(happening.name);
   if (!happening.what.empty()) {
     QStringList what;
-    for (const auto& one : happening.what) what << QString::fromStdString(one);
+    for (const auto& one : happening.what) what << coreText(one);
     text += QStringLiteral(" (%1)").arg(what.join(QStringLiteral("; ")));
   }
   text = happening.count == 1

@@ -24,6 +24,7 @@
 #include "ui/widgets/empty_state.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/machine_drawing.h"
+#include "ui/widgets/number_text.h"
 
 using namespace zerodrift::ui;
 
@@ -45,6 +46,8 @@ class PagesTest : public QObject {
   void uploadIsLockedWhileCompensationIsOn();
   void uploadIsLockedByAWrongSign();
   void verifyProposesTheCorrection();
+  void removedIsToldForEachDirection();
+  void nothingIsMinusZero();
   void physicsAdoptsAndRejects();
   void blindTrialIsOpenedLast();
   void axisRefusesATableThatTurnsBack();
@@ -297,6 +300,43 @@ void PagesTest::verifyProposesTheCorrection() {
   QSignalSpy threshold(&page, &VerifyPage::thresholdChanged);
   page.findChild<QDoubleSpinBox*>("threshold")->setValue(4.5);
   QCOMPARE(threshold.count(), 1);
+}
+
+void PagesTest::removedIsToldForEachDirection() {
+  VerifyPage page;
+  VerifyState state;
+  state.phase = VerifyPhase::finished;
+  state.peakLimit_um = 5.0;
+  state.removedTarget_percent = 85.0;
+  const auto axis = [](const char* name, double before_um, double after_um) {
+    AxisResult result;
+    result.axis = name;
+    result.before_um = before_um;
+    result.after_um = after_um;
+    result.removed_percent = 100.0 * (1.0 - after_um / before_um);
+    return result;
+  };
+  state.results = {axis("X", 2.0, 1.0), axis("Y", 20.0, 2.0), axis("Z", 50.0, 1.0)};
+  page.setState(state);
+  const auto removed = [&page] {
+    for (const auto* card : page.findChildren<FigureCard*>()) {
+      if (card->figure().label.startsWith("Removed")) return card->figure();
+    }
+    return Figure{};
+  };
+  QCOMPARE(removed().label, QString("Removed in X, Y, Z"));
+  QCOMPARE(removed().value, QString("50 / 90 / 98"));
+  QCOMPARE(removed().judgement, Judgement::ok);  // what was small in X needs no removing
+  state.results[1].removed_percent = 40.0;
+  page.setState(state);
+  QCOMPARE(removed().judgement, Judgement::bad);
+}
+
+void PagesTest::nothingIsMinusZero() {
+  QCOMPARE(fixedText(-0.04, 1), QString("0.0"));
+  QCOMPARE(fixedText(-0.06, 1), QString("-0.1"));
+  QCOMPARE(fixedText(-0.4, 0), QString("0"));
+  QCOMPARE(figureOf("x", -0.004, 2, "µm").value, QString("0.00"));
 }
 
 void PagesTest::blindTrialIsOpenedLast() {

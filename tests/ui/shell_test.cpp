@@ -61,6 +61,7 @@ class ShellTest : public QObject {
   void progressMovesNoPage();
   void focusDoesNotJump();
   void helpIsThereForEveryPage();
+  void helpClosesByEscapeAndLeavesTheConsentInSight();
   void quitsByKeyboard();
   void bannerShowsProblemAndAction();
   void keyboardReachesRailActionsAndFoot();
@@ -168,6 +169,28 @@ void ShellTest::focusDoesNotJump() {
   window.findChild<QPushButton*>("action-other")->setFocus();
   window.setCurrentPage("b");
   for (StepButton* step : window.rail()->steps()) QVERIFY(!step->hasFocus());
+}
+
+void ShellTest::helpClosesByEscapeAndLeavesTheConsentInSight() {
+  MainWindow window;
+  samples::fillWindow(window);
+  window.resize(1280, 720);
+  window.show();
+  QVERIFY(QTest::qWaitForWindowActive(&window));
+  samples::play(window, {"calibrate", "solved"});
+  QCoreApplication::processEvents();
+  window.toggleHelp();
+  QVERIFY(window.isHelpVisible());
+  const auto* consent = window.findChild<QCheckBox*>("areaClear");
+  const auto* help = window.findChild<HelpPanel*>();
+  const QRect box(consent->mapTo(&window, QPoint(0, 0)), consent->size());
+  const QRect panel(help->mapTo(&window, QPoint(0, 0)), help->size());
+  QVERIFY(!panel.intersects(box));
+  QVERIFY(panel.height() > 200);
+  QTest::keyClick(&window, Qt::Key_Escape);
+  QVERIFY(!window.isHelpVisible());
+  QTest::keyClick(&window, Qt::Key_Escape);  // does not open it again
+  QVERIFY(!window.isHelpVisible());
 }
 
 void ShellTest::helpIsThereForEveryPage() {

@@ -7,6 +7,7 @@
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/legend_row.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
 
@@ -284,7 +285,7 @@ void AxisPage::renderRivals() {
     name.strong = used;
     DataCell count{QString::number(fitted(segments))};
     const double residual = largest_residual(segments);
-    DataCell largest{std::isnan(residual) ? QStringLiteral("–") : QString::number(residual, 'f', 2) + " µm"};
+    DataCell largest{std::isnan(residual) ? QStringLiteral("–") : fixedText(residual, 2) + " µm"};
     rows.append({name, count, largest});
   }
   m_rivals->setRows(rows);
@@ -302,9 +303,8 @@ void AxisPage::renderTables() {
   for (const StandardFigure& figure : m_standard->currentIndex() == 1 ? m_state.vdi : m_state.iso) {
     DataCell symbol{figure.symbol};
     symbol.strong = true;
-    rows.append(
-        {symbol, DataCell{figure.name},
-         DataCell{std::isnan(figure.value_um) ? QStringLiteral("–") : QString::number(figure.value_um, 'f', 2)}});
+    rows.append({symbol, DataCell{figure.name},
+                 DataCell{std::isnan(figure.value_um) ? QStringLiteral("–") : fixedText(figure.value_um, 2)}});
   }
   m_standardTable->setRows(rows);
   m_segmentTable->setColumns({{tr("From"), 66, true, {}},
@@ -314,10 +314,10 @@ void AxisPage::renderTables() {
                               {tr("Residual"), 0, true, tr("Largest residual of a point")}});
   rows.clear();
   for (const AxisSegment& s : segments()) {
-    rows.append({DataCell{QString::number(s.from_mm, 'f', 1)}, DataCell{QString::number(s.to_mm, 'f', 1)},
+    rows.append({DataCell{fixedText(s.from_mm, 1)}, DataCell{fixedText(s.to_mm, 1)},
                  DataCell{s.points == 0 ? tr("joint") : QString::number(s.points)},
-                 DataCell{std::isnan(s.r) ? QStringLiteral("–") : QString::number(s.r, 'f', 4)},
-                 DataCell{QString::number(s.largestResidual_um, 'f', 2) + " µm"}});
+                 DataCell{std::isnan(s.r) ? QStringLiteral("–") : fixedText(s.r, 4)},
+                 DataCell{fixedText(s.largestResidual_um, 2) + " µm"}});
   }
   m_segmentTable->setRows(rows);
 }

@@ -121,6 +121,10 @@ QWidget* CalibratePage::makeMoves() {
   return m_moveCard;
 }
 
+const QWidget* CalibratePage::keepInSight() const {
+  return m_moveCard;
+}
+
 bool CalibratePage::takeConsent() {
   const bool given = m_clear->isEnabled() && m_clear->isChecked();
   m_clear->setChecked(false);

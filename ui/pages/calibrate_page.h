@@ -97,6 +97,7 @@ class CalibratePage : public Page {
   PageAction primary() const override;
   /// "repeat".
   QVector<PageAction> secondary() const override;
+  const QWidget* keepInSight() const override;
   bool steersWork() const override { return m_state.waiting; }
 
  Q_SIGNALS:

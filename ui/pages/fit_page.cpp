@@ -7,6 +7,7 @@
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/legend_row.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
 
@@ -230,11 +231,11 @@ void FitPage::renderMethods() {
     name.judgement = name.judged ? Judgement::ok : Judgement::none;
     name.tip = name.judged ? tr("Proposed: %1").arg(method.why) : method.why;
     const auto um = [](double value) {
-      return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 2) + " µm"};
+      return DataCell{std::isnan(value) ? QStringLiteral("–") : fixedText(value, 2) + " µm"};
     };
     DataCell coverage;
-    coverage.text = std::isnan(method.coverage_percent) ? QStringLiteral("–")
-                                                        : QString::number(method.coverage_percent, 'f', 0) + " %";
+    coverage.text =
+        std::isnan(method.coverage_percent) ? QStringLiteral("–") : fixedText(method.coverage_percent, 0) + " %";
     rows.append({name, um(method.unseen_um), um(method.peak_um), coverage,
                  DataCell{method.onController ? tr("controller") : tr("host")}});
   }

@@ -7,6 +7,7 @@
 #include "ui/widgets/channel_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/machine_drawing.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
 
@@ -150,7 +151,7 @@ QString MachinePage::sentence() const {
   if (!std::isnan(rest.change_K_h) && std::abs(rest.change_K_h) > rest.changeLimit_K_h) {
     return tr("%1 still changes by %2 K/h. You may start; the run is best when nothing changes any more.")
         .arg(rest.quickest)
-        .arg(rest.change_K_h, 0, 'f', 1);
+        .arg(fixedText(rest.change_K_h, 1));
   }
   if (rest.spread_K > rest.spreadLimit_K && !std::isnan(rest.change_K_h)) {
     return tr("%1 stands %2 K apart from the others and rests there: that does no harm. Start when all sensors live.")
@@ -207,12 +208,9 @@ Figure MachinePage::restFigure() const {
   const bool steady = watched && std::abs(rest.change_K_h) <= rest.changeLimit_K_h;
   figure.judgement = even || steady ? Judgement::ok : Judgement::warn;
   figure.word = even ? tr("even") : steady ? tr("steady") : watched ? tr("still settling") : tr("uneven");
-  if (!even)
-    figure.limit =
-        tr("%1 %2 K").arg(rest.warmest, (rest.apart_K > 0 ? "+" : "") + QString::number(rest.apart_K, 'f', 1));
+  if (!even) figure.limit = tr("%1 %2 K").arg(rest.warmest, (rest.apart_K > 0 ? "+" : "") + fixedText(rest.apart_K, 1));
   if (watched && !steady) {
-    figure.limit =
-        tr("%1 %2 K/h").arg(rest.quickest, (rest.change_K_h > 0 ? "+" : "") + QString::number(rest.change_K_h, 'f', 1));
+    figure.limit = tr("%1 %2 K/h").arg(rest.quickest, (rest.change_K_h > 0 ? "+" : "") + fixedText(rest.change_K_h, 1));
   }
   figure.tip = tr("Warmest sensor minus coldest. It forbids nothing: a sensor by a motor that always holds is always "
                   "warmer. What "
@@ -259,7 +257,7 @@ void MachinePage::renderMachine() {
   QVector<SensorSpot> spots;
   for (const SensorHealth& s : m_state.sensors) {
     const bool live = m_state.known() && !std::isnan(s.value_C);
-    const QString value = live ? tr("%1 °C").arg(s.value_C, 0, 'f', 2) : QStringLiteral("–");
+    const QString value = live ? tr("%1 °C").arg(fixedText(s.value_C, 2)) : QStringLiteral("–");
     QString state = s.state;
     if (live && s.judgement == Judgement::ok) {
       state = std::isnan(s.age_s) ? QString() : tr("%1 s").arg(s.age_s, 0, 'f', 0);
@@ -294,7 +292,7 @@ void MachinePage::renderParts() {
     words.append(QStringLiteral("<span style='color:%1'>%2</span>&nbsp;<span style='color:%3'>%4</span>&nbsp;%5")
                      .arg(htmlColor(colors().ink(part.judgement)), mark, htmlColor(colors().muted),
                           part.label.toHtmlEscaped().replace(' ', "&nbsp;"),
-                          part.value.toHtmlEscaped().replace(' ', "&nbsp;")));
+                          part.value.toHtmlEscaped().replace(' ', "&nbsp;").replace('/', "/&#8288;")));
   }
   m_parts->setText(words.join(" &nbsp;&nbsp; "));
   m_parts->setVisible(m_state.connected && !words.isEmpty() && m_view->currentIndex() == 0);

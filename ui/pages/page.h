@@ -63,6 +63,8 @@ class Page : public QWidget {
   virtual QString sentence() const = 0;
   virtual PageAction primary() const = 0;
   virtual QVector<PageAction> secondary() const { return {}; }
+  /// What a panel over the page must not cover: a consent that is asked for.
+  virtual const QWidget* keepInSight() const { return nullptr; }
   /// Whether the primary action steers the work itself (pause, resume) and so stays on while it goes on.
   virtual bool steersWork() const { return false; }
 

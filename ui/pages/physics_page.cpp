@@ -9,6 +9,7 @@
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/legend_row.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
 
@@ -271,7 +272,7 @@ void PhysicsPage::renderChannels() {
     row.id = channel.id;
     row.tag = channel.tag;
     const bool known = !std::isnan(channel.rmse);
-    row.value = known ? QString::number(channel.rmse, 'f', 2) + ' ' + channel.unit : QStringLiteral("–");
+    row.value = known ? fixedText(channel.rmse, 2) + ' ' + channel.unit : QStringLiteral("–");
     const double times = channel.rmse / std::max(channel.noise, 1e-9);
     row.judgement = !known || std::isnan(times) ? Judgement::none
                     : times < 2.0               ? Judgement::ok
@@ -379,7 +380,7 @@ void PhysicsPage::renderTrials() {
     result.judged = true;
     result.judgement = trial.right ? Judgement::ok : Judgement::bad;
     rows.append({DataCell{trial.effect}, DataCell{trial.answer}, result,
-                 DataCell{QString::number(trial.improvement_percent, 'f', 0) + " %"}});
+                 DataCell{fixedText(trial.improvement_percent, 0) + " %"}});
   }
   m_trials->setRows(rows);
   renderTrial();

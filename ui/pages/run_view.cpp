@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ui/widgets/card.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/problem_banner.h"
 #include "ui/widgets/toggle_segment.h"
 
@@ -15,7 +16,8 @@ namespace {
 QStringList kindsOf(const QStringList& lines) {
   QStringList kinds;
   static const QRegularExpression figures(QStringLiteral("\\d+"));
-  for (const QString& line : lines) kinds << line.section(QLatin1Char(','), 0, 0).remove(figures);
+  static const QRegularExpression comma(QStringLiteral("[,，]"));  // what follows is how often
+  for (const QString& line : lines) kinds << line.section(comma, 0, 0).remove(figures);
   return kinds;
 }
 
@@ -165,6 +167,8 @@ void RunView::setChannels(const QVector<RunChannel>& temperatures, const QVector
   m_errorCard->setMinimumHeight(std::min(whole, 100));
   m_errorCard->setMaximumHeight(whole);
   retranslate();
+  const QVector<RunValue> values(m_values.cbegin(), m_values.cend());
+  setValues(values);
 }
 
 void RunView::append(const QString& id, const QVector<double>& time_s, const QVector<double>& values) {
@@ -177,16 +181,17 @@ void RunView::setBand(const QString& id, const QVector<double>& time_s, const QV
 }
 
 void RunView::clear() {
+  m_values.clear();
   for (LivePlot* plot : {m_temperatures, m_errors, m_inputs}) plot->clearData();
 }
 
 void RunView::setValues(const QVector<RunValue>& values) {
   for (const RunValue& value : values) {
     const auto channel = m_channels.constFind(value.id);
+    m_values.insert(value.id, value);
     if (channel == m_channels.constEnd()) continue;
-    const QString text = std::isnan(value.value)
-                             ? QStringLiteral("–")
-                             : QString::number(value.value, 'f', channel->decimals) + ' ' + channel->unit;
+    const QString text =
+        std::isnan(value.value) ? QStringLiteral("–") : fixedText(value.value, channel->decimals) + ' ' + channel->unit;
     m_temperatureTable->setValue(value.id, text, value.state, value.judgement);
     m_errorTable->setValue(value.id, text, value.state, value.judgement);
     if (LivePlot* plot = m_plotOf.value(value.id)) plot->setEmphasis(value.id, value.judgement == Judgement::bad);

@@ -93,6 +93,7 @@ class RunView : public QWidget {
   CameraView* m_camera;
   QHash<QString, LivePlot*> m_plotOf;
   QHash<QString, RunChannel> m_channels;
+  QHash<QString, RunValue> m_values;  // the last of each channel
 };
 
 }  // namespace zerodrift::ui

@@ -7,6 +7,7 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 DataCell numberCell(double value, int decimals) {
   DataCell cell;
-  cell.text = std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', decimals);
+  cell.text = std::isnan(value) ? QStringLiteral("–") : fixedText(value, decimals);
   return cell;
 }
 
@@ -334,7 +335,7 @@ void SensorsPage::renderTable() {
     DataCell price;
     price.text = QStringLiteral("–");
     if (!std::isnan(s.price_um)) {
-      const QString size = QString::number(std::abs(s.price_um), 'f', 2);
+      const QString size = fixedText(std::abs(s.price_um), 2);
       const bool nothing = std::abs(s.price_um) < 0.005;
       price.text = nothing ? tr("0.00 µm") : QStringLiteral("%1%2 µm").arg(s.price_um < 0.0 ? "−" : "+", size);
       price.tip = nothing  ? tr("Keeping it or not makes no difference")

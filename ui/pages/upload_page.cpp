@@ -7,6 +7,7 @@
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/legend_row.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
 
@@ -151,7 +152,11 @@ QVector<Figure> UploadPage::figures() const {
       m_state.sign.measured ? (m_state.sign.judgement == Judgement::bad ? tr("wrong") : tr("right")) : QString();
   sign.judgement = m_state.sign.judgement;
   sign.word = m_state.sign.measured ? tr("seen by the camera") : tr("not checked yet");
-  return {version, figureAtMost(tr("Largest change"), m_state.largestChange_um, 1, "µm", m_state.changeLimit_um),
+  Figure largest = figureAtMost(tr("Largest change now"), m_state.largestChange_um, 1, "µm", m_state.changeLimit_um);
+  largest.tip =
+      tr("Between the old and the new table at the temperatures of this moment: so far the axes would move. "
+         "While the machine warms it grows; the curve shows it over the whole warm-up run.");
+  return {version, largest,
           figureAtMost(tr("Steepest term"), m_state.steepest_um_per_K, 2, tr("µm/K"), m_state.steepestLimit_um_per_K),
           size, sign};
 }
@@ -232,7 +237,7 @@ void UploadPage::renderAxis() {
 
   QVector<QVector<DataCell>> rows;
   const auto number = [](double value) {
-    return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 3)};
+    return DataCell{std::isnan(value) ? QStringLiteral("–") : fixedText(value, 3)};
   };
   for (const TableTerm& term : axis.terms) {
     const double from = std::isnan(term.before) ? 0.0 : term.before;

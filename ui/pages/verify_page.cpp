@@ -7,6 +7,7 @@
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/legend_row.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
@@ -145,7 +146,7 @@ QVector<Figure> VerifyPage::figures() const {
   Figure after = figureAtMost(tr("Peak with"), m_state.peakAfter_um, 1, "µm", m_state.peakLimit_um);
   if (!m_state.afterAxis.isEmpty()) after.limit = tr("in %1, %2").arg(m_state.afterAxis, after.limit);
   Figure rms = figureOf(tr("rms with"), m_state.rmsAfter_um, 2, "µm");
-  Figure removed = figureAtLeast(tr("Removed"), m_state.removed_percent, 0, "%", m_state.removedTarget_percent);
+  Figure removed = removedFigure();
   QStringList worse;
   for (const AxisResult& axis : m_state.results) {
     if (axis.worse() || axis.worseAtTheEnd()) worse.append(axis.axis);
@@ -173,6 +174,31 @@ QVector<Figure> VerifyPage::figures() const {
   return {before, after, rms, removed, frame};
 }
 
+/// Direction by direction: a peak in one of them says nothing of another's. What was small before is not judged.
+Figure VerifyPage::removedFigure() const {
+  QStringList axes;
+  QStringList values;
+  double least_percent = std::numeric_limits<double>::quiet_NaN();
+  double largest_um = 0.0;
+  for (const AxisResult& axis : m_state.results) largest_um = std::fmax(largest_um, axis.before_um);
+  for (const AxisResult& axis : m_state.results) {
+    if (std::isnan(axis.removed_percent)) continue;
+    axes << axis.axis;
+    values << fixedText(axis.removed_percent, 0);
+    const bool counts = axis.before_um > m_state.peakLimit_um || axis.before_um >= largest_um;
+    if (counts) least_percent = std::fmin(least_percent, axis.removed_percent);
+  }
+  Figure removed = figureAtLeast(tr("Removed"), least_percent, 0, "%", m_state.removedTarget_percent);
+  removed.tip = tr("Share of the largest error that is gone, for each direction by itself; %1. Judged by the least of "
+                   "those whose error was above %2 µm before.")
+                    .arg(removed.limit)
+                    .arg(m_state.peakLimit_um);
+  if (values.isEmpty()) return removed;
+  removed.label = tr("Removed in %1").arg(axes.join(QStringLiteral(", ")));
+  removed.value = values.join(QStringLiteral(" / "));
+  return removed;
+}
+
 /// What the figures alone do not say.
 QStringList VerifyPage::words() const {
   QStringList lines;
@@ -185,8 +211,8 @@ QStringList VerifyPage::words() const {
     } else if (axis.worseAtTheEnd()) {
       lines << tr("At the end %1 is worse than without: %2 µm instead of %3 µm.")
                    .arg(axis.axis)
-                   .arg(axis.endAfter_um, 0, 'f', 1)
-                   .arg(axis.endBefore_um, 0, 'f', 1);
+                   .arg(fixedText(axis.endAfter_um, 1))
+                   .arg(fixedText(axis.endBefore_um, 1));
     }
   }
   if (m_state.peakAfter_um > 1.25 * m_state.promised_um) {
@@ -231,10 +257,10 @@ void VerifyPage::renderCorrection() {
   for (const AxisCorrection& axis : m_state.corrections) {
     DataCell name{axis.axis};
     name.strong = axis.proposed;
-    DataCell kappa{QString::number(axis.kappa, 'f', 3)};
+    DataCell kappa{fixedText(axis.kappa, 3)};
     if (axis.kappaSigma > 0.0) kappa.text += QStringLiteral(" ± %1").arg(axis.kappaSigma, 0, 'f', 3);
     const auto um = [](double value) {
-      return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 1) + " µm"};
+      return DataCell{std::isnan(value) ? QStringLiteral("–") : fixedText(value, 1) + " µm"};
     };
     DataCell evidence{axis.evidence};
     evidence.tip = axis.evidence;  // a narrow window cuts the sentence

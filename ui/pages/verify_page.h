@@ -54,7 +54,6 @@ struct VerifyState {
   double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most
   double rmsBefore_um = std::numeric_limits<double>::quiet_NaN();
   double rmsAfter_um = std::numeric_limits<double>::quiet_NaN();
-  double removed_percent = std::numeric_limits<double>::quiet_NaN();
   double removedTarget_percent = 85.0;
   double frameLimit_s = 120.0;  // longer without a measurement is too long
   double lastGoodFrame_s = std::numeric_limits<double>::quiet_NaN();
@@ -95,6 +94,7 @@ class VerifyPage : public Page {
   void renderCorrection();
   void renderResiduals();
   QVector<Figure> figures() const;
+  Figure removedFigure() const;
   QStringList words() const;
 
   VerifyState m_state;

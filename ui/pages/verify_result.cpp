@@ -6,13 +6,14 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/data_table.h"
 #include "ui/widgets/legend_row.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
 namespace {
 
 DataCell micrometres(double value) {
-  return DataCell{std::isnan(value) ? QStringLiteral("–") : QString::number(value, 'f', 1) + QStringLiteral(" µm")};
+  return DataCell{std::isnan(value) ? QStringLiteral("–") : fixedText(value, 1) + QStringLiteral(" µm")};
 }
 
 DataCell judgedCell(DataCell cell, Judgement judgement) {
@@ -78,7 +79,7 @@ void VerifyResult::renderTable() {
     DataCell gain{axis.worse() ? tr("%1 % worse").arg(-axis.removed_percent, 0, 'f', 0)
                                : tr("%1 % removed").arg(axis.removed_percent, 0, 'f', 0)};
     if (std::isnan(axis.removed_percent)) gain.text = QStringLiteral("–");
-    DataCell end{QStringLiteral("%1 → %2 µm").arg(axis.endBefore_um, 0, 'f', 1).arg(axis.endAfter_um, 0, 'f', 1)};
+    DataCell end{QStringLiteral("%1 → %2 µm").arg(fixedText(axis.endBefore_um, 1)).arg(fixedText(axis.endAfter_um, 1))};
     if (std::isnan(axis.endBefore_um) || std::isnan(axis.endAfter_um)) end.text = QStringLiteral("–");
     if (axis.worseAtTheEnd()) end.tip = tr("Worse at the end than without compensation");
     const bool kept = axis.after_um <= m_limit_um;

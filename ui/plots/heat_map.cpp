@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/plots/custom_plot.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::ui {
 
@@ -138,7 +139,7 @@ PlotWidget::Near HeatMap::nearest(const QPointF& pixel) const {
   Near near;
   near.id = "map";
   near.text = QStringLiteral("%1 %2   %3 mm   %4")
-                  .arg(QString::number(value, 'f', 1), m_data.unit)
+                  .arg(fixedText(value, 1), m_data.unit)
                   .arg(position_mm, 0, 'f', 0)
                   .arg(elapsedText(time_s));
   near.x = x;

@@ -4,6 +4,7 @@
 
 #include "ui/plots/custom_plot.h"
 #include "ui/plots/series.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::ui {
 
@@ -299,7 +300,7 @@ PlotWidget::Near LivePlot::nearest(const QPointF& pixel) const {
       if (distance >= best.distance_px) continue;
       best = {entry->curve.id,
               QStringLiteral("%1   %2 %3   %4")
-                  .arg(entry->curve.tag, QString::number(value, 'f', entry->curve.decimals), entry->curve.unit,
+                  .arg(entry->curve.tag, fixedText(value, entry->curve.decimals), entry->curve.unit,
                        xText(entry->series.time(i))),
               entry->series.time(i),
               value,

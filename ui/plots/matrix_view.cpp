@@ -3,6 +3,9 @@
 #include <cmath>
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/fitted_text.h"
+#include "ui/widgets/number_text.h"
+#include "ui/widgets/on_language.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -14,7 +17,7 @@ constexpr double headHeight = 24.0;
 
 MatrixView::MatrixView(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
-  setAccessibleName(tr("Correlation matrix"));
+  onLanguage(this, [this] { setAccessibleName(tr("Correlation matrix")); });
 }
 
 void MatrixView::setMatrix(const QStringList& rows, const QStringList& columns, const QVector<double>& values) {
@@ -63,9 +66,8 @@ void MatrixView::paintEvent(QPaintEvent*) {
   for (int column = 0; column < m_columns.size(); ++column) {
     const QRectF top = cell(0, column);
     painter.setPen(c.muted);
-    painter.drawText(
-        QRectF(top.x(), 0, top.width(), headHeight), Qt::AlignCenter,
-        painter.fontMetrics().elidedText(m_columns[column], Qt::ElideRight, static_cast<int>(top.width())));
+    painter.drawText(QRectF(top.x(), 0, top.width(), headHeight), Qt::AlignCenter,
+                     fittedText(painter.fontMetrics(), m_columns[column], static_cast<int>(top.width()), {}));
   }
   for (int row = 0; row < m_rows.size(); ++row) {
     const QRectF first = cell(row, 0);
@@ -85,7 +87,7 @@ void MatrixView::paintEvent(QPaintEvent*) {
       if (box.width() < 30 || box.height() < 12) continue;
       // Whichever of the two text colours stands out from the cell.
       painter.setPen(fill.lightness() > 140 ? lightColors().text : QColor(Qt::white));
-      painter.drawText(box, Qt::AlignCenter, QString::number(value, 'f', 2));
+      painter.drawText(box, Qt::AlignCenter, fixedText(value, 2));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/plots/custom_plot.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::ui {
 
@@ -289,7 +290,7 @@ PlotWidget::Near XyPlot::nearest(const QPointF& pixel) const {
       const QString name = i < part.labels.size() ? part.labels[i]->text() : part.style.tag;
       best = {it.key(),
               QStringLiteral("%1   %2 %3   %4")
-                  .arg(name, QString::number(part.y[i], 'f', part.style.decimals), part.style.unit, xText(part.x[i])),
+                  .arg(name, fixedText(part.y[i], part.style.decimals), part.style.unit, xText(part.x[i])),
               part.x[i],
               part.y[i],
               distance,

@@ -1,6 +1,7 @@
 #include "ui/shell/command_palette.h"
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/fitted_text.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -23,8 +24,8 @@ class CommandPainter : public QStyledItemDelegate {
     painter->setFont(uiFont(12));
     painter->setPen(c.muted);
     painter->drawText(inside, Qt::AlignVCenter, index.data(Qt::UserRole + 1).toString());
-    const QString hint =
-        painter->fontMetrics().elidedText(index.data(Qt::UserRole + 2).toString(), Qt::ElideRight, 260);
+    const QString hint = fittedText(painter->fontMetrics(), index.data(Qt::UserRole + 2).toString(), 260,
+                                    index.data(Qt::ToolTipRole).toString());
     painter->drawText(inside, Qt::AlignVCenter | Qt::AlignRight, hint);
     painter->restore();
   }
@@ -97,6 +98,7 @@ void CommandPalette::filter() {
     item->setData(Qt::UserRole + 1, command.group);
     item->setData(Qt::UserRole + 2, command.hint);
     item->setData(Qt::UserRole + 3, command.enabled);
+    item->setToolTip(command.hint);
   }
   if (m_list->count() > 0) m_list->setCurrentRow(0);
 }

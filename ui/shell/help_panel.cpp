@@ -51,7 +51,8 @@ QString HelpPanel::text() const {
 }
 
 void HelpPanel::load() {
-  QFile file(QStringLiteral(":/help/%1.md").arg(m_pageId));
+  QFile file(QStringLiteral(":/help/%1/%2.md").arg(QLocale().name(), m_pageId));
+  if (!file.exists()) file.setFileName(QStringLiteral(":/help/%1.md").arg(m_pageId));
   m_text->clear();
   m_text->document()->setDefaultFont(uiFont(13));
   if (!file.open(QIODevice::ReadOnly)) return;
@@ -86,7 +87,10 @@ void HelpPanel::retranslate() {
 }
 
 void HelpPanel::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::LanguageChange) retranslate();
+  if (event->type() == QEvent::LanguageChange) {
+    retranslate();
+    load();
+  }
   if (event->type() == QEvent::PaletteChange) {
     m_close->setIcon(lineIcon(Icon::cross));
     load();  // markdown takes its colours while it is read

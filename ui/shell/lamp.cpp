@@ -1,9 +1,12 @@
 #include "ui/shell/lamp.h"
 
+#include "ui/widgets/fitted_text.h"
+
 namespace zerodrift::ui {
 
 Lamp::Lamp(const QString& id, QWidget* parent) : QAbstractButton(parent) {
   setObjectName("lamp-" + id);
+  setProperty("elides", true);
   setFocusPolicy(Qt::TabFocus);
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 }
@@ -52,7 +55,7 @@ void Lamp::paintEvent(QPaintEvent*) {
                      ? (m_judgement == Judgement::none ? c.text : c.ink(m_judgement))
                      : c.muted);
   const QRect inside = rect().adjusted(24, 0, -2, 0);
-  painter.drawText(inside, Qt::AlignVCenter, painter.fontMetrics().elidedText(text(), Qt::ElideRight, inside.width()));
+  painter.drawText(inside, Qt::AlignVCenter, fittedText(painter.fontMetrics(), text(), inside.width(), toolTip()));
   if (hasFocus()) {
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(c.accent, 2));

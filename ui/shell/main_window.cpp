@@ -128,6 +128,9 @@ void MainWindow::makeShortcuts() {
   on(QKeySequence("Ctrl+O"), [this] { Q_EMIT openRequested(); });
   on(QKeySequence("F1"), [this] { toggleHelp(); });
   on(QKeySequence("Shift+F1"), [this] { openHelp("keys"); });
+  m_escape = new QShortcut(QKeySequence("Esc"), this);
+  m_escape->setEnabled(false);  // on while the help is open, wherever the focus is
+  connect(m_escape, &QShortcut::activated, this, &MainWindow::toggleHelp);
   on(QKeySequence("Ctrl+Q"), [this] { close(); });
   on(QKeySequence("Ctrl+Return"), [this] { m_primary->click(); });
   on(QKeySequence("Alt+Left"), [this] { m_back->click(); });
@@ -168,7 +171,10 @@ void MainWindow::setCurrentPage(const QString& id) {
     if (m_stack->currentWidget() != nullptr) keepFocusOff(m_stack->currentWidget());
     m_stack->setCurrentIndex(i);
   }
-  if (m_help->isVisible() && currentPage() != nullptr) m_help->open(currentPage()->id());
+  if (m_help->isVisible() && currentPage() != nullptr) {
+    m_help->open(currentPage()->id());
+    QTimer::singleShot(0, this, &MainWindow::placeHelp);  // when the page has its size
+  }
   m_rail->setCurrent(currentPage() != nullptr ? currentPage()->id() : QString());
   showHead();
 }
@@ -273,6 +279,7 @@ void MainWindow::toggleHelp() {
   if (m_help->isVisible()) {
     keepFocusOff(m_help);
     m_help->hide();
+    m_escape->setEnabled(false);
     return;
   }
   if (currentPage() != nullptr) openHelp(currentPage()->id());
@@ -283,18 +290,26 @@ void MainWindow::openHelp(const QString& id) {
   placeHelp();
   m_help->show();
   m_help->raise();
+  m_escape->setEnabled(true);
 }
 
 bool MainWindow::isHelpVisible() const {
   return m_help->isVisible();
 }
 
-/// At the right, from head to foot: the primary button stays in reach.
+/// At the right, from head to foot: the primary button stays in reach, and so does a consent that is asked for.
 void MainWindow::placeHelp() {
   constexpr int width = 440;
   const QWidget* stack = m_stack;
   const QPoint corner = stack->mapTo(centralWidget(), QPoint(stack->width() - width, 0));
-  m_help->setGeometry(QRect(corner, QSize(width, stack->height())));
+  int height = stack->height();
+  const QWidget* inSight = currentPage() == nullptr ? nullptr : currentPage()->keepInSight();
+  if (inSight != nullptr && inSight->isVisible()) {
+    constexpr int gap = 8;
+    const int top = inSight->mapTo(stack, QPoint(0, 0)).y() - gap;
+    height = std::clamp(top, stack->height() / 3, stack->height());
+  }
+  m_help->setGeometry(QRect(corner, QSize(width, height)));
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

@@ -14,6 +14,7 @@
 class QHBoxLayout;
 class QLabel;
 class QPushButton;
+class QShortcut;
 class QStackedWidget;
 
 namespace zerodrift::ui {
@@ -107,6 +108,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* m_stack;
   LogDrawer* m_log;
   HelpPanel* m_help;
+  QShortcut* m_escape = nullptr;
   QHBoxLayout* m_progress;
   bool m_languagesOffered = true;
   QVector<Lamp*> m_lamps;

@@ -1,6 +1,7 @@
 #include "ui/shell/rail.h"
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/fitted_text.h"
 #include "ui/widgets/icons.h"
 
 namespace zerodrift::ui {
@@ -147,13 +148,13 @@ void StepButton::paintEvent(QPaintEvent*) {
   painter.setFont(uiFont(14, isChecked() ? QFont::DemiBold : QFont::Medium));
   painter.setPen(m_state == StepState::blocked && !isChecked() ? mix(c.railMuted, c.railText, 0.45) : c.railText);
   painter.drawText(QRectF(left, height() / 2.0 - 20, room, 20), Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(text(), Qt::ElideRight, room));
+                   fittedText(painter.fontMetrics(), text(), room, toolTip()));
   painter.setFont(uiFont(12));
   painter.setPen(m_state == StepState::stale    ? QColor("#F0A63C")
                  : m_state == StepState::failed ? QColor("#FF8D9B")
                                                 : c.railMuted);
   painter.drawText(QRectF(left, height() / 2.0, room, 18), Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(m_words, Qt::ElideRight, room));
+                   fittedText(painter.fontMetrics(), m_words, room, toolTip()));
   if (hasFocus()) {
     painter.setPen(QPen(darkColors().accent, 2));
     painter.setBrush(Qt::NoBrush);
@@ -252,6 +253,7 @@ void StepRail::setJob(const QString& job, const QString& engineer) {
 
 void StepRail::setLanguage(const QString& shownCode) {
   m_language->setText(shownCode);
+  retranslate();
 }
 
 void StepRail::setLanguagesOffered(bool offered) {
@@ -270,7 +272,7 @@ void StepRail::setDark(bool dark) {
 void StepRail::retranslate() {
   const QString job = m_jobName.isEmpty() ? tr("No job open") : m_jobName;
   const QString line = m_engineer.isEmpty() ? job : job + QStringLiteral("  ·  ") + m_engineer;
-  m_job->setText(m_job->fontMetrics().elidedText(line, Qt::ElideMiddle, 170));
+  m_job->setText(fittedText(m_job->fontMetrics(), line, 170, line, Qt::ElideMiddle));
   m_job->setToolTip(line);
   m_job->setAccessibleName(tr("Job: %1").arg(line));
   m_theme->setText(colors().dark ? tr("Light") : tr("Dark"));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/widgets/icons.h"
+#include "ui/widgets/on_language.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -37,7 +38,7 @@ const QColor trailColor("#7CF2B0");
 CameraView::CameraView(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
-  setAccessibleName(tr("Camera image"));
+  onLanguage(this, [this] { setAccessibleName(tr("Camera image")); });
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 

@@ -1,5 +1,7 @@
 #include "ui/widgets/card.h"
 
+#include "ui/widgets/fitted_text.h"
+
 namespace zerodrift::ui {
 namespace {
 
@@ -13,7 +15,7 @@ class ElidedLabel : public QLabel {
   void paintEvent(QPaintEvent*) override {
     QPainter painter(this);
     painter.setPen(palette().color(QPalette::WindowText));
-    painter.drawText(rect(), Qt::AlignVCenter, fontMetrics().elidedText(text(), Qt::ElideRight, width()));
+    painter.drawText(rect(), Qt::AlignVCenter, fittedText(fontMetrics(), text(), width(), toolTip()));
   }
 };
 
@@ -25,6 +27,7 @@ Card::Card(QWidget* parent) : QFrame(parent) {
   m_title->setProperty("role", "cardTitle");
   m_subtitle = new ElidedLabel(this);
   m_subtitle->setProperty("role", "caption");
+  m_subtitle->setProperty("elides", true);
   m_title->hide();
   m_subtitle->hide();
   m_tools = new QHBoxLayout;

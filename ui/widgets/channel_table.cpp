@@ -1,5 +1,7 @@
 #include "ui/widgets/channel_table.h"
 
+#include "ui/widgets/fitted_text.h"
+
 namespace zerodrift::ui {
 
 enum Column {
@@ -30,6 +32,11 @@ class ChannelModel : public QAbstractTableModel {
     return {};
   }
 
+  static QString words(QStringList parts) {
+    parts.removeAll(QString());
+    return parts.join(QStringLiteral(", "));
+  }
+
   QVariant data(const QModelIndex& index, int role) const override {
     const ChannelRow& row = rows[index.row()];
     switch (role) {
@@ -45,9 +52,9 @@ class ChannelModel : public QAbstractTableModel {
         if (!row.visible) return colors().muted;
         return {};
       case Qt::ToolTipRole:
-        return row.tip;
+        return words({row.tag, row.value, row.state, row.tip});
       case Qt::AccessibleTextRole:
-        return QStringList({row.tag, row.value, row.state}).join(", ");
+        return words({row.tag, row.value, row.state});
       default:
         return {};
     }
@@ -91,7 +98,8 @@ class RowPainter : public QStyledItemDelegate {
       painter->setFont(uiFont(12, strong && index.column() == stateColumn ? QFont::DemiBold : QFont::Normal));
       const QRect inside = option.rect.adjusted(4, 0, -6, 0);
       painter->drawText(inside, index.data(Qt::TextAlignmentRole).toInt(),
-                        painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideRight, inside.width()));
+                        fittedText(painter->fontMetrics(), index.data().toString(), inside.width(),
+                                   index.data(Qt::ToolTipRole).toString()));
     }
     painter->restore();
   }

@@ -1,10 +1,12 @@
 #include "ui/widgets/component_drawing.h"
 
+#include "ui/widgets/on_language.h"
+
 namespace zerodrift::ui {
 
 ComponentDrawing::ComponentDrawing(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  setAccessibleName(tr("Component with heat sources and sensors"));
+  onLanguage(this, [this] { setAccessibleName(tr("Component with heat sources and sensors")); });
 }
 
 QSize ComponentDrawing::sizeHint() const {

@@ -1,5 +1,6 @@
 #include "ui/widgets/data_table.h"
 
+#include "ui/widgets/fitted_text.h"
 #include "ui/widgets/icons.h"
 
 namespace zerodrift::ui {
@@ -60,7 +61,8 @@ class CellPainter : public QStyledItemDelegate {
     painter->setPen(ink);
     painter->setFont(uiFont(12, index.data(strongItem).toBool() ? QFont::DemiBold : QFont::Normal));
     painter->drawText(inside, static_cast<int>(filled.displayAlignment),
-                      painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideRight, inside.width()));
+                      fittedText(painter->fontMetrics(), index.data().toString(), inside.width(),
+                                 index.data(Qt::ToolTipRole).toString()));
     painter->restore();
   }
 };
@@ -127,7 +129,8 @@ void DataTable::setRows(const QVector<QVector<DataCell>>& rows) {
       }
       const bool number = m_table->horizontalHeaderItem(column)->data(Qt::UserRole).toBool();
       item->setText(cell.text);
-      item->setToolTip(cell.tip);
+      item->setToolTip(cell.tip.isEmpty() || cell.tip.contains(cell.text) ? (cell.tip.isEmpty() ? cell.text : cell.tip)
+                                                                          : cell.text + QLatin1Char('\n') + cell.tip);
       item->setTextAlignment(Qt::AlignVCenter | (number ? Qt::AlignRight : Qt::AlignLeft));
       item->setData(judgementItem, static_cast<int>(cell.judgement));
       item->setData(judgedItem, cell.judged);

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "ui/widgets/fitted_text.h"
+#include "ui/widgets/number_text.h"
+
 namespace zerodrift::ui {
 namespace {
 
@@ -30,8 +33,7 @@ Figure judged(Figure figure, double value, double excess) {
 Figure figureOf(const QString& label, double value, int decimals, const QString& unit, const QString& note) {
   Figure figure;
   figure.label = label;
-  if (!std::isnan(value)) figure.value = QLocale::c().toString(value, 'f', decimals);
-  figure.value.remove(',');
+  if (!std::isnan(value)) figure.value = fixedText(value, decimals);
   figure.unit = unit;
   figure.limit = note;
   return figure;
@@ -65,9 +67,12 @@ QSize FigureCard::minimumSizeHint() const {
 void FigureCard::setFigure(const Figure& figure) {
   if (figure == m_figure) return;
   m_figure = figure;
-  setToolTip(figure.tip);
   const QString value = figure.value.isEmpty() ? tr("no value yet") : figure.value + ' ' + figure.unit;
-  setAccessibleName(QStringList({figure.label, value, figure.limit, figure.word}).join(", "));
+  QStringList parts = {figure.label, value, figure.word, figure.limit};
+  parts.removeAll(QString());
+  setAccessibleName(parts.join(", "));
+  // Whole here, should the card be too small for it.
+  setToolTip(figure.tip.isEmpty() ? accessibleName() : accessibleName() + "\n" + figure.tip);
   update();
 }
 
@@ -78,7 +83,7 @@ void FigureCard::paintEvent(QPaintEvent* event) {
   const Colors& c = colors();
   const QRect inside = rect().adjusted(16, 0, -12, 0);
   const auto elided = [&](const QString& text, int width) {
-    return painter.fontMetrics().elidedText(text, Qt::ElideRight, width);
+    return fittedText(painter.fontMetrics(), text, width, toolTip());
   };
 
   painter.setFont(uiFont(12));

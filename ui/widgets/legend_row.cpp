@@ -1,6 +1,7 @@
 #include "ui/widgets/legend_row.h"
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/fitted_text.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -23,6 +24,7 @@ void LegendRow::setItems(const QVector<LegendItem>& items) {
   QStringList names;
   for (const LegendItem& item : items) names.append(item.text);
   setAccessibleName(tr("Curves: %1").arg(names.join(", ")));
+  setToolTip(names.join(", "));
   update();
 }
 
@@ -48,7 +50,8 @@ void LegendRow::paintEvent(QPaintEvent*) {
     x += legendSwatch + 6;
     painter.setPen(colors().muted);
     const double w = painter.fontMetrics().horizontalAdvance(item.text);
-    painter.drawText(QRectF(x, 0, w + 4, height()), Qt::AlignVCenter, item.text);
+    painter.drawText(QRectF(x, 0, w + 4, height()), Qt::AlignVCenter,
+                     fittedText(painter.fontMetrics(), item.text, static_cast<int>(width() - x), toolTip()));
     x += w + 20;
   }
 }

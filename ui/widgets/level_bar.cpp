@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "ui/widgets/fitted_text.h"
+
 namespace zerodrift::ui {
 
 LevelBar::LevelBar(QWidget* parent) : QWidget(parent) {
@@ -25,6 +27,7 @@ void LevelBar::setLevel(const QString& label, double level, double goodFrom, dou
   m_word = word;
   m_judgement = judgement;
   setAccessibleName(label + ", " + word);
+  setToolTip(accessibleName());
   update();
 }
 
@@ -34,11 +37,12 @@ void LevelBar::paintEvent(QPaintEvent*) {
   const Colors& c = colors();
   painter.setFont(uiFont(12));
   painter.setPen(c.muted);
-  painter.drawText(QRect(0, 0, width(), 18), Qt::AlignVCenter, m_label);
+  const int wordWidth = QFontMetrics(uiFont(12, QFont::DemiBold)).horizontalAdvance(m_word);
+  painter.drawText(QRect(0, 0, width(), 18), Qt::AlignVCenter,
+                   fittedText(painter.fontMetrics(), m_label, width() - wordWidth - 24, toolTip()));
   painter.setPen(c.ink(m_judgement));
   painter.setFont(uiFont(12, QFont::DemiBold));
   painter.drawText(QRect(0, 0, width(), 18), Qt::AlignVCenter | Qt::AlignRight, m_word);
-  const int wordWidth = painter.fontMetrics().horizontalAdvance(m_word);
   if (!m_word.isEmpty()) drawJudgement(painter, QRectF(width() - wordWidth - 18, 3, 12, 12), m_judgement);
   const QRectF track(0, 24, width(), 6);
   painter.setPen(Qt::NoPen);

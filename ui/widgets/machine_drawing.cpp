@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/widgets/machine_scene.h"
+#include "ui/widgets/on_language.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -22,7 +23,7 @@ MachineDrawing::MachineDrawing(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-  setAccessibleName(tr("Machine with its sensors"));
+  onLanguage(this, [this] { setAccessibleName(tr("Machine with its sensors")); });
 }
 
 QSize MachineDrawing::sizeHint() const {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/on_language.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::ui {
@@ -21,7 +22,7 @@ double snapped(double value, double step, double low, double high) {
 PlanTimeline::PlanTimeline(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
-  setAccessibleName(tr("Plan: steps over time"));
+  onLanguage(this, [this] { setAccessibleName(tr("Plan: steps over time")); });
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 

@@ -2,6 +2,7 @@
 
 #include "ui/widgets/colors.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/on_language.h"
 #include "ui/widgets/wrap_label.h"
 
 namespace zerodrift::ui {
@@ -42,8 +43,10 @@ ProblemBanner::ProblemBanner(QWidget* parent) : QFrame(parent) {
   m_close->setFlat(true);
   m_close->setProperty("role", "tool");
   m_close->setIcon(lineIcon(Icon::cross));
-  m_close->setAccessibleName(tr("Dismiss"));
-  m_close->setToolTip(tr("Dismiss"));
+  onLanguage(this, [this] {
+    m_close->setAccessibleName(tr("Dismiss"));
+    m_close->setToolTip(tr("Dismiss"));
+  });
   connect(m_action, &QPushButton::clicked, this, &ProblemBanner::actionTriggered);
   connect(m_close, &QPushButton::clicked, this, [this] {
     clear();

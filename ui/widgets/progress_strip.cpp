@@ -1,5 +1,7 @@
 #include "ui/widgets/progress_strip.h"
 
+#include "ui/widgets/fitted_text.h"
+
 namespace zerodrift::ui {
 
 QString durationText(double seconds) {
@@ -49,7 +51,8 @@ void ProgressStrip::setProgress(const QString& phase, double fraction, std::opti
   if (fraction >= 0.0) words << tr("%1 %").arg(std::lround(100.0 * std::min(1.0, fraction)));
   if (secondsLeft) words << tr("%1 left").arg(durationText(*secondsLeft));
   const QString text = words.isEmpty() ? phase : words.join(QStringLiteral(" · "));
-  m_left->setText(m_left->fontMetrics().elidedText(text, Qt::ElideRight, m_bar->width()));
+  m_left->setText(
+      fittedText(m_left->fontMetrics(), text, m_bar->width(), toolTip() + words.join(QStringLiteral(" · "))));
   m_bar->setAccessibleName(phase);
   show();
 }

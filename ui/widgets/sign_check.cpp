@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "ui/widgets/fitted_text.h"
+#include "ui/widgets/number_text.h"
+
 namespace zerodrift::ui {
 namespace {
 
@@ -19,7 +22,7 @@ void arrow(QPainter& painter, double from, double to, double y, const QColor& co
 }
 
 QString um(double value) {
-  return (value > 0 ? "+" : "") + QString::number(value, 'f', 1);
+  return (value > 0 ? "+" : "") + fixedText(value, 1);
 }
 
 }  // namespace
@@ -36,6 +39,7 @@ void SignCheck::setResult(const SignCheckResult& result) {
                               : tr("%1 not in view").arg(axis.axis));
   }
   setAccessibleName(tr("Sign check: %1. %2").arg(result.word, words.join(QStringLiteral("; "))));
+  setToolTip(result.note);
   update();
 }
 
@@ -63,9 +67,9 @@ void SignCheck::paintAxis(QPainter& painter, const SignCheckAxis& axis, const QR
   arrow(painter, zero, zero + axis.commanded_um * scale, field.center().y() - 5, c.accent, 3.0);
   arrow(painter, zero, zero + axis.seen_um * scale, field.center().y() + 5, seen, 2.0);
   painter.setPen(c.text);
-  painter.drawText(text, Qt::AlignVCenter,
-                   QStringLiteral("%1 → %2 ± %3 µm")
-                       .arg(um(axis.commanded_um), um(axis.seen_um), QString::number(axis.sigma_um, 'f', 1)));
+  painter.drawText(
+      text, Qt::AlignVCenter,
+      QStringLiteral("%1 → %2 ± %3 µm").arg(um(axis.commanded_um), um(axis.seen_um), fixedText(axis.sigma_um, 1)));
 }
 
 void SignCheck::paintEvent(QPaintEvent*) {
@@ -99,7 +103,7 @@ void SignCheck::paintEvent(QPaintEvent*) {
   painter.setFont(uiFont(12));
   painter.setPen(c.muted);
   painter.drawText(line.adjusted(used, 0, 0, 0), Qt::AlignVCenter | Qt::AlignRight,
-                   painter.fontMetrics().elidedText(m_result.note, Qt::ElideRight, std::max(0, width() - 20 - used)));
+                   fittedText(painter.fontMetrics(), m_result.note, std::max(0, width() - 20 - used), toolTip()));
 }
 
 }  // namespace zerodrift::ui

@@ -1,13 +1,16 @@
 #include "ui/widgets/signature_pad.h"
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/on_language.h"
 
 namespace zerodrift::ui {
 
 SignaturePad::SignaturePad(QWidget* parent) : QWidget(parent) {
   setCursor(Qt::CrossCursor);
-  setAccessibleName(tr("Signature"));
-  setToolTip(tr("Sign here. Double click clears."));
+  onLanguage(this, [this] {
+    setAccessibleName(tr("Signature"));
+    setToolTip(tr("Sign here. Double click clears."));
+  });
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 }
 

@@ -1,6 +1,7 @@
 #include "ui/widgets/step_list.h"
 
 #include "ui/widgets/colors.h"
+#include "ui/widgets/fitted_text.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -31,9 +32,10 @@ void StepList::setStages(const QVector<Stage>& stages) {
                           : stage.state == StageState::failed  ? tr("failed")
                           : stage.state == StageState::skipped ? tr("skipped")
                                                                : tr("waiting");
-    words.append(stage.text + ": " + state);
+    words.append(stage.text + ": " + state + (stage.detail.isEmpty() ? QString() : ", " + stage.detail));
   }
   setAccessibleName(words.join("; "));
+  setToolTip(words.join("\n"));
   updateGeometry();
   update();
 }
@@ -68,12 +70,13 @@ void StepList::paintEvent(QPaintEvent*) {
     painter.setPen(stage.state == StageState::waiting || stage.state == StageState::skipped ? c.muted
                    : stage.state == StageState::failed                                      ? c.badText
                                                                                             : c.text);
-    painter.drawText(QRectF(26, rowHeight * i, width() - 26, rowHeight), Qt::AlignVCenter, stage.text);
+    painter.drawText(QRectF(26, rowHeight * i, width() - 26, rowHeight), Qt::AlignVCenter,
+                     fittedText(painter.fontMetrics(), stage.text, width() - 26, toolTip()));
     const int used = 26 + painter.fontMetrics().horizontalAdvance(stage.text) + 12;
     painter.setFont(uiFont(12));
     painter.setPen(c.muted);
     painter.drawText(QRectF(used, rowHeight * i, width() - used, rowHeight), Qt::AlignVCenter | Qt::AlignRight,
-                     painter.fontMetrics().elidedText(stage.detail, Qt::ElideRight, std::max(0, width() - used)));
+                     fittedText(painter.fontMetrics(), stage.detail, std::max(0, width() - used), toolTip()));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/desktop/column_question.h"
 #include "app/desktop/table_export.h"
+#include "app/text/core_text.h"
 #include "core/base/file.h"
 #include "core/base/resources.h"
 #include "core/compensation/axis_map.h"
@@ -152,9 +153,11 @@ bool AxisErrorsPresenter::read() {
     m_error_um.push_back(0.5 * (point.error_up_um + point.error_down_um));
   }
   bench().log(LogKind::note, tr("Laser report %1").arg(m_file));
-  for (const auto& warning : m_report.warnings) bench().log(LogKind::warning, QString::fromStdString(warning));
+  for (const auto& warning : m_report.warnings) bench().log(LogKind::warning, coreText(warning));
   if (!m_report.warnings.empty()) {
-    m_page->setProblem({ui::ProblemKind::note, QString::fromStdString(m_report.warnings.front()), {}, {}});
+    tell([warning = m_report.warnings.front()] {
+      return ui::Problem{ui::ProblemKind::note, coreText(warning), {}, {}};
+    });
   }
   cut();
   return !m_position_mm.empty();
@@ -355,11 +358,11 @@ void AxisErrorsPresenter::fillFormat(ui::AxisState& state) const {
     return;
   }
   QStringList losses;
-  for (const auto& loss : made->losses) losses << QString::fromStdString(loss);
+  for (const auto& loss : made->losses) losses << coreText(loss);
   state.formatLoss = losses.join(QStringLiteral("; "));
   state.formatLoss_um = made->loss_um;
   QStringList confirm;
-  for (const auto& line : made->confirm) confirm << QString::fromStdString(line);
+  for (const auto& line : made->confirm) confirm << coreText(line);
   state.formatConfirm = confirm.join(QStringLiteral("; "));
 }
 

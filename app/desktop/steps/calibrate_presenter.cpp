@@ -9,6 +9,7 @@
 #include "core/vision/calibration.h"
 #include "core/vision/image_quality.h"
 #include "ui/pages/calibrate_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -76,9 +77,9 @@ void CalibratePresenter::useRegion(const QRectF& region_px) {
   const QRect box = region_px.toRect();
   if (std::min(box.width(), box.height()) < smallest_region_px) {
     show({ErrorCode::bad_argument,
-          {{"what", tr("the region").toStdString()},
+          {{"what", "the region"},
            {"found", fmt::format("{}x{}", box.width(), box.height())},
-           {"expected", fmt::format("at least {0}x{0} pixels", smallest_region_px)}}});
+           {"expected", fmt::format("at least {0}x{0}", smallest_region_px)}}});
     return;
   }
   m_regions[profile->cameras[static_cast<std::size_t>(m_camera)].id] = {box.x(), box.y(), box.width(), box.height()};
@@ -272,7 +273,7 @@ void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
     const bool turns = !axis.empty() && axis[0] >= 'A' && axis[0] <= 'C';
     position << QStringLiteral("%1 %2%3")
                     .arg(QString::fromStdString(axis))
-                    .arg(place_mm, 0, 'f', 1)
+                    .arg(ui::fixedText(place_mm, 1))
                     .arg(turns ? QStringLiteral("°") : QStringLiteral(" mm"));
   }
   state.movePosition = position.join(QStringLiteral(", "));

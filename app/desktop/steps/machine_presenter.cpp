@@ -9,10 +9,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/text/core_text.h"
 #include "core/base/resources.h"
 #include "core/flow/devices.h"
 #include "core/flow/steps/machine_step.h"
 #include "ui/pages/machine_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 namespace {
@@ -119,10 +121,12 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   });
   connect(&m_demo, &DemoMachine::failed, this, [this](const QString& why) {
     m_connecting = false;
-    m_page->setProblem({ui::ProblemKind::failure,
-                        tr("The virtual machine could not be started: %1.").arg(why),
-                        tr("Check that zerodrift-machine stands beside this program."),
-                        {}});
+    tell([why] {
+      return ui::Problem{ui::ProblemKind::failure,
+                         tr("The virtual machine could not be started: %1.").arg(why),
+                         tr("Check that zerodrift-machine stands beside this program."),
+                         {}};
+    });
   });
 }
 
@@ -284,7 +288,8 @@ void MachinePresenter::refresh() {
   for (const QString& path : recent) {
     const QFileInfo file(path);
     state.recent.append(
-        {path, file.completeBaseName(), file.lastModified().toString(QStringLiteral("d MMM yyyy, HH:mm"))});
+        {path, file.completeBaseName(),
+         QLocale().toString(file.lastModified(), tr("d MMM yyyy, HH:mm", "date and time, as QLocale writes it"))});
   }
   if (const auto& profile = bench().profile()) {
     state.profiles = {QString::fromStdString(profile->name)};
@@ -309,11 +314,13 @@ void MachinePresenter::sayWhenOld() {
   if (old == m_saidOld) return;
   m_saidOld = old;
   if (!old) return m_page->clearProblem();
-  m_page->setProblem({ui::ProblemKind::note,
-                      tr("Something runs on the machine: what stands here was seen at %1.")
-                          .arg(m_lookedAt.toString(QStringLiteral("HH:mm:ss"))),
-                      tr("The page of the run shows it live."),
-                      {}});
+  tell([at = m_lookedAt] {
+    return ui::Problem{ui::ProblemKind::note,
+                       tr("Something runs on the machine: what stands here was seen at %1.")
+                           .arg(at.toString(QStringLiteral("HH:mm:ss"))),
+                       tr("The page of the run shows it live."),
+                       {}};
+  });
 }
 
 void MachinePresenter::fillSensors(ui::MachineState& state) {
@@ -325,7 +332,7 @@ void MachinePresenter::fillSensors(ui::MachineState& state) {
     const bool known = i < sensors.size();
     health.tag = tag_of(look, i);
     health.id = health.tag + QStringLiteral("_C");
-    health.label = known ? QString::fromStdString(sensors[i].label) : QString();
+    health.label = known ? coreText(sensors[i].label) : QString();
     health.place = known ? QString::fromStdString(sensors[i].place) : QString();
     health.value_C = look.sample.temperature_C[i];
     health.noise_K = noise_of(m_readings, i);
@@ -372,10 +379,11 @@ void MachinePresenter::fillParts(ui::MachineState& state) const {
   const auto& sample = look.sample;
   for (const auto& [axis, position] : sample.axes) {
     const bool turns = axis == "A" || axis == "B" || axis == "C";
-    state.parts.append(
-        {QString::fromStdString(axis), tr("%1 axis").arg(QString::fromStdString(axis)),
-         QStringLiteral("%1 %2").arg(position, 0, 'f', 3).arg(turns ? QStringLiteral("°") : QStringLiteral("mm")),
-         sample.referenced ? ui::Judgement::ok : ui::Judgement::warn});
+    state.parts.append({QString::fromStdString(axis), tr("%1 axis").arg(QString::fromStdString(axis)),
+                        QStringLiteral("%1 %2")
+                            .arg(ui::fixedText(position, 3))
+                            .arg(turns ? QStringLiteral("°") : QStringLiteral("mm")),
+                        sample.referenced ? ui::Judgement::ok : ui::Judgement::warn});
   }
   if (!std::isnan(sample.spindle_rpm)) {
     state.parts.append(

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "app/desktop/physics_view.h"
+#include "app/text/core_text.h"
 #include "core/flow/steps/diagnose_step.h"
 #include "ui/pages/physics_page.h"
 
@@ -140,7 +141,7 @@ QString PhysicsPresenter::regionInWords() {
   QString words = tr("A sensor between %1 and %2 mm from the fixed end of the %3 follows the deformation best")
                       .arg(placement.value("from_mm", 0.0), 0, 'f', 1)
                       .arg(placement.value("to_mm", 0.0), 0, 'f', 1)
-                      .arg(QString::fromStdString(placement.value("component", "component")));
+                      .arg(coreText(placement.value("component", "component")));
   if (best.contains("correlation") && best["correlation"].is_number()) {
     words += tr(" (r = %1").arg(best["correlation"].get<double>(), 0, 'f', 4);
     if (best.contains("residual_um") && best["residual_um"].is_number()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/text/core_text.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/report/limits.h"
@@ -124,7 +125,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     row.id = QString::fromStdString(channel);
     row.tag = tag_of(channel);
     for (const auto& known : labels) {
-      if (known.value("channel", "") == channel) row.label = QString::fromStdString(known.value("label", ""));
+      if (known.value("channel", "") == channel) row.label = coreText(known.value("label", ""));
     }
     row.cluster = sensor.value("cluster", 1) - 1;
     row.kept = std::find(chosen.begin(), chosen.end(), channel) != chosen.end();

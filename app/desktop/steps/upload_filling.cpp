@@ -5,6 +5,7 @@
 
 #include "app/desktop/steps/upload_presenter.h"
 #include "app/desktop/upload_view.h"
+#include "app/text/core_text.h"
 #include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
 #include "core/flow/flow.h"
@@ -37,12 +38,9 @@ QString expressed(const compensation::Table& table) {
     terms = terms || !axis.terms.empty();
     points = points || !axis.points.empty();
   }
-  const auto words = [](const char* text) {
-    return QCoreApplication::translate("zerodrift::desktop::UploadPresenter", text);
-  };
-  return terms && points ? words("temperature terms and position points")
-         : points        ? words("position points")
-                         : words("temperature terms");
+  return terms && points ? UploadPresenter::tr("temperature terms and position points")
+         : points        ? UploadPresenter::tr("position points")
+                         : UploadPresenter::tr("temperature terms");
 }
 
 }  // namespace
@@ -73,7 +71,7 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
     state.stagesNote = tr("dry run %1").arg(m_dryRunAt.toString(QStringLiteral("HH:mm")));
   state.registers = static_cast<double>(record.new_words.size());
   state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
-  for (const auto& warning : record.warnings) state.lost << QString::fromStdString(warning);
+  for (const auto& warning : record.warnings) state.lost << coreText(warning);
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {

@@ -100,11 +100,13 @@ void UploadPresenter::tellForeign() {
   const auto own = body.at("record").value("new_words", std::vector<std::uint16_t>{});
   const auto& now = m_preview->record.old_words;
   if (own == now || (own.size() <= 2 && now.size() <= 2)) return;
-  m_page->setProblem(
-      {ui::ProblemKind::warning,
-       tr("The machine holds version %1, which is not the table of this job.").arg(m_preview->record.old_sequence),
-       tr("It was written from elsewhere. Compare before you write; it cannot be rolled back from here."),
-       {}});
+  tell([version = m_preview->record.old_sequence] {
+    return ui::Problem{
+        ui::ProblemKind::warning,
+        tr("The machine holds version %1, which is not the table of this job.").arg(version),
+        tr("It was written from elsewhere. Compare before you write; it cannot be rolled back from here."),
+        {}};
+  });
 }
 
 void UploadPresenter::dryRun() {
@@ -113,16 +115,19 @@ void UploadPresenter::dryRun() {
     m_dryRunAt = QDateTime::currentDateTime();
     m_steps = m_preview->record.steps;
     const auto& record = m_preview->record;
-    const QString what = tr("%n register(s)", nullptr, static_cast<int>(record.new_words.size()));
-    m_page->setProblem(
-        {ui::ProblemKind::success,
-         tr("The dry run is good: the machine is ready, %1 fit, the largest change now would be %2 µm in %3.")
-             .arg(what)
-             .arg(m_preview->largest_change_um, 0, 'f', 1)
-             .arg(QString::fromStdString(m_preview->largest_change_axis)),
-         tr("Nothing was written, not even the switch."),
-         {}});
-    bench().log(LogKind::good, tr("Dry run: %1, nothing written").arg(what));
+    const auto registers = static_cast<int>(record.new_words.size());
+    tell([registers, change_um = m_preview->largest_change_um,
+          axis = QString::fromStdString(m_preview->largest_change_axis)] {
+      return ui::Problem{
+          ui::ProblemKind::success,
+          tr("The dry run is good: the machine is ready, %1 fit, the largest change now would be %2 µm in %3.")
+              .arg(tr("%n register(s)", nullptr, registers))
+              .arg(change_um, 0, 'f', 1)
+              .arg(axis),
+          tr("Nothing was written, not even the switch."),
+          {}};
+    });
+    bench().log(LogKind::good, tr("Dry run: %1, nothing written").arg(tr("%n register(s)", nullptr, registers)));
     refresh();
   });
 }

@@ -184,7 +184,6 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   state.rmsAfter_um = largest(body, "rms_error_after_um");
   state.peakLimit_um = body.value("limit_um", flow::VerifyOptions().limit_um);
   fillAxes(state, body);
-  if (state.peakBefore_um > 0) state.removed_percent = 100.0 * (1.0 - state.peakAfter_um / state.peakBefore_um);
   const json model = bench().body("model");
   if (model.is_object()) {
     for (const auto& figure : model.value("figures", json::array())) {

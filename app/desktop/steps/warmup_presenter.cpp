@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/desktop/ask.h"
+#include "app/text/core_text.h"
 #include "core/acquisition/job_sink.h"
 #include "core/base/json.h"
 #include "core/flow/steps/warmup_step.h"
@@ -187,7 +188,7 @@ void WarmupPresenter::refresh() {
     m_page->setState(state);
     return;
   }
-  for (const auto& preset : m_presets) state.presets << QString::fromStdString(preset.name);
+  for (const auto& preset : m_presets) state.presets << coreText(preset.name);
   state.preset = m_preset;
   state.plan = rows_of(m_plan);
   state.harmlessHole_s = report::limits::harmless_hole_s;

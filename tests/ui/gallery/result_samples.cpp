@@ -79,7 +79,6 @@ void fillVerify(Page* page, const QString& scene) {
   s.rmsBefore_um = 38.1;
   s.peakAfter_um = 3.6;
   s.rmsAfter_um = 1.42;
-  s.removed_percent = 94;
   s.lastGoodFrame_s = 12;
   s.threshold_um = 3.0;
   s.correctionProposed = finished;

@@ -1,0 +1,13 @@
+#pragma once
+// The phrases of core, by the rooms they come from. A test holds them against core's sources.
+
+#include <span>
+
+namespace zerodrift {
+
+std::span<const char* const> phrases_of_measuring();
+std::span<const char* const> phrases_of_models();
+std::span<const char* const> phrases_of_machines();
+std::span<const char* const> phrases_of_files();
+
+}  // namespace zerodrift

@@ -1,0 +1,56 @@
+// Phrases of base and commissioning.
+
+#include <QCoreApplication>
+#include <array>
+
+#include "app/text/core_phrases.h"
+
+namespace zerodrift {
+namespace {
+
+constexpr std::array<const char*, 36> files = {{
+    QT_TRANSLATE_NOOP("core", "is a folder"),
+    QT_TRANSLATE_NOOP("core", "more than %1"),
+    QT_TRANSLATE_NOOP("core", "SHA-256 is not available"),
+    QT_TRANSLATE_NOOP("core", "syntax error %1"),
+    QT_TRANSLATE_NOOP("core", "an object"),
+    QT_TRANSLATE_NOOP("core", "a whole number from %1"),
+    QT_TRANSLATE_NOOP("core", "%1 to %2"),
+    QT_TRANSLATE_NOOP("core", "true or false"),
+    QT_TRANSLATE_NOOP("core", "a list of numbers"),
+    QT_TRANSLATE_NOOP("core", "a list of %1"),
+    QT_TRANSLATE_NOOP("core", "a list of texts"),
+    QT_TRANSLATE_NOOP("core", "a list of objects"),
+    QT_TRANSLATE_NOOP("core", "time stamp"),
+    QT_TRANSLATE_NOOP("core", "one that is in the job"),
+    QT_TRANSLATE_NOOP("core", "file of an artefact"),
+    QT_TRANSLATE_NOOP("core", "one that belongs to artefact %1"),
+    QT_TRANSLATE_NOOP("core", "%1 of artefact %2"),
+    QT_TRANSLATE_NOOP("core", "audit trail, entry %1: %2"),
+    QT_TRANSLATE_NOOP("core", "series %1, rows %2 to %3: checksum"),
+    QT_TRANSLATE_NOOP("core", "series %1, row %2: checksum"),
+    QT_TRANSLATE_NOOP("core", "artefact %1, %2: checksum"),
+    QT_TRANSLATE_NOOP("core", "artefact %1 (%2): checksum"),
+    QT_TRANSLATE_NOOP("core", "the file is there already"),
+    QT_TRANSLATE_NOOP("core", "its older format needs updating"),
+    QT_TRANSLATE_NOOP("core", "permission denied"),
+    QT_TRANSLATE_NOOP("core", "opened for reading"),
+    QT_TRANSLATE_NOOP("core", "one that is not closed"),
+    QT_TRANSLATE_NOOP("core", "values of a row"),
+    QT_TRANSLATE_NOOP("core", "time of a row"),
+    QT_TRANSLATE_NOOP("core", "%1 s"),
+    QT_TRANSLATE_NOOP("core", "after %1 s"),
+    QT_TRANSLATE_NOOP("core", "channels of series %1"),
+    QT_TRANSLATE_NOOP("core", "samples are stored in little endian"),
+    QT_TRANSLATE_NOOP("core", "deflate failed on a buffer of its own bound"),
+    QT_TRANSLATE_NOOP("core", "language of core's texts"),
+    QT_TRANSLATE_NOOP("core", "; "),
+}};
+
+}  // namespace
+
+std::span<const char* const> phrases_of_files() {
+  return files;
+}
+
+}  // namespace zerodrift

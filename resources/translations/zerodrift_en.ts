@@ -1,0 +1,50 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="en" sourcelanguage="en">
+<context>
+    <name>zerodrift::desktop::AxisErrorsPresenter</name>
+    <message numerus="yes">
+        <source>%1: %n target(s)</source>
+        <translation><numerusform>%1: %n target</numerusform><numerusform>%1: %n targets</numerusform></translation>
+    </message>
+    <message numerus="yes">
+        <source>%n run(s)</source>
+        <translation><numerusform>%n run</numerusform><numerusform>%n runs</numerusform></translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::MapEditor</name>
+    <message numerus="yes">
+        <source>no %1 without %2 and %n more</source>
+        <translation><numerusform>no %1 without %2 and %n more</numerusform><numerusform>no %1 without %2 and %n more</numerusform></translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::UploadPresenter</name>
+    <message numerus="yes">
+        <source>%n register(s)</source>
+        <translation><numerusform>%n register</numerusform><numerusform>%n registers</numerusform></translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::MachinePage</name>
+    <message numerus="yes">
+        <source>%n to check</source>
+        <translation><numerusform>%n to check</numerusform><numerusform>%n to check</numerusform></translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::PhysicsPage</name>
+    <message numerus="yes">
+        <source>with %n adopted</source>
+        <translation><numerusform>with %n adopted</numerusform><numerusform>with %n adopted</numerusform></translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::RunView</name>
+    <message numerus="yes">
+        <source>%n channels</source>
+        <translation><numerusform>%n channel</numerusform><numerusform>%n channels</numerusform></translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,8427 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="zh_CN" sourcelanguage="en">
+<context>
+    <name>ColumnQuestion</name>
+    <message>
+        <source>both directions</source>
+        <translation>双向</translation>
+    </message>
+    <message>
+        <source>one direction</source>
+        <translation>单向</translation>
+    </message>
+    <message>
+        <source>%1 targets from %2 to %3 mm, %4; errors from %5 to %6 µm</source>
+        <translation>%1 个目标位置，%2 至 %3 mm，%4；误差 %5 至 %6 µm</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 min</translation>
+    </message>
+    <message>
+        <source>%1 h %2 min</source>
+        <translation>%1 h %2 min</translation>
+    </message>
+</context>
+<context>
+    <name>Figure</name>
+    <message>
+        <source>not yet</source>
+        <translation>尚无</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>outside</source>
+        <translation>超限</translation>
+    </message>
+    <message>
+        <source>limit %1 %2</source>
+        <translation>限值 %1 %2</translation>
+    </message>
+    <message>
+        <source>at least %1 %2</source>
+        <translation>至少 %1 %2</translation>
+    </message>
+    <message>
+        <source>just outside</source>
+        <translation>略超限</translation>
+    </message>
+</context>
+<context>
+    <name>PhysicsView</name>
+    <message>
+        <source> at %1 mm</source>
+        <translation>（%1 mm 处）</translation>
+    </message>
+    <message>
+        <source>Cannot be told from: %1</source>
+        <translation>无法与下列原因区分：%1</translation>
+    </message>
+    <message>
+        <source>Nothing hidden</source>
+        <translation>没有隐藏任何效应</translation>
+    </message>
+    <message>
+        <source>Unexplained</source>
+        <translation>无法解释</translation>
+    </message>
+    <message>
+        <source>error in %1</source>
+        <translation>%1 方向误差</translation>
+    </message>
+    <message>
+        <source>Would have shown from %1 on</source>
+        <translation>自 %1 起即可检出</translation>
+    </message>
+</context>
+<context>
+    <name>TableExport</name>
+    <message>
+        <source>Zerodrift table (*.json)</source>
+        <translation>Zerodrift 补偿表 (*.json)</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>导出</translation>
+    </message>
+    <message>
+        <source>Table saved: %1</source>
+        <translation>补偿表已保存：%1</translation>
+    </message>
+    <message>
+        <source>Exported: %1</source>
+        <translation>已导出：%1</translation>
+    </message>
+    <message>
+        <source>Lost: %1</source>
+        <translation>有损失：%1</translation>
+    </message>
+    <message>
+        <source>Expect: %1</source>
+        <translation>预期：%1</translation>
+    </message>
+    <message>
+        <source>Confirm on one point first: %1</source>
+        <translation>请先用一个点确认：%1</translation>
+    </message>
+</context>
+<context>
+    <name>UploadView</name>
+    <message>
+        <source>Room</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>Constant</source>
+        <translation>常数项</translation>
+    </message>
+    <message>
+        <source>Point %1 mm</source>
+        <translation>点 %1 mm</translation>
+    </message>
+    <message>
+        <source>time of the warm-up run</source>
+        <translation>暖机运行时间</translation>
+    </message>
+    <message>
+        <source>position / mm</source>
+        <translation>位置 / mm</translation>
+    </message>
+    <message>
+        <source>Machine ready, table within its limits</source>
+        <translation>机床就绪，补偿表在限值内</translation>
+    </message>
+    <message>
+        <source>Old table read and kept</source>
+        <translation>旧表已读取并保存</translation>
+    </message>
+    <message>
+        <source>Compensation off</source>
+        <translation>补偿断开</translation>
+    </message>
+    <message>
+        <source>New table staged</source>
+        <translation>新表已暂存</translation>
+    </message>
+    <message>
+        <source>Read back and compared</source>
+        <translation>已回读并比较</translation>
+    </message>
+    <message>
+        <source>Count and check sum announced</source>
+        <translation>已告知点数与校验和</translation>
+    </message>
+    <message>
+        <source>Committed</source>
+        <translation>已提交</translation>
+    </message>
+    <message>
+        <source>Checked by the controller</source>
+        <translation>控制器已校验</translation>
+    </message>
+    <message>
+        <source>Active table compared</source>
+        <translation>有效表已比较</translation>
+    </message>
+    <message>
+        <source>Compensation on</source>
+        <translation>补偿接通</translation>
+    </message>
+    <message>
+        <source>Ramped in</source>
+        <translation>渐变接入完成</translation>
+    </message>
+    <message>
+        <source>Done</source>
+        <translation>完成</translation>
+    </message>
+    <message>
+        <source>Restoring the old table</source>
+        <translation>正在恢复旧表</translation>
+    </message>
+    <message>
+        <source>The old table is active</source>
+        <translation>旧表有效</translation>
+    </message>
+    <message>
+        <source>The old table could not be restored</source>
+        <translation>旧表无法恢复</translation>
+    </message>
+    <message>
+        <source>same direction and size</source>
+        <translation>方向和大小一致</translation>
+    </message>
+    <message>
+        <source>not as commanded</source>
+        <translation>与指令不符</translation>
+    </message>
+    <message>
+        <source>no compensation</source>
+        <translation>无补偿</translation>
+    </message>
+    <message>
+        <source>%1, %2 registers</source>
+        <translation>%1，%2 个寄存器</translation>
+    </message>
+    <message>
+        <source>d MMM HH:mm</source>
+        <comment>date and time, as QLocale writes it</comment>
+        <translation>M月d日 HH:mm</translation>
+    </message>
+</context>
+<context>
+    <name>ask</name>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+</context>
+<context>
+    <name>core</name>
+    <message>
+        <source>is a folder</source>
+        <translation>是文件夹</translation>
+    </message>
+    <message>
+        <source>more than %1</source>
+        <translation>多于 %1</translation>
+    </message>
+    <message>
+        <source>SHA-256 is not available</source>
+        <translation>SHA-256 不可用</translation>
+    </message>
+    <message>
+        <source>syntax error %1</source>
+        <translation>语法错误 %1</translation>
+    </message>
+    <message>
+        <source>an object</source>
+        <translation>对象</translation>
+    </message>
+    <message>
+        <source>a whole number from %1</source>
+        <translation>整数，从 %1</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 至 %2</translation>
+    </message>
+    <message>
+        <source>true or false</source>
+        <translation>true 或 false</translation>
+    </message>
+    <message>
+        <source>a list of numbers</source>
+        <translation>数值列表</translation>
+    </message>
+    <message>
+        <source>a list of %1</source>
+        <translation>%1 的列表</translation>
+    </message>
+    <message>
+        <source>a list of texts</source>
+        <translation>文本列表</translation>
+    </message>
+    <message>
+        <source>a list of objects</source>
+        <translation>对象列表</translation>
+    </message>
+    <message>
+        <source>time stamp</source>
+        <translation>时间戳</translation>
+    </message>
+    <message>
+        <source>one that is in the job</source>
+        <translation>作业中已有的</translation>
+    </message>
+    <message>
+        <source>file of an artefact</source>
+        <translation>工件数据的文件</translation>
+    </message>
+    <message>
+        <source>one that belongs to artefact %1</source>
+        <translation>属于数据 %1 的</translation>
+    </message>
+    <message>
+        <source>%1 of artefact %2</source>
+        <translation>数据 %2 的 %1</translation>
+    </message>
+    <message>
+        <source>audit trail, entry %1: %2</source>
+        <translation>审计记录，第 %1 条：%2</translation>
+    </message>
+    <message>
+        <source>series %1, rows %2 to %3: checksum</source>
+        <translation>序列 %1，第 %2 至 %3 行：校验和</translation>
+    </message>
+    <message>
+        <source>series %1, row %2: checksum</source>
+        <translation>序列 %1，第 %2 行：校验和</translation>
+    </message>
+    <message>
+        <source>artefact %1, %2: checksum</source>
+        <translation>数据 %1，%2：校验和</translation>
+    </message>
+    <message>
+        <source>artefact %1 (%2): checksum</source>
+        <translation>数据 %1（%2）：校验和</translation>
+    </message>
+    <message>
+        <source>the file is there already</source>
+        <translation>文件已存在</translation>
+    </message>
+    <message>
+        <source>its older format needs updating</source>
+        <translation>其旧格式需要更新</translation>
+    </message>
+    <message>
+        <source>permission denied</source>
+        <translation>没有权限</translation>
+    </message>
+    <message>
+        <source>opened for reading</source>
+        <translation>以只读方式打开</translation>
+    </message>
+    <message>
+        <source>one that is not closed</source>
+        <translation>尚未关闭的</translation>
+    </message>
+    <message>
+        <source>values of a row</source>
+        <translation>一行中的数值</translation>
+    </message>
+    <message>
+        <source>time of a row</source>
+        <translation>行的时间</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>after %1 s</source>
+        <translation>%1 s 之后</translation>
+    </message>
+    <message>
+        <source>channels of series %1</source>
+        <translation>序列 %1 的通道</translation>
+    </message>
+    <message>
+        <source>samples are stored in little endian</source>
+        <translation>采样以小端格式存储</translation>
+    </message>
+    <message>
+        <source>deflate failed on a buffer of its own bound</source>
+        <translation>数据压缩失败</translation>
+    </message>
+    <message>
+        <source>language of core&apos;s texts</source>
+        <translation>中文</translation>
+    </message>
+    <message>
+        <source>; </source>
+        <translation>；</translation>
+    </message>
+    <message>
+        <source>segments or points of the axis</source>
+        <translation>该轴的分段或点</translation>
+    </message>
+    <message>
+        <source>the axis table near %1 mm</source>
+        <translation>%1 mm 附近的轴补偿表</translation>
+    </message>
+    <message>
+        <source>positions or images that fall</source>
+        <translation>位置或其映射值下降</translation>
+    </message>
+    <message>
+        <source>both increasing</source>
+        <translation>两者均递增</translation>
+    </message>
+    <message>
+        <source>%1 at %2 C is outside the training range %3 to %4 C</source>
+        <translation>%1 为 %2 °C，超出训练范围 %3 至 %4 °C</translation>
+    </message>
+    <message>
+        <source>measuring model data</source>
+        <translation>测量建模数据</translation>
+    </message>
+    <message>
+        <source>staging a table</source>
+        <translation>暂存补偿表</translation>
+    </message>
+    <message>
+        <source>writing an offset</source>
+        <translation>写入偏置</translation>
+    </message>
+    <message>
+        <source>Compensation start</source>
+        <translation>补偿起点</translation>
+    </message>
+    <message>
+        <source>targets in %1</source>
+        <translation>%1 中的目标位置</translation>
+    </message>
+    <message>
+        <source>the number of targets in %1</source>
+        <translation>%1 中的目标位置数</translation>
+    </message>
+    <message>
+        <source>rows of numbers in %1</source>
+        <translation>%1 中的数值行</translation>
+    </message>
+    <message>
+        <source>%1 in mm</source>
+        <translation>%1，单位 mm</translation>
+    </message>
+    <message>
+        <source>%1 x %2 mm</source>
+        <translation>%1，× %2 mm</translation>
+    </message>
+    <message>
+        <source>%1 in um</source>
+        <translation>%1，单位 µm</translation>
+    </message>
+    <message>
+        <source>%1 x %2 um</source>
+        <translation>%1，× %2 µm</translation>
+    </message>
+    <message>
+        <source>%1column %2 is %3%4</source>
+        <translation>%1第 %2 列为 %3%4</translation>
+    </message>
+    <message>
+        <source>%1, the order tells the direction</source>
+        <translation>%1，由顺序判断方向</translation>
+    </message>
+    <message>
+        <source>%1, signs turned</source>
+        <translation>%1，符号取反</translation>
+    </message>
+    <message>
+        <source>the axes in %1</source>
+        <translation>%1 中的轴</translation>
+    </message>
+    <message>
+        <source>one, or the choice of one of them</source>
+        <translation>一个轴，或从中选择一个</translation>
+    </message>
+    <message>
+        <source>axis %1</source>
+        <translation>轴 %1</translation>
+    </message>
+    <message>
+        <source>the columns of %1</source>
+        <translation>%1 的各列</translation>
+    </message>
+    <message>
+        <source>no position</source>
+        <translation>没有位置</translation>
+    </message>
+    <message>
+        <source>one column of positions</source>
+        <translation>一列位置</translation>
+    </message>
+    <message>
+        <source>%1: read as: %2; confirm the sign on one point</source>
+        <translation>%1：按以下方式读取：%2；请用一个点确认符号</translation>
+    </message>
+    <message>
+        <source>no targets</source>
+        <translation>没有目标位置</translation>
+    </message>
+    <message>
+        <source>no deviations</source>
+        <translation>没有偏差值</translation>
+    </message>
+    <message>
+        <source>a linear report with TARGET DATA:: and DEVIATIONS::</source>
+        <translation>含 TARGET DATA:: 和 DEVIATIONS:: 的直线测量报告</translation>
+    </message>
+    <message>
+        <source>%1: compensation values in %2 are taken as -error; confirm sign and unit on one point</source>
+        <translation>%1：%2 中的补偿值按 -误差 处理；请用一个点确认符号和单位</translation>
+    </message>
+    <message>
+        <source>%1: values in mm are taken as -error, as the known reader does; confirm the sign on one point</source>
+        <translation>%1：以 mm 表示的值按 -误差 处理，与通用读取程序一致；请用一个点确认符号</translation>
+    </message>
+    <message>
+        <source>the error %1 is no axis of the table and is left out</source>
+        <translation>误差 %1 不对应补偿表的任何轴，已略去</translation>
+    </message>
+    <message>
+        <source>the model&apos;s errors dX_um, dY_um, dZ_um with temperature terms</source>
+        <translation>模型的误差 dX_um、dY_um、dZ_um 及温度项</translation>
+    </message>
+    <message>
+        <source>the model is dynamic; its static approximation in the table leaves %1 % more error</source>
+        <translation>模型为动态模型；补偿表中的静态近似会多留下 %1 % 的误差</translation>
+    </message>
+    <message>
+        <source>the axis tables</source>
+        <translation>各轴补偿表</translation>
+    </message>
+    <message>
+        <source>two with points for axis %1</source>
+        <translation>轴 %1 有两个带点的表</translation>
+    </message>
+    <message>
+        <source>one table for each axis</source>
+        <translation>每轴一个补偿表</translation>
+    </message>
+    <message>
+        <source>%1 measurements are too few to correct anything</source>
+        <translation>%1 次测量太少，无法修正</translation>
+    </message>
+    <message>
+        <source>%1 of %2 measurements exceed %3 um: no need to correct</source>
+        <translation>%2 次测量中有 %1 次超过 %3 µm：无需修正</translation>
+    </message>
+    <message>
+        <source>the temperature terms are multiplied by %1</source>
+        <translation>温度项乘以 %1</translation>
+    </message>
+    <message>
+        <source>the prediction is near zero, so the offset is moved by %1 um</source>
+        <translation>预测值接近零，因此将偏置移动 %1 µm</translation>
+    </message>
+    <message>
+        <source>the temperature terms are multiplied by %1 and the offset is moved by %2 um</source>
+        <translation>温度项乘以 %1，偏置移动 %2 µm</translation>
+    </message>
+    <message>
+        <source>no correction of the temperature terms makes the residual smaller</source>
+        <translation>任何温度项修正都不能减小残差</translation>
+    </message>
+    <message>
+        <source>%1 coefficients and the offset (%2 um) were updated</source>
+        <translation>已更新 %1 个系数和偏置（%2 µm）</translation>
+    </message>
+    <message>
+        <source>criterion: |r| of position and error at least %1, from %2 points</source>
+        <translation>判据：位置与误差的 |r| 至少为 %1，自 %2 点起</translation>
+    </message>
+    <message>
+        <source>r is blind to scale: it says nothing about um; the largest residual is %1 um at %2 mm</source>
+        <translation>r 与尺度无关，不反映 µm 大小；最大残差为 %1 µm，位于 %2 mm 处</translation>
+    </message>
+    <message>
+        <source>criterion: |r| of position and measured position at least %1; with laser data it is always about 1, so it can never drop a point: use errors or a tolerance</source>
+        <translation>判据：位置与实测位置的 |r| 至少为 %1；对激光数据 r 始终约等于 1，因此永远不会剔除点：请改用误差或容差</translation>
+    </message>
+    <message>
+        <source>criterion: the fewest segments that stay within %1 um at every point; the largest residual is %2 um</source>
+        <translation>判据：每个点都在 %1 µm 以内的最少分段；最大残差为 %2 µm</translation>
+    </message>
+    <message>
+        <source>measured positions of the axis</source>
+        <translation>该轴的实测位置</translation>
+    </message>
+    <message>
+        <source>start points</source>
+        <translation>起始点数</translation>
+    </message>
+    <message>
+        <source>2 or more</source>
+        <translation>2 或更多</translation>
+    </message>
+    <message>
+        <source>above 0, up to 1</source>
+        <translation>大于 0，不超过 1</translation>
+    </message>
+    <message>
+        <source>above 0 um</source>
+        <translation>大于 0 µm</translation>
+    </message>
+    <message>
+        <source>above the one before</source>
+        <translation>大于前一个</translation>
+    </message>
+    <message>
+        <source>the error between %1 and %2 mm</source>
+        <translation>%1 与 %2 mm 之间的误差</translation>
+    </message>
+    <message>
+        <source>one that turns the direction of motion</source>
+        <translation>使运动方向反转的值</translation>
+    </message>
+    <message>
+        <source>far less than the travel</source>
+        <translation>远小于行程</translation>
+    </message>
+    <message>
+        <source>point %1</source>
+        <translation>点 %1</translation>
+    </message>
+    <message>
+        <source>a finite number</source>
+        <translation>有限的数值</translation>
+    </message>
+    <message>
+        <source>a position above the one before</source>
+        <translation>大于前一个的位置</translation>
+    </message>
+    <message>
+        <source>term of %1</source>
+        <translation>%1 的项</translation>
+    </message>
+    <message>
+        <source>a channel name</source>
+        <translation>通道名称</translation>
+    </message>
+    <message>
+        <source>a number above 0</source>
+        <translation>大于 0 的数值</translation>
+    </message>
+    <message>
+        <source>%1 %2 C (valid %3 to %4)</source>
+        <translation>%1 %2 °C（有效范围 %3 至 %4）</translation>
+    </message>
+    <message>
+        <source>the coefficient of %1 in axis %2</source>
+        <translation>%1 在轴 %2 中的系数</translation>
+    </message>
+    <message>
+        <source>%1 um/K</source>
+        <translation>%1 µm/K</translation>
+    </message>
+    <message>
+        <source>the point at %1 mm</source>
+        <translation>%1 mm 处的点</translation>
+    </message>
+    <message>
+        <source>not below from_mm</source>
+        <translation>不小于 from_mm</translation>
+    </message>
+    <message>
+        <source>%1 numbers</source>
+        <translation>%1 个数值</translation>
+    </message>
+    <message>
+        <source>one for each of the %1 terms, or none</source>
+        <translation>%1 个项各一个，或都没有</translation>
+    </message>
+    <message>
+        <source>%1: the check sum crc32 does not fit the content; the table was edited by hand</source>
+        <translation>%1：校验和 crc32 与内容不符；该表被手工修改过</translation>
+    </message>
+    <message>
+        <source>the host offset</source>
+        <translation>上位机偏置</translation>
+    </message>
+    <message>
+        <source>one to write to</source>
+        <translation>一个可写入的偏置</translation>
+    </message>
+    <message>
+        <source>the controller&apos;s own table</source>
+        <translation>控制器自身的补偿表</translation>
+    </message>
+    <message>
+        <source>an active one (version %1) that compensates already</source>
+        <translation>已有正在补偿的有效表（版本 %1）</translation>
+    </message>
+    <message>
+        <source>none beside the host compensator; roll it back first</source>
+        <translation>使用上位机补偿器时不应有补偿表；请先回滚</translation>
+    </message>
+    <message>
+        <source>the compensation switch is off</source>
+        <translation>补偿开关已断开</translation>
+    </message>
+    <message>
+        <source>its heartbeat</source>
+        <translation>其心跳信号</translation>
+    </message>
+    <message>
+        <source>check sum wrong</source>
+        <translation>校验和错误</translation>
+    </message>
+    <message>
+        <source>wrong serial settings</source>
+        <translation>串口参数错误</translation>
+    </message>
+    <message>
+        <source>length %1</source>
+        <translation>长度 %1</translation>
+    </message>
+    <message>
+        <source>%1 bytes only</source>
+        <translation>仅 %1 字节</translation>
+    </message>
+    <message>
+        <source>transaction %1 instead of %2</source>
+        <translation>事务号为 %1，应为 %2</translation>
+    </message>
+    <message>
+        <source>protocol %1</source>
+        <translation>协议号 %1</translation>
+    </message>
+    <message>
+        <source>length %1 for %2 bytes</source>
+        <translation>长度字段 %1，实际 %2 字节</translation>
+    </message>
+    <message>
+        <source>unit %1, not %2</source>
+        <translation>单元号为 %1，应为 %2</translation>
+    </message>
+    <message>
+        <source>function %1 instead of %2</source>
+        <translation>功能码为 %1，应为 %2</translation>
+    </message>
+    <message>
+        <source>%1 bytes for %2</source>
+        <translation>%2 对应 %1 字节</translation>
+    </message>
+    <message>
+        <source>echo of a write differs</source>
+        <translation>写入的回显不一致</translation>
+    </message>
+    <message>
+        <source>registers from %1</source>
+        <translation>自 %1 起的寄存器</translation>
+    </message>
+    <message>
+        <source>number of registers of %1</source>
+        <translation>%1 的寄存器数</translation>
+    </message>
+    <message>
+        <source>the identity register</source>
+        <translation>标识寄存器</translation>
+    </message>
+    <message>
+        <source>the version of the register map</source>
+        <translation>寄存器映射的版本</translation>
+    </message>
+    <message>
+        <source>the number of temperature sensors</source>
+        <translation>温度传感器数</translation>
+    </message>
+    <message>
+        <source>the %1 of the profile</source>
+        <translation>配置文件中的 %1</translation>
+    </message>
+    <message>
+        <source>not done within %1 s</source>
+        <translation>%1 s 内未完成</translation>
+    </message>
+    <message>
+        <source>an alarm is on</source>
+        <translation>存在报警</translation>
+    </message>
+    <message>
+        <source>compensation on</source>
+        <translation>接通补偿</translation>
+    </message>
+    <message>
+        <source>compensation off</source>
+        <translation>断开补偿</translation>
+    </message>
+    <message>
+        <source>the switch does not follow</source>
+        <translation>开关未响应</translation>
+    </message>
+    <message>
+        <source>the offset of axis %1</source>
+        <translation>轴 %1 的偏置</translation>
+    </message>
+    <message>
+        <source>not an IPv4 address</source>
+        <translation>不是 IPv4 地址</translation>
+    </message>
+    <message>
+        <source>measuring with probes</source>
+        <translation>用测头测量</translation>
+    </message>
+    <message>
+        <source>the nose is not at the probe nest</source>
+        <translation>主轴端部不在测头座处</translation>
+    </message>
+    <message>
+        <source>a number above 0, at most 100000</source>
+        <translation>大于 0 且不超过 100000 的数值</translation>
+    </message>
+    <message>
+        <source>x, y, width and height in pixels</source>
+        <translation>以像素表示的 x、y、宽度和高度</translation>
+    </message>
+    <message>
+        <source>%1 axes</source>
+        <translation>%1 个轴</translation>
+    </message>
+    <message>
+        <source>two axes, right and up in the image</source>
+        <translation>两个轴：图像中向右和向上</translation>
+    </message>
+    <message>
+        <source>a sensor number of the controller&apos;s table</source>
+        <translation>控制器表中的传感器编号</translation>
+    </message>
+    <message>
+        <source>0 to %1</source>
+        <translation>0 至 %1</translation>
+    </message>
+    <message>
+        <source>data type</source>
+        <translation>数据类型</translation>
+    </message>
+    <message>
+        <source>no value</source>
+        <translation>没有值</translation>
+    </message>
+    <message>
+        <source>word order</source>
+        <translation>字序</translation>
+    </message>
+    <message>
+        <source>byte order</source>
+        <translation>字节序</translation>
+    </message>
+    <message>
+        <source>holding register</source>
+        <translation>保持寄存器</translation>
+    </message>
+    <message>
+        <source>input register</source>
+        <translation>输入寄存器</translation>
+    </message>
+    <message>
+        <source>high first</source>
+        <translation>高位在前</translation>
+    </message>
+    <message>
+        <source>big endian</source>
+        <translation>大端</translation>
+    </message>
+    <message>
+        <source>low first</source>
+        <translation>低位在前</translation>
+    </message>
+    <message>
+        <source>little endian</source>
+        <translation>小端</translation>
+    </message>
+    <message>
+        <source>holding or input</source>
+        <translation>holding 或 input</translation>
+    </message>
+    <message>
+        <source>int16, uint16, int32, uint32 or float32</source>
+        <translation>int16、uint16、int32、uint32 或 float32</translation>
+    </message>
+    <message>
+        <source>high_first or low_first</source>
+        <translation>high_first 或 low_first</translation>
+    </message>
+    <message>
+        <source>%1, line %2, %3</source>
+        <translation>%1，第 %2 行，%3</translation>
+    </message>
+    <message>
+        <source>a whole number of 0 or more</source>
+        <translation>0 或更大的整数</translation>
+    </message>
+    <message>
+        <source>name,address and, as needed, function,type,count,scale,sign,missing,word_order,byte_order</source>
+        <translation>name,address，以及按需的 function,type,count,scale,sign,missing,word_order,byte_order</translation>
+    </message>
+    <message>
+        <source>%1, line %2</source>
+        <translation>%1，第 %2 行</translation>
+    </message>
+    <message>
+        <source>%1, address of %2</source>
+        <translation>%1，%2 的地址</translation>
+    </message>
+    <message>
+        <source>%1, next to the one before</source>
+        <translation>%1，紧接前一个</translation>
+    </message>
+    <message>
+        <source>%1, a second time</source>
+        <translation>%1，重复出现</translation>
+    </message>
+    <message>
+        <source>a name of its own for each register</source>
+        <translation>每个寄存器使用各自的名称</translation>
+    </message>
+    <message>
+        <source>%1: no use is known for %2; give them one of the names of docs/register-maps.md</source>
+        <translation>%1：%2 的用途未知；请使用 docs/register-maps.md 中的名称</translation>
+    </message>
+    <message>
+        <source>registers up to 65535</source>
+        <translation>寄存器号不超过 65535</translation>
+    </message>
+    <message>
+        <source>the value for register %1</source>
+        <translation>寄存器 %1 的值</translation>
+    </message>
+    <message>
+        <source>identity: fixed number</source>
+        <translation>标识：固定数值</translation>
+    </message>
+    <message>
+        <source>version of the map</source>
+        <translation>映射的版本</translation>
+    </message>
+    <message>
+        <source>bits: what the controller can do</source>
+        <translation>位：控制器具备的功能</translation>
+    </message>
+    <message>
+        <source>registers a table may have</source>
+        <translation>补偿表可用的寄存器数</translation>
+    </message>
+    <message>
+        <source>controller&apos;s clock, s</source>
+        <translation>控制器时钟，s</translation>
+    </message>
+    <message>
+        <source>clock against real time</source>
+        <translation>时钟与实际时间之比</translation>
+    </message>
+    <message>
+        <source>our heartbeat</source>
+        <translation>本机心跳</translation>
+    </message>
+    <message>
+        <source>bits: 0 cycle, 1 moving, 2 referenced, 3 alarm</source>
+        <translation>位：0 循环，1 运动中，2 已回参考点，3 报警</translation>
+    </message>
+    <message>
+        <source>compensation switch, 0 or 1</source>
+        <translation>补偿开关，0 或 1</translation>
+    </message>
+    <message>
+        <source>coolant, 0 or 1</source>
+        <translation>冷却液，0 或 1</translation>
+    </message>
+    <message>
+        <source>spindle speed, rpm</source>
+        <translation>主轴转速，r/min</translation>
+    </message>
+    <message>
+        <source>spindle load, W</source>
+        <translation>主轴负载，W</translation>
+    </message>
+    <message>
+        <source>compensation applied now, X Y Z, um</source>
+        <translation>当前施加的补偿 X Y Z，µm</translation>
+    </message>
+    <message>
+        <source>wanted position X Y Z, mm</source>
+        <translation>目标位置 X Y Z，mm</translation>
+    </message>
+    <message>
+        <source>1 starts the move</source>
+        <translation>1 启动移动</translation>
+    </message>
+    <message>
+        <source>wanted speed, rpm</source>
+        <translation>目标转速，r/min</translation>
+    </message>
+    <message>
+        <source>wanted coolant</source>
+        <translation>要求的冷却液状态</translation>
+    </message>
+    <message>
+        <source>warm-up cycle on</source>
+        <translation>暖机循环开启</translation>
+    </message>
+    <message>
+        <source>wanted switch</source>
+        <translation>要求的开关状态</translation>
+    </message>
+    <message>
+        <source>room temperature, C</source>
+        <translation>室温，°C</translation>
+    </message>
+    <message>
+        <source>temperatures, C, in the profile&apos;s order</source>
+        <translation>温度，°C，按配置文件的顺序</translation>
+    </message>
+    <message>
+        <source>probes measure, 0 or 1</source>
+        <translation>测头测量，0 或 1</translation>
+    </message>
+    <message>
+        <source>host offset X Y Z (-error), um</source>
+        <translation>上位机偏置 X Y Z（-误差），µm</translation>
+    </message>
+    <message>
+        <source>watchdog of the offset, s</source>
+        <translation>偏置的看门狗，s</translation>
+    </message>
+    <message>
+        <source>state of the host offset</source>
+        <translation>上位机偏置的状态</translation>
+    </message>
+    <message>
+        <source>registers of the staged table</source>
+        <translation>暂存表的寄存器数</translation>
+    </message>
+    <message>
+        <source>scale of the staged table</source>
+        <translation>暂存表的比例</translation>
+    </message>
+    <message>
+        <source>CRC-32 of the staged table</source>
+        <translation>暂存表的 CRC-32</translation>
+    </message>
+    <message>
+        <source>number of the staged table</source>
+        <translation>暂存表的编号</translation>
+    </message>
+    <message>
+        <source>commits that number</source>
+        <translation>提交该编号</translation>
+    </message>
+    <message>
+        <source>status of the commit</source>
+        <translation>提交的状态</translation>
+    </message>
+    <message>
+        <source>number the status is of</source>
+        <translation>该状态对应的编号</translation>
+    </message>
+    <message>
+        <source>CRC-32 of the active table</source>
+        <translation>有效表的 CRC-32</translation>
+    </message>
+    <message>
+        <source>registers of the active table</source>
+        <translation>有效表的寄存器数</translation>
+    </message>
+    <message>
+        <source>number of the active table</source>
+        <translation>有效表的编号</translation>
+    </message>
+    <message>
+        <source>why it was refused</source>
+        <translation>拒绝的原因</translation>
+    </message>
+    <message>
+        <source>area a table is staged in</source>
+        <translation>补偿表的暂存区</translation>
+    </message>
+    <message>
+        <source>area of the active table</source>
+        <translation>有效表的存储区</translation>
+    </message>
+    <message>
+        <source>host offset</source>
+        <translation>上位机偏置</translation>
+    </message>
+    <message>
+        <source>former tables of machine %1</source>
+        <translation>机床 %1 以前的补偿表</translation>
+    </message>
+    <message>
+        <source>the active table</source>
+        <translation>有效表</translation>
+    </message>
+    <message>
+        <source>version %1, not written from here</source>
+        <translation>版本 %1，不是由此处写入</translation>
+    </message>
+    <message>
+        <source>the table that was pushed last</source>
+        <translation>最近一次写入的补偿表</translation>
+    </message>
+    <message>
+        <source>too few measurements were accepted</source>
+        <translation>被接受的测量太少</translation>
+    </message>
+    <message>
+        <source>one, for the sign check</source>
+        <translation>符号检查需要一个</translation>
+    </message>
+    <message>
+        <source>it moves %1 too</source>
+        <translation>%1 也发生移动</translation>
+    </message>
+    <message>
+        <source>it moves %1, the wrong axis</source>
+        <translation>移动的是 %1，轴不对</translation>
+    </message>
+    <message>
+        <source>the measurement is too uncertain (%1 um) to tell</source>
+        <translation>测量不确定度过大（%1 µm），无法判断</translation>
+    </message>
+    <message>
+        <source>nothing moves</source>
+        <translation>没有移动</translation>
+    </message>
+    <message>
+        <source>the sign is wrong</source>
+        <translation>符号错误</translation>
+    </message>
+    <message>
+        <source>the size is wrong</source>
+        <translation>大小错误</translation>
+    </message>
+    <message>
+        <source>the sign check</source>
+        <translation>符号检查</translation>
+    </message>
+    <message>
+        <source>the controller takes the test offset out by itself</source>
+        <translation>控制器会自行撤销测试偏置</translation>
+    </message>
+    <message>
+        <source>the offset is not applied, or does not come to rest</source>
+        <translation>偏置未施加，或未稳定</translation>
+    </message>
+    <message>
+        <source>register words, 0 to 65535</source>
+        <translation>寄存器字，0 至 65535</translation>
+    </message>
+    <message>
+        <source>um_per_K of a point of axis %1</source>
+        <translation>轴 %1 某点的 um_per_K</translation>
+    </message>
+    <message>
+        <source>0, because the axis has no temperature term</source>
+        <translation>0，因为该轴没有温度项</translation>
+    </message>
+    <message>
+        <source>the controller&apos;s table</source>
+        <translation>控制器的补偿表</translation>
+    </message>
+    <message>
+        <source>it ends early</source>
+        <translation>数据不完整</translation>
+    </message>
+    <message>
+        <source>an axis record of 12 words</source>
+        <translation>12 个字的轴记录</translation>
+    </message>
+    <message>
+        <source>axes 0 to 2, each once</source>
+        <translation>轴 0 至 2，各一次</translation>
+    </message>
+    <message>
+        <source>all terms and points</source>
+        <translation>所有的项和点</translation>
+    </message>
+    <message>
+        <source>the size of the table in registers</source>
+        <translation>以寄存器数表示的表大小</translation>
+    </message>
+    <message>
+        <source>at least 2</source>
+        <translation>至少 2</translation>
+    </message>
+    <message>
+        <source>format %1</source>
+        <translation>格式 %1</translation>
+    </message>
+    <message>
+        <source>format 1</source>
+        <translation>格式 1</translation>
+    </message>
+    <message>
+        <source>%1 words too many</source>
+        <translation>多出 %1 个字</translation>
+    </message>
+    <message>
+        <source>the end</source>
+        <translation>结尾</translation>
+    </message>
+    <message>
+        <source>a valid table</source>
+        <translation>有效的补偿表</translation>
+    </message>
+    <message>
+        <source>the check sum does not fit</source>
+        <translation>校验和不符</translation>
+    </message>
+    <message>
+        <source>the number of registers is wrong</source>
+        <translation>寄存器数错误</translation>
+    </message>
+    <message>
+        <source>the words are not a table</source>
+        <translation>数据不是补偿表</translation>
+    </message>
+    <message>
+        <source>a limit of the machine is exceeded</source>
+        <translation>超出机床的限值</translation>
+    </message>
+    <message>
+        <source>the compensation switch is on</source>
+        <translation>补偿开关已接通</translation>
+    </message>
+    <message>
+        <source>the axes move</source>
+        <translation>轴在运动</translation>
+    </message>
+    <message>
+        <source>the scale is wrong</source>
+        <translation>比例错误</translation>
+    </message>
+    <message>
+        <source>the sequence number is wrong</source>
+        <translation>序号错误</translation>
+    </message>
+    <message>
+        <source>reason %1</source>
+        <translation>原因 %1</translation>
+    </message>
+    <message>
+        <source>an upload</source>
+        <translation>上传</translation>
+    </message>
+    <message>
+        <source>%1 registers</source>
+        <translation>%1 个寄存器</translation>
+    </message>
+    <message>
+        <source>version %1</source>
+        <translation>版本 %1</translation>
+    </message>
+    <message>
+        <source>active table</source>
+        <translation>有效表</translation>
+    </message>
+    <message>
+        <source>sequence %1</source>
+        <translation>序号 %1</translation>
+    </message>
+    <message>
+        <source>the check of the table</source>
+        <translation>补偿表的检查</translation>
+    </message>
+    <message>
+        <source>status stays %1</source>
+        <translation>状态一直为 %1</translation>
+    </message>
+    <message>
+        <source>dry run: nothing was written</source>
+        <translation>试运行：未写入任何内容</translation>
+    </message>
+    <message>
+        <source>a table it computes itself</source>
+        <translation>它自行计算的补偿表</translation>
+    </message>
+    <message>
+        <source>%1: the machine is outside the range the model was made in</source>
+        <translation>%1：机床超出建模时的范围</translation>
+    </message>
+    <message>
+        <source>the table&apos;s machine</source>
+        <translation>补偿表所属的机床</translation>
+    </message>
+    <message>
+        <source>the axes are not referenced</source>
+        <translation>各轴未回参考点</translation>
+    </message>
+    <message>
+        <source>the warm-up cycle runs</source>
+        <translation>暖机循环正在运行</translation>
+    </message>
+    <message>
+        <source>the change of the compensation of axis %1</source>
+        <translation>轴 %1 补偿量的变化</translation>
+    </message>
+    <message>
+        <source>the ramp could not be watched: %1</source>
+        <translation>无法监视渐变过程：%1</translation>
+    </message>
+    <message>
+        <source>the ramp stands at %1 %</source>
+        <translation>渐变停在 %1 %</translation>
+    </message>
+    <message>
+        <source>the old table was written again</source>
+        <translation>旧表已重新写入</translation>
+    </message>
+    <message>
+        <source>the old table is still active</source>
+        <translation>旧表仍然有效</translation>
+    </message>
+    <message>
+        <source>the old table</source>
+        <translation>旧表</translation>
+    </message>
+    <message>
+        <source>another one</source>
+        <translation>另一个</translation>
+    </message>
+    <message>
+        <source>its check sum does not fit</source>
+        <translation>其校验和不符</translation>
+    </message>
+    <message>
+        <source>the axis to export (this format holds one axis a file)</source>
+        <translation>要导出的轴（该格式每个文件一个轴）</translation>
+    </message>
+    <message>
+        <source>position points of axis %1</source>
+        <translation>轴 %1 的位置点</translation>
+    </message>
+    <message>
+        <source>the written file</source>
+        <translation>写出的文件</translation>
+    </message>
+    <message>
+        <source>axis %1: the file does not follow temperatures; it holds for %2. Feed the thermal part at run time</source>
+        <translation>轴 %1：该文件不随温度变化，适用于 %2；热误差部分请在运行时输入</translation>
+    </message>
+    <message>
+        <source>axis %1: both directions are averaged (they differ by up to %2 um); the mean reversal of %3 um (up - down) belongs into %4</source>
+        <translation>轴 %1：两个方向取平均（最多相差 %2 µm）；平均反向差值 %3 µm（上 - 下）应填入 %4</translation>
+    </message>
+    <message>
+        <source>a parameter with axis A1 to A3</source>
+        <translation>含轴 A1 至 A3 的参数</translation>
+    </message>
+    <message>
+        <source>parameters 3620 to 3624</source>
+        <translation>参数 3620 至 3624</translation>
+    </message>
+    <message>
+        <source>reference point %1</source>
+        <translation>参考点 %1</translation>
+    </message>
+    <message>
+        <source>one between lowest and highest</source>
+        <translation>介于最低和最高之间</translation>
+    </message>
+    <message>
+        <source>axis %1: an increment of %2 units; older series take no more than 7</source>
+        <translation>轴 %1：增量为 %2 个单位；老系列最多为 7</translation>
+    </message>
+    <message>
+        <source>axis %1: the error of %2 um at the reference point shifts the whole axis and is left out</source>
+        <translation>轴 %1：参考点处 %2 µm 的误差会使整个轴平移，已略去</translation>
+    </message>
+    <message>
+        <source>axis %1: points up to %2; many controls end at 1023</source>
+        <translation>轴 %1：点号达 %2；许多控制器止于 1023</translation>
+    </message>
+    <message>
+        <source>the backlash parameter 1851</source>
+        <translation>反向间隙参数 1851</translation>
+    </message>
+    <message>
+        <source>axes with position points</source>
+        <translation>有位置点的轴</translation>
+    </message>
+    <message>
+        <source>the sign, with a single point of +1 unit before the rest</source>
+        <translation>符号：先用一个 +1 单位的点确认，再写入其余的点</translation>
+    </message>
+    <message>
+        <source>axes X, Y, Z are numbers 1, 2, 3; the parameter lines (Q1) and the G10 form on this series</source>
+        <translation>轴 X、Y、Z 编号为 1、2、3；以及该系列的参数行（Q1）和 G10 格式</translation>
+    </message>
+    <message>
+        <source>increments of -error per interval</source>
+        <translation>每个间隔的 -误差 增量</translation>
+    </message>
+    <message>
+        <source>the export format</source>
+        <translation>导出格式</translation>
+    </message>
+    <message>
+        <source>two rows or more</source>
+        <translation>两行或更多</translation>
+    </message>
+    <message>
+        <source>axis %1: %2 points are resampled to %3</source>
+        <translation>轴 %1：%2 个点重新采样为 %3 个</translation>
+    </message>
+    <message>
+        <source>axis %1: values and positions are rounded to 0.0001 mm</source>
+        <translation>轴 %1：数值和位置圆整到 0.0001 mm</translation>
+    </message>
+    <message>
+        <source>the BACKLASH column or the machine parameter</source>
+        <translation>BACKLASH 列或机床参数</translation>
+    </message>
+    <message>
+        <source>the sign (+error), and the form of the .CMA file on this control</source>
+        <translation>符号（+误差），以及该控制器 .CMA 文件的格式</translation>
+    </message>
+    <message>
+        <source>lines of three numbers</source>
+        <translation>每行三个数值</translation>
+    </message>
+    <message>
+        <source>type 0: actual position = nominal + error; type 1: trim = -error</source>
+        <translation>type 0：实际位置 = 名义值 + 误差；type 1：trim = -误差</translation>
+    </message>
+    <message>
+        <source>axis %1 must move by %2 um, everywhere alike, when this file takes effect</source>
+        <translation>该文件生效时，轴 %1 在各处都必须移动 %2 µm</translation>
+    </message>
+    <message>
+        <source>at %1 mm axis %2 must move by %3 um when this file takes effect, and nowhere else</source>
+        <translation>该文件生效时，轴 %2 在 %1 mm 处必须移动 %3 µm，其他位置不动</translation>
+    </message>
+    <message>
+        <source>values and an axis</source>
+        <translation>数值和轴</translation>
+    </message>
+    <message>
+        <source>points from 0</source>
+        <translation>从 0 开始的点</translation>
+    </message>
+    <message>
+        <source>axis names X1, Y1, Z1; compensation works after power-on, homing and MD32700 = 1</source>
+        <translation>轴名称 X1、Y1、Z1；补偿在上电、回参考点且 MD32700 = 1 后生效</translation>
+    </message>
+    <message>
+        <source>the sign of CEC tables</source>
+        <translation>CEC 表的符号</translation>
+    </message>
+    <message>
+        <source>+error (a positive value moves the axis in the negative direction)</source>
+        <translation>+误差（正值使轴向负方向移动）</translation>
+    </message>
+    <message>
+        <source>numbers and temperatures of the R parameters</source>
+        <translation>R 参数的编号和温度</translation>
+    </message>
+    <message>
+        <source>axis %1: the position points (up to %2 um) do not fit into a straight line; export sinumerik-leadscrew beside</source>
+        <translation>轴 %1：位置点（最大 %2 µm）无法用一条直线表示；请另行导出 sinumerik-leadscrew</translation>
+    </message>
+    <message>
+        <source>the sign (written +error by inference: the value acts on the actual position)</source>
+        <translation>符号（推断写为 +误差：该值作用于实际位置）</translation>
+    </message>
+    <message>
+        <source>axis names X1, Y1, Z1, and that the PLC writes the temperatures into the R parameters named</source>
+        <translation>轴名称 X1、Y1、Z1，以及 PLC 将温度写入指定的 R 参数</translation>
+    </message>
+    <message>
+        <source>+error (acts on the actual value)</source>
+        <translation>+误差（作用于实际值）</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>high_first</source>
+        <translation>高位在前</translation>
+    </message>
+    <message>
+        <source>interlock</source>
+        <translation>联锁</translation>
+    </message>
+    <message>
+        <source>temperatures</source>
+        <translation>温度采集</translation>
+    </message>
+    <message>
+        <source>table</source>
+        <translation>补偿表</translation>
+    </message>
+    <message>
+        <source>a refused table</source>
+        <translation>补偿表被拒绝</translation>
+    </message>
+    <message>
+        <source>%1; the mean reversal of %2 um (up - down) belongs into %3</source>
+        <translation>%1；平均反向差值 %2 µm（上 - 下）应填入 %3</translation>
+    </message>
+    <message>
+        <source>on</source>
+        <translation>接通</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>断开</translation>
+    </message>
+    <message>
+        <source>the name of a register</source>
+        <translation>寄存器名称</translation>
+    </message>
+    <message>
+        <source>a name of its own</source>
+        <translation>唯一的名称</translation>
+    </message>
+    <message>
+        <source>one, for the test move</source>
+        <translation>一个，用于测试移动</translation>
+    </message>
+    <message>
+        <source>at least %1 pixels</source>
+        <translation>至少 %1 像素</translation>
+    </message>
+    <message>
+        <source>no folder can be made there</source>
+        <translation>无法在该处创建文件夹</translation>
+    </message>
+    <message>
+        <source>OK</source>
+        <translation>正常</translation>
+    </message>
+    <message>
+        <source>a step of the flow</source>
+        <translation>流程中的某一步</translation>
+    </message>
+    <message>
+        <source>%1 (serial %2)</source>
+        <translation>%1（序列号 %2）</translation>
+    </message>
+    <message>
+        <source>axis of a camera</source>
+        <translation>相机对应的轴</translation>
+    </message>
+    <message>
+        <source>calibration of %1</source>
+        <translation>%1 的标定</translation>
+    </message>
+    <message>
+        <source>calibration of camera %1</source>
+        <translation>相机 %1 的标定</translation>
+    </message>
+    <message>
+        <source>What the simulation lacks was not searched: %1</source>
+        <translation>未查找仿真缺少的内容：%1</translation>
+    </message>
+    <message>
+        <source>Method %1 on %2 sensors: leaves at most %3 um (rms %4 um) on data it has not seen (%5).</source>
+        <translation>方法 %1，%2 个传感器：对未参与拟合的数据，最大残余误差 %3 µm（rms %4 µm；%5）。</translation>
+    </message>
+    <message>
+        <source>%1 A dynamic model, which needs the host compensator, would leave %2 um rms.</source>
+        <translation>%1 动态模型需要上位机补偿器，可将残余误差降至 rms %2 µm。</translation>
+    </message>
+    <message>
+        <source>the job&apos;s model</source>
+        <translation>作业中的模型</translation>
+    </message>
+    <message>
+        <source>the job&apos;s profile</source>
+        <translation>作业中的配置文件</translation>
+    </message>
+    <message>
+        <source>sensor %1</source>
+        <translation>传感器 %1</translation>
+    </message>
+    <message>
+        <source>link: %1 %2 times, overcome</source>
+        <translation>链路：%1 出现 %2 次，已恢复</translation>
+    </message>
+    <message>
+        <source>%1 offset</source>
+        <translation>%1 偏置</translation>
+    </message>
+    <message>
+        <source>%1 um</source>
+        <translation>%1 µm</translation>
+    </message>
+    <message>
+        <source>%1 um/K from %2 C</source>
+        <translation>%1 µm/K，自 %2 °C 起</translation>
+    </message>
+    <message>
+        <source>%1 points</source>
+        <translation>%1 个点</translation>
+    </message>
+    <message>
+        <source>checking the sign</source>
+        <translation>检查符号</translation>
+    </message>
+    <message>
+        <source>test offset</source>
+        <translation>测试偏置</translation>
+    </message>
+    <message>
+        <source>host offset of X, Y, Z, one after the other</source>
+        <translation>依次对 X、Y、Z 施加上位机偏置</translation>
+    </message>
+    <message>
+        <source>10 um, then 0 um</source>
+        <translation>先 10 µm，再归 0 µm</translation>
+    </message>
+    <message>
+        <source>the axis table</source>
+        <translation>轴补偿表</translation>
+    </message>
+    <message>
+        <source>Writing the table</source>
+        <translation>正在写入补偿表</translation>
+    </message>
+    <message>
+        <source>upload table</source>
+        <translation>上传补偿表</translation>
+    </message>
+    <message>
+        <source>compensation table</source>
+        <translation>补偿表</translation>
+    </message>
+    <message>
+        <source>version %1, %2 registers</source>
+        <translation>版本 %1，%2 个寄存器</translation>
+    </message>
+    <message>
+        <source>no correction: %1</source>
+        <translation>不做修正：%1</translation>
+    </message>
+    <message>
+        <source>the uploaded table</source>
+        <translation>已上传的补偿表</translation>
+    </message>
+    <message>
+        <source>the warm-up&apos;s plan</source>
+        <translation>暖机计划</translation>
+    </message>
+    <message>
+        <source>the corrected table</source>
+        <translation>修正后的补偿表</translation>
+    </message>
+    <message>
+        <source>%1, %2 times</source>
+        <translation>%1，%2 次</translation>
+    </message>
+    <message>
+        <source>link: %1, %2 times, overcome</source>
+        <translation>链路：%1，%2 次，已恢复</translation>
+    </message>
+    <message>
+        <source>axes are not referenced</source>
+        <translation>各轴未回参考点</translation>
+    </message>
+    <message>
+        <source>temperature sensors</source>
+        <translation>温度传感器</translation>
+    </message>
+    <message>
+        <source>a time from 0.05 to 3600 s</source>
+        <translation>0.05 至 3600 s 的时间</translation>
+    </message>
+    <message>
+        <source>a time from 0.05 to 86400 s</source>
+        <translation>0.05 至 86400 s 的时间</translation>
+    </message>
+    <message>
+        <source>a time above 0, at most 14 days, in s</source>
+        <translation>大于 0 且不超过 14 天的时间（单位 s）</translation>
+    </message>
+    <message>
+        <source>a speed from 0 to 200000 rpm</source>
+        <translation>0 至 200000 r/min 的转速</translation>
+    </message>
+    <message>
+        <source>a position in mm</source>
+        <translation>以 mm 表示的位置</translation>
+    </message>
+    <message>
+        <source>at least sample_period_s</source>
+        <translation>不小于 sample_period_s</translation>
+    </message>
+    <message>
+        <source>one of X, Y, Z</source>
+        <translation>X、Y、Z 之一</translation>
+    </message>
+    <message>
+        <source>an empty list</source>
+        <translation>空列表</translation>
+    </message>
+    <message>
+        <source>at least one step</source>
+        <translation>至少一个步骤</translation>
+    </message>
+    <message>
+        <source>Warm-up, 4 h, stepped speeds</source>
+        <translation>暖机 4 h，阶梯转速</translation>
+    </message>
+    <message>
+        <source>Warm-up, 4 h at 3000 rpm</source>
+        <translation>暖机 4 h，3000 r/min</translation>
+    </message>
+    <message>
+        <source>Warm-up and cooling, 3000 rpm</source>
+        <translation>暖机与冷却，3000 r/min</translation>
+    </message>
+    <message>
+        <source>Stepped speed spectrum</source>
+        <translation>阶梯转速谱</translation>
+    </message>
+    <message>
+        <source>ISO 230-3 environment (ETVE), 24 h</source>
+        <translation>ISO 230-3 环境温度变化误差（ETVE），24 h</translation>
+    </message>
+    <message>
+        <source>ISO 230-3 spindle, constant speed</source>
+        <translation>ISO 230-3 主轴，恒定转速</translation>
+    </message>
+    <message>
+        <source>ISO 230-3 spindle, varying speed</source>
+        <translation>ISO 230-3 主轴，变转速</translation>
+    </message>
+    <message>
+        <source>ISO 230-3 linear axes</source>
+        <translation>ISO 230-3 直线轴</translation>
+    </message>
+    <message>
+        <source>Short check, 30 min at 3000 rpm</source>
+        <translation>快速检查，3000 r/min，30 min</translation>
+    </message>
+    <message>
+        <source>machine clock</source>
+        <translation>机床时钟</translation>
+    </message>
+    <message>
+        <source>stands still</source>
+        <translation>停止不动</translation>
+    </message>
+    <message>
+        <source>its zero cannot be restored</source>
+        <translation>无法恢复其零点</translation>
+    </message>
+    <message>
+        <source>serial number</source>
+        <translation>序列号</translation>
+    </message>
+    <message>
+        <source>channels of the machine</source>
+        <translation>机床的通道</translation>
+    </message>
+    <message>
+        <source>the %1 of the run</source>
+        <translation>该运行的 %1</translation>
+    </message>
+    <message>
+        <source>binary data</source>
+        <translation>二进制数据</translation>
+    </message>
+    <message>
+        <source>a CSV text table</source>
+        <translation>CSV 文本表格</translation>
+    </message>
+    <message>
+        <source>%1(no name)</source>
+        <translation>%1（无名称）</translation>
+    </message>
+    <message>
+        <source>%1 (a second time)</source>
+        <translation>%1（重复出现）</translation>
+    </message>
+    <message>
+        <source>a name of its own for each column</source>
+        <translation>每一列使用各自的名称</translation>
+    </message>
+    <message>
+        <source>a position is not a number</source>
+        <translation>位置不是数值</translation>
+    </message>
+    <message>
+        <source>the two positions are %1 px apart in the image, at least %2 px are needed</source>
+        <translation>两个位置在图像中相距 %1 px，至少需要 %2 px</translation>
+    </message>
+    <message>
+        <source>both positions have the same machine coordinates</source>
+        <translation>两个位置的机床坐标相同</translation>
+    </message>
+    <message>
+        <source>the positions span only %1 px in the image, at least %2 px are needed</source>
+        <translation>各位置在图像中仅跨越 %1 px，至少需要 %2 px</translation>
+    </message>
+    <message>
+        <source>the positions lie on one line: move along both axes</source>
+        <translation>各位置在一条直线上：请沿两个轴移动</translation>
+    </message>
+    <message>
+        <source>the positions span only %1 px in one direction, at least %2 px are needed</source>
+        <translation>各位置在一个方向上仅跨越 %1 px，至少需要 %2 px</translation>
+    </message>
+    <message>
+        <source>the scale differs by %1 % between two directions: the camera looks at the plane of motion from the side</source>
+        <translation>两个方向的比例相差 %1 %：相机斜视运动平面</translation>
+    </message>
+    <message>
+        <source>the calibration</source>
+        <translation>标定</translation>
+    </message>
+    <message>
+        <source>%1 usable views</source>
+        <translation>%1 个可用视图</translation>
+    </message>
+    <message>
+        <source>2, better 9</source>
+        <translation>2 个，最好 9 个</translation>
+    </message>
+    <message>
+        <source>the residual is %1 um rms, the limit %2 um</source>
+        <translation>残差 rms 为 %1 µm，限值为 %2 µm</translation>
+    </message>
+    <message>
+        <source>%1; the view that fits worst is %2 (%3 um off)</source>
+        <translation>%1；拟合最差的视图是 %2（偏差 %3 µm）</translation>
+    </message>
+    <message>
+        <source>two positions cannot show a mirrored camera; the image was taken as not mirrored: add a third position beside the line of the two</source>
+        <translation>两个位置无法判断图像是否镜像；已按非镜像处理：请在两点连线之外增加第三个位置</translation>
+    </message>
+    <message>
+        <source>three positions leave nothing to check the calibration with: use nine</source>
+        <translation>三个位置没有多余数据用于检验标定：请使用九个位置</translation>
+    </message>
+    <message>
+        <source>a 2x2 matrix as two rows of two numbers</source>
+        <translation>由两行、每行两个数值组成的 2×2 矩阵</translation>
+    </message>
+    <message>
+        <source>not finite</source>
+        <translation>不是有限值</translation>
+    </message>
+    <message>
+        <source>finite numbers</source>
+        <translation>有限的数值</translation>
+    </message>
+    <message>
+        <source>a matrix that can be inverted</source>
+        <translation>可逆矩阵</translation>
+    </message>
+    <message>
+        <source>not a 4x4 matrix</source>
+        <translation>不是 4×4 矩阵</translation>
+    </message>
+    <message>
+        <source>four rows of four numbers</source>
+        <translation>四行、每行四个数值</translation>
+    </message>
+    <message>
+        <source>position %1, %2 mm</source>
+        <translation>位置 %1，%2 mm</translation>
+    </message>
+    <message>
+        <source>not opened yet</source>
+        <translation>尚未打开</translation>
+    </message>
+    <message>
+        <source>the stream ended</source>
+        <translation>数据流已结束</translation>
+    </message>
+    <message>
+        <source>no picture could be opened</source>
+        <translation>无法打开任何图像</translation>
+    </message>
+    <message>
+        <source>camera does not answer</source>
+        <translation>相机无应答</translation>
+    </message>
+    <message>
+        <source>camera sends no picture</source>
+        <translation>相机不发送图像</translation>
+    </message>
+    <message>
+        <source>camera is frozen</source>
+        <translation>相机画面冻结</translation>
+    </message>
+    <message>
+        <source>the stored zero</source>
+        <translation>已存储的零点</translation>
+    </message>
+    <message>
+        <source>%1 views</source>
+        <translation>%1 个视图</translation>
+    </message>
+    <message>
+        <source>no frame</source>
+        <translation>没有图像</translation>
+    </message>
+    <message>
+        <source>the file is empty</source>
+        <translation>文件为空</translation>
+    </message>
+    <message>
+        <source>the PNG file ends early</source>
+        <translation>PNG 文件不完整</translation>
+    </message>
+    <message>
+        <source>the picture is larger than 100 megapixels</source>
+        <translation>图像大于 1 亿像素</translation>
+    </message>
+    <message>
+        <source>the JPEG file ends early</source>
+        <translation>JPEG 文件不完整</translation>
+    </message>
+    <message>
+        <source>not a PNG, JPEG, BMP or TIFF picture</source>
+        <translation>不是 PNG、JPEG、BMP 或 TIFF 图像</translation>
+    </message>
+    <message>
+        <source>16 bits reduced to 8</source>
+        <translation>16 位已转换为 8 位</translation>
+    </message>
+    <message>
+        <source>pixels are neither 8 nor 16 bits</source>
+        <translation>像素既不是 8 位也不是 16 位</translation>
+    </message>
+    <message>
+        <source>colour reduced to luminance</source>
+        <translation>彩色已转换为亮度</translation>
+    </message>
+    <message>
+        <source>%1, colour to luminance</source>
+        <translation>%1，彩色已转换为亮度</translation>
+    </message>
+    <message>
+        <source>neither grey nor colour</source>
+        <translation>既不是灰度也不是彩色</translation>
+    </message>
+    <message>
+        <source>an empty image was to be encoded</source>
+        <translation>要编码的图像为空</translation>
+    </message>
+    <message>
+        <source>the encoder for %1</source>
+        <translation>%1 的编码器</translation>
+    </message>
+    <message>
+        <source>%1 failed</source>
+        <translation>%1 失败</translation>
+    </message>
+    <message>
+        <source>the picture is damaged</source>
+        <translation>图像已损坏</translation>
+    </message>
+    <message>
+        <source>%1 is no picture and was left out</source>
+        <translation>%1 不是图像，已略去</translation>
+    </message>
+    <message>
+        <source>the folder %1</source>
+        <translation>文件夹 %1</translation>
+    </message>
+    <message>
+        <source>no picture</source>
+        <translation>没有图像</translation>
+    </message>
+    <message>
+        <source>%1 was left out: %2</source>
+        <translation>%1 已略去：%2</translation>
+    </message>
+    <message>
+        <source>no region was given: %1,%2,%3,%4 shows the most pattern and is used</source>
+        <translation>未指定区域：%1,%2,%3,%4 处纹理最丰富，予以采用</translation>
+    </message>
+    <message>
+        <source>%1: %2x%3 pixels, the template has %4x%5</source>
+        <translation>%1：%2×%3 像素，模板为 %4×%5</translation>
+    </message>
+    <message>
+        <source>target missing</source>
+        <translation>未找到靶标</translation>
+    </message>
+    <message>
+        <source>target occluded, or another one</source>
+        <translation>靶标被遮挡，或为另一靶标</translation>
+    </message>
+    <message>
+        <source>target occluded</source>
+        <translation>靶标被遮挡</translation>
+    </message>
+    <message>
+        <source>too blurred</source>
+        <translation>图像模糊</translation>
+    </message>
+    <message>
+        <source>target out of view</source>
+        <translation>靶标超出视场</translation>
+    </message>
+    <message>
+        <source>too different from the template</source>
+        <translation>与模板差异过大</translation>
+    </message>
+    <message>
+        <source>another resolution than the template</source>
+        <translation>分辨率与模板不同</translation>
+    </message>
+    <message>
+        <source>the region of the target</source>
+        <translation>靶标区域</translation>
+    </message>
+    <message>
+        <source>%1x%2 pixels</source>
+        <translation>%1×%2 像素</translation>
+    </message>
+    <message>
+        <source>at least %1x%2</source>
+        <translation>至少 %1×%2</translation>
+    </message>
+    <message>
+        <source>the named point</source>
+        <translation>指定的点</translation>
+    </message>
+    <message>
+        <source>not a place</source>
+        <translation>不是位置</translation>
+    </message>
+    <message>
+        <source>X,Y in pixels</source>
+        <translation>以像素表示的 X,Y</translation>
+    </message>
+    <message>
+        <source>Room</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>Spindle speed</source>
+        <translation>主轴转速</translation>
+    </message>
+    <message>
+        <source>Spindle load</source>
+        <translation>主轴负载</translation>
+    </message>
+    <message>
+        <source>Coolant</source>
+        <translation>冷却液</translation>
+    </message>
+    <message>
+        <source>front</source>
+        <translation>前方</translation>
+    </message>
+    <message>
+        <source>side</source>
+        <translation>侧方</translation>
+    </message>
+    <message>
+        <source>Spindle front bearing</source>
+        <translation>主轴前轴承</translation>
+    </message>
+    <message>
+        <source>Spindle between front bearing and motor</source>
+        <translation>主轴前轴承与电机之间</translation>
+    </message>
+    <message>
+        <source>Spindle motor, front end</source>
+        <translation>主轴电机前端</translation>
+    </message>
+    <message>
+        <source>Spindle motor, rear end</source>
+        <translation>主轴电机后端</translation>
+    </message>
+    <message>
+        <source>Spindle rear bearing</source>
+        <translation>主轴后轴承</translation>
+    </message>
+    <message>
+        <source>Spindle nose</source>
+        <translation>主轴端部</translation>
+    </message>
+    <message>
+        <source>Headstock</source>
+        <translation>主轴箱</translation>
+    </message>
+    <message>
+        <source>Column front, top</source>
+        <translation>立柱前侧上部</translation>
+    </message>
+    <message>
+        <source>Column rear, top</source>
+        <translation>立柱后侧上部</translation>
+    </message>
+    <message>
+        <source>X screw nut</source>
+        <translation>X 轴丝杠螺母</translation>
+    </message>
+    <message>
+        <source>X screw support bearing</source>
+        <translation>X 轴丝杠支承轴承</translation>
+    </message>
+    <message>
+        <source>Y screw nut</source>
+        <translation>Y 轴丝杠螺母</translation>
+    </message>
+    <message>
+        <source>Y screw support bearing</source>
+        <translation>Y 轴丝杠支承轴承</translation>
+    </message>
+    <message>
+        <source>Z screw nut</source>
+        <translation>Z 轴丝杠螺母</translation>
+    </message>
+    <message>
+        <source>Z screw support bearing</source>
+        <translation>Z 轴丝杠支承轴承</translation>
+    </message>
+    <message>
+        <source>X guide</source>
+        <translation>X 轴导轨</translation>
+    </message>
+    <message>
+        <source>A trunnion drive</source>
+        <translation>A 轴摇篮驱动</translation>
+    </message>
+    <message>
+        <source>C table drive</source>
+        <translation>C 轴转台驱动</translation>
+    </message>
+    <message>
+        <source>Table</source>
+        <translation>工作台</translation>
+    </message>
+    <message>
+        <source>Bed</source>
+        <translation>床身</translation>
+    </message>
+    <message>
+        <source>Coolant tank</source>
+        <translation>冷却液箱</translation>
+    </message>
+    <message>
+        <source>a connected machine</source>
+        <translation>已连接的机床</translation>
+    </message>
+    <message>
+        <source>a job</source>
+        <translation>一个作业</translation>
+    </message>
+    <message>
+        <source>a connection profile</source>
+        <translation>连接配置文件</translation>
+    </message>
+    <message>
+        <source>%1 is still running</source>
+        <translation>“%1”仍在进行</translation>
+    </message>
+    <message>
+        <source>measuring model data (compensation %1)</source>
+        <translation>测量建模数据（补偿 %1）</translation>
+    </message>
+    <message>
+        <source>sign %1</source>
+        <translation>符号 %1</translation>
+    </message>
+    <message>
+        <source>near heat</source>
+        <translation>近端热量</translation>
+    </message>
+    <message>
+        <source>a length in mm, 2 to 30000 (is it in metres?)</source>
+        <translation>以 mm 表示的长度，2 至 30000（是否误用了 m？）</translation>
+    </message>
+    <message>
+        <source>a diameter in mm, 1 to 5000 (is it in metres?)</source>
+        <translation>以 mm 表示的直径，1 至 5000（是否误用了 m？）</translation>
+    </message>
+    <message>
+        <source>a diameter in mm, 0 to 5000</source>
+        <translation>以 mm 表示的直径，0 至 5000</translation>
+    </message>
+    <message>
+        <source>a place in mm from the fixed end</source>
+        <translation>距固定端的位置（mm）</translation>
+    </message>
+    <message>
+        <source>W/(m K), 0.1 to 2500 (steel has about 45)</source>
+        <translation>W/(m·K)，0.1 至 2500（钢约为 45）</translation>
+    </message>
+    <message>
+        <source>kg/m3, 100 to 25000 (steel has 7850)</source>
+        <translation>kg/m³，100 至 25000（钢为 7850）</translation>
+    </message>
+    <message>
+        <source>J/(kg K), 50 to 12000 (steel has about 460)</source>
+        <translation>J/(kg·K)，50 至 12000（钢约为 460）</translation>
+    </message>
+    <message>
+        <source>1/K, up to 5e-4 (steel has 1.15e-5)</source>
+        <translation>1/K，不超过 5e-4（钢为 1.15e-5）</translation>
+    </message>
+    <message>
+        <source>degrees Celsius, -60 to 200 (is it in kelvin?)</source>
+        <translation>摄氏度，-60 至 200（是否误用了 K？）</translation>
+    </message>
+    <message>
+        <source>watts, 10 to 2000000 (is it in kW?)</source>
+        <translation>瓦，10 至 2000000（是否误用了 kW？）</translation>
+    </message>
+    <message>
+        <source>a share from 0.05 to 1</source>
+        <translation>0.05 至 1 之间的比例</translation>
+    </message>
+    <message>
+        <source>rpm, 10 to 500000</source>
+        <translation>r/min，10 至 500000</translation>
+    </message>
+    <message>
+        <source>kelvin, above 0 and up to 20</source>
+        <translation>K，大于 0 且不超过 20</translation>
+    </message>
+    <message>
+        <source>a share above 0, for example 0.1</source>
+        <translation>大于 0 的比例，例如 0.1</translation>
+    </message>
+    <message>
+        <source>a list of on, n, n2</source>
+        <translation>由 on、n、n2 组成的列表</translation>
+    </message>
+    <message>
+        <source>a friction factor from 0 to 0.5 (usual 0.0003 to 0.002)</source>
+        <translation>0 至 0.5 的摩擦因数（通常 0.0003 至 0.002）</translation>
+    </message>
+    <message>
+        <source>mm2/s, 0.5 to 20000</source>
+        <translation>mm²/s，0.5 至 20000</translation>
+    </message>
+    <message>
+        <source>a place inside the component, 0 to %1 mm</source>
+        <translation>部件内的位置，0 至 %1 mm</translation>
+    </message>
+    <message>
+        <source>more than from_mm (%1)</source>
+        <translation>大于 from_mm（%1）</translation>
+    </message>
+    <message>
+        <source>a share from 0 to 1</source>
+        <translation>0 至 1 之间的比例</translation>
+    </message>
+    <message>
+        <source>a share of the section, 0.01 to 0.99</source>
+        <translation>截面的比例，0.01 至 0.99</translation>
+    </message>
+    <message>
+        <source>less than outer_diameter_mm (%1)</source>
+        <translation>小于 outer_diameter_mm（%1）</translation>
+    </message>
+    <message>
+        <source>the id of a component</source>
+        <translation>某个部件的标识</translation>
+    </message>
+    <message>
+        <source>a place inside %1, 0 to %2 mm</source>
+        <translation>%1 内的位置，0 至 %2 mm</translation>
+    </message>
+    <message>
+        <source>a channel named only once</source>
+        <translation>只命名一次的通道</translation>
+    </message>
+    <message>
+        <source>one of %1</source>
+        <translation>%1 之一</translation>
+    </message>
+    <message>
+        <source>something else</source>
+        <translation>其他内容</translation>
+    </message>
+    <message>
+        <source>an object with one entry an effect</source>
+        <translation>每种效应一个条目的对象</translation>
+    </message>
+    <message>
+        <source>an object of numbers</source>
+        <translation>由数值组成的对象</translation>
+    </message>
+    <message>
+        <source>a number, since the effect is listed</source>
+        <translation>一个数值，因为该效应已列出</translation>
+    </message>
+    <message>
+        <source>an id used only once</source>
+        <translation>只使用一次的标识</translation>
+    </message>
+    <message>
+        <source>%1 ends</source>
+        <translation>%1 个端点</translation>
+    </message>
+    <message>
+        <source>two ends</source>
+        <translation>两个端点</translation>
+    </message>
+    <message>
+        <source>no rod</source>
+        <translation>没有杆件</translation>
+    </message>
+    <message>
+        <source>a component with length and diameter to place a sensor on</source>
+        <translation>有长度和直径、可布置传感器的部件</translation>
+    </message>
+    <message>
+        <source>the displacements of %1</source>
+        <translation>%1 的位移</translation>
+    </message>
+    <message>
+        <source>%1 against the simulated temperatures</source>
+        <translation>%1，与仿真温度相对</translation>
+    </message>
+    <message>
+        <source>the recording has no channel %1</source>
+        <translation>记录中没有通道 %1</translation>
+    </message>
+    <message>
+        <source>%1, channel %2</source>
+        <translation>%1，通道 %2</translation>
+    </message>
+    <message>
+        <source>%1 as its middle value</source>
+        <translation>中值为 %1</translation>
+    </message>
+    <message>
+        <source>degrees Celsius (is it in kelvin or millidegrees?)</source>
+        <translation>摄氏度（是否误用了 K 或毫度？）</translation>
+    </message>
+    <message>
+        <source>the simulation left all bounds</source>
+        <translation>仿真结果发散</translation>
+    </message>
+    <message>
+        <source>Bearings are simulated too cold, more so the warmer or the faster they run</source>
+        <translation>轴承的仿真温度偏低，温度越高、转速越快，偏差越大</translation>
+    </message>
+    <message>
+        <source>Bearings are simulated too cold in the first hours only, whatever the temperature is later</source>
+        <translation>仅在最初几小时轴承的仿真温度偏低，与之后的温度无关</translation>
+    </message>
+    <message>
+        <source>Bearings are simulated too cold at first and too hot later; friction falls as the oil warms</source>
+        <translation>轴承的仿真温度先偏低、后偏高；润滑油变热后摩擦减小</translation>
+    </message>
+    <message>
+        <source>One displacement jumps between two samples and stays there; no temperature moves</source>
+        <translation>某一位移在两次采样之间发生跳变并保持；没有温度随之变化</translation>
+    </message>
+    <message>
+        <source>A surface starts fast and then goes on slowly, on the way up and on the way down</source>
+        <translation>表面先快速变化，之后缓慢继续，升温和降温时都如此</translation>
+    </message>
+    <message>
+        <source>Temperatures saw with a period of their own that no logged input has</source>
+        <translation>温度以自身的周期呈锯齿状波动，任何已记录的输入都没有这一周期</translation>
+    </message>
+    <message>
+        <source>The hot parts conduct otherwise than the cold ones; gradients do not grow in proportion to the heat</source>
+        <translation>高温部位的导热与低温部位不同；温度梯度不与热量成正比增长</translation>
+    </message>
+    <message>
+        <source>Opposite errors on the two sides of one place: the heated side too cold, the other too hot in the simulation</source>
+        <translation>某处两侧的误差方向相反：仿真中受热一侧偏冷，另一侧偏热</translation>
+    </message>
+    <message>
+        <source>All temperatures are simulated too hot, more so the longer it runs; the measured cool-down is faster</source>
+        <translation>所有温度的仿真值都偏高，运行越久越明显；实测冷却更快</translation>
+    </message>
+    <message>
+        <source>The simulation is too hot from the moment the coolant runs; the error steps with coolant_on</source>
+        <translation>自冷却液开启起仿真温度偏高；误差随 coolant_on 阶跃</translation>
+    </message>
+    <message>
+        <source>The nose is simulated too cold while the machine cuts</source>
+        <translation>切削时主轴端部的仿真温度偏低</translation>
+    </message>
+    <message>
+        <source>All surfaces cool together during one stretch of time that no logged input explains</source>
+        <translation>所有表面在某一段时间内同时变冷，任何已记录的输入都无法解释</translation>
+    </message>
+    <message>
+        <source>One place is simulated too cold; the error is largest there and spreads both ways</source>
+        <translation>某一处的仿真温度偏低；误差在该处最大，并向两侧扩散</translation>
+    </message>
+    <message>
+        <source>The heated end starts late and goes on warming after the heater is off</source>
+        <translation>受热端升温滞后，热源关闭后仍继续升温</translation>
+    </message>
+    <message>
+        <source>A part without a source of its own warms after its neighbour does</source>
+        <translation>没有自身热源的部件在相邻部件之后升温</translation>
+    </message>
+    <message>
+        <source>Like convection, but the hot part loses more than in proportion; below a rise of 20 K a tolerance of the film hides it</source>
+        <translation>与对流类似，但高温部位的散热超过正比关系；温升低于 20 K 时会被膜系数的公差掩盖</translation>
+    </message>
+    <message>
+        <source>All temperatures tend to another level than the logged room, also while the machine stands</source>
+        <translation>所有温度都趋向与所记录室温不同的水平，机床静止时也如此</translation>
+    </message>
+    <message>
+        <source>One channel is off in proportion to its rise, in step with it</source>
+        <translation>某一通道的偏差与其温升成正比且同步</translation>
+    </message>
+    <message>
+        <source>One channel is late in every transient and right when the temperature stands</source>
+        <translation>某一通道在每次瞬态中滞后，温度稳定时正确</translation>
+    </message>
+    <message>
+        <source>One channel differs by a constant from the first sample on</source>
+        <translation>某一通道自第一次采样起相差一个常数</translation>
+    </message>
+    <message>
+        <source>The simulation is too hot while the spindle turns and right while it stands</source>
+        <translation>主轴旋转时仿真温度偏高，静止时正确</translation>
+    </message>
+    <message>
+        <source>At one speed the part is warmer than the laws in n and n^2 can make it beside the other speeds</source>
+        <translation>在某一转速下，该部件的温度高于 n 和 n² 规律在其他转速下给出的水平</translation>
+    </message>
+    <message>
+        <source>The part is warmer than its surroundings even before the machine runs</source>
+        <translation>机床运行之前，该部件的温度已高于周围环境</translation>
+    </message>
+    <message>
+        <source>Only displacements are off; they follow the room with a delay</source>
+        <translation>只有位移存在偏差；位移滞后地跟随室温</translation>
+    </message>
+    <message>
+        <source>Only the displacement across the axis is off; it follows a heat source or a temperature difference with a delay</source>
+        <translation>只有横向位移存在偏差；它滞后地跟随某一热源或温差</translation>
+    </message>
+    <message>
+        <source>rise of %1</source>
+        <translation>%1 的温升</translation>
+    </message>
+    <message>
+        <source>A displacement follows another part&apos;s temperature, heating and cooling alike</source>
+        <translation>某一位移跟随另一部件的温度，升温和降温时一致</translation>
+    </message>
+    <message>
+        <source>A displacement is late against the temperature of its own component; heating and cooling disagree</source>
+        <translation>某一位移滞后于其自身部件的温度；升温与降温曲线不重合</translation>
+    </message>
+    <message>
+        <source>%1 samples</source>
+        <translation>%1 个采样</translation>
+    </message>
+    <message>
+        <source>at least one</source>
+        <translation>至少一个</translation>
+    </message>
+    <message>
+        <source>full speed for 1 h without coolant, then stop and record 1 h of cooling</source>
+        <translation>以最高转速运行 1 h，不开冷却液，然后停机并记录 1 h 冷却过程</translation>
+    </message>
+    <message>
+        <source>two thirds of full speed for 50 min without coolant, 40 min with it, then stop and record 30 min</source>
+        <translation>以最高转速的三分之二运行：不开冷却液 50 min，开冷却液 40 min，然后停机并记录 30 min</translation>
+    </message>
+    <message>
+        <source>full speed for 2 h without coolant, then stop and record 1.5 h of cooling</source>
+        <translation>以最高转速运行 2 h，不开冷却液，然后停机并记录 1.5 h 冷却过程</translation>
+    </message>
+    <message>
+        <source>half speed for 3 h without coolant</source>
+        <translation>以最高转速的一半运行 3 h，不开冷却液</translation>
+    </message>
+    <message>
+        <source>25, 50, 75 and 100 % of full speed, 45 min each</source>
+        <translation>以最高转速的 25、50、75 和 100 % 运行，各 45 min</translation>
+    </message>
+    <message>
+        <source>full speed for 40 min and stop for 40 min, twice</source>
+        <translation>以最高转速运行 40 min、停机 40 min，重复两次</translation>
+    </message>
+    <message>
+        <source>full speed for 2.7 h, coolant on and off every 40 min</source>
+        <translation>以最高转速运行 2.7 h，冷却液每 40 min 开关一次</translation>
+    </message>
+    <message>
+        <source>half speed for 20 min cold, full speed for 1.5 h, half speed for 20 min hot, stop for 40 min</source>
+        <translation>冷态下以半速运行 20 min，全速运行 1.5 h，热态下再以半速运行 20 min，停机 40 min</translation>
+    </message>
+    <message>
+        <source>half speed for 2.7 h, cutting on and off every 40 min</source>
+        <translation>以半速运行 2.7 h，每 40 min 切削与停止交替一次</translation>
+    </message>
+    <message>
+        <source>µm per unit of its driver</source>
+        <translation>µm / 驱动量单位</translation>
+    </message>
+    <message>
+        <source>all the time</source>
+        <translation>始终</translation>
+    </message>
+    <message>
+        <source>in step with the spindle speed</source>
+        <translation>与主轴转速同步</translation>
+    </message>
+    <message>
+        <source>with the square of the spindle speed</source>
+        <translation>随主轴转速的平方</translation>
+    </message>
+    <message>
+        <source>while the spindle turns</source>
+        <translation>主轴旋转期间</translation>
+    </message>
+    <message>
+        <source>while the coolant runs</source>
+        <translation>冷却液开启期间</translation>
+    </message>
+    <message>
+        <source>while the machine cuts</source>
+        <translation>切削期间</translation>
+    </message>
+    <message>
+        <source>as the room changes</source>
+        <translation>随室温变化</translation>
+    </message>
+    <message>
+        <source>at no regular time</source>
+        <translation>无固定时段</translation>
+    </message>
+    <message>
+        <source>a movement of %1 %2</source>
+        <translation>%1 %2 的移动</translation>
+    </message>
+    <message>
+        <source>about %1 %2 for %3; check units, geometry and powers</source>
+        <translation>%3 约为 %1 %2；请检查单位、几何尺寸和功率</translation>
+    </message>
+    <message>
+        <source>%1; corrected by the run %2</source>
+        <translation>%1；已按运行 %2 修正</translation>
+    </message>
+    <message>
+        <source>always %1</source>
+        <translation>始终为 %1</translation>
+    </message>
+    <message>
+        <source>no samples from %1 s</source>
+        <translation>自 %1 s 起没有采样</translation>
+    </message>
+    <message>
+        <source>frozen from %1 s</source>
+        <translation>自 %1 s 起冻结</translation>
+    </message>
+    <message>
+        <source>as asked for</source>
+        <translation>按要求</translation>
+    </message>
+    <message>
+        <source>the errors move in opposite directions: %1 of the best sensor&apos;s %2 would cancel</source>
+        <translation>各误差变化方向相反：最佳传感器的 %2 中有 %1 会相互抵消</translation>
+    </message>
+    <message>
+        <source>the errors move in one direction, so signs cannot cancel</source>
+        <translation>各误差变化方向相同，符号不会相互抵消</translation>
+    </message>
+    <message>
+        <source>the number of clusters</source>
+        <translation>聚类数</translation>
+    </message>
+    <message>
+        <source>1 to %1 (usable sensors), or auto</source>
+        <translation>1 至 %1（可用传感器数），或 auto</translation>
+    </message>
+    <message>
+        <source>the regression</source>
+        <translation>回归</translation>
+    </message>
+    <message>
+        <source>%1 measurements</source>
+        <translation>%1 次测量</translation>
+    </message>
+    <message>
+        <source>at least %1</source>
+        <translation>至少 %1</translation>
+    </message>
+    <message>
+        <source>gives no samples</source>
+        <translation>没有采样值</translation>
+    </message>
+    <message>
+        <source>stopped during the run</source>
+        <translation>在运行中停止工作</translation>
+    </message>
+    <message>
+        <source>never moves</source>
+        <translation>始终不变</translation>
+    </message>
+    <message>
+        <source>repeats another sensor</source>
+        <translation>与另一传感器重复</translation>
+    </message>
+    <message>
+        <source>has isolated spikes</source>
+        <translation>有孤立的尖峰</translation>
+    </message>
+    <message>
+        <source>has gaps</source>
+        <translation>有缺失</translation>
+    </message>
+    <message>
+        <source>looks like degrees Fahrenheit and was converted</source>
+        <translation>疑似华氏温度，已换算</translation>
+    </message>
+    <message>
+        <source>looks like kelvin and was converted</source>
+        <translation>疑似开尔文温度，已换算</translation>
+    </message>
+    <message>
+        <source>has values no machine tool reaches</source>
+        <translation>含有机床不可能达到的值</translation>
+    </message>
+    <message>
+        <source>holds no measurement</source>
+        <translation>没有测量值</translation>
+    </message>
+    <message>
+        <source>hardly warmed up in this run</source>
+        <translation>在本次运行中几乎没有升温</translation>
+    </message>
+    <message>
+        <source>is nearly a combination of the others</source>
+        <translation>几乎是其他传感器的线性组合</translation>
+    </message>
+    <message>
+        <source>has hardly more measurements than parameters</source>
+        <translation>测量次数仅略多于参数个数</translation>
+    </message>
+    <message>
+        <source>is outside what the training saw</source>
+        <translation>超出训练数据的范围</translation>
+    </message>
+    <message>
+        <source>cannot be guaranteed from this recording</source>
+        <translation>无法由本次记录保证</translation>
+    </message>
+    <message>
+        <source>%1; it is not used</source>
+        <translation>%1；未予采用</translation>
+    </message>
+    <message>
+        <source>%1 on %2 sensors%3</source>
+        <translation>%1，%2 个传感器%3</translation>
+    </message>
+    <message>
+        <source>%1 and the simulation</source>
+        <translation>%1及仿真</translation>
+    </message>
+    <message>
+        <source>%1 and the inputs</source>
+        <translation>%1及输入量</translation>
+    </message>
+    <message>
+        <source>leaves %1 um rms with %2 left out</source>
+        <translation>留出%2时残余误差 rms 为 %1 µm</translation>
+    </message>
+    <message>
+        <source>%1 as asked for; %2</source>
+        <translation>按要求采用 %1；%2</translation>
+    </message>
+    <message>
+        <source>%1 %2; one cycle cannot rank methods, so the one that shrinks what it cannot tell is taken</source>
+        <translation>%1 %2；仅一个循环无法对方法排序，因此采用对不可辨部分进行收缩的方法</translation>
+    </message>
+    <message>
+        <source>%1 %2, less than every other method tried</source>
+        <translation>%1 %2，小于已试的其他各种方法</translation>
+    </message>
+    <message>
+        <source>%1 %2; %3 leaves %4 um, which is not clearly better, so the simpler model is taken</source>
+        <translation>%1 %2；%3 为 %4 µm，优势不明显，因此采用更简单的模型</translation>
+    </message>
+    <message>
+        <source>The warmest sensor rose by only %1 K: run longer or faster.</source>
+        <translation>最热的传感器仅升温 %1 K：请延长运行时间或提高转速。</translation>
+    </message>
+    <message>
+        <source>One speed only: a second stretch at another speed would allow a guaranteed band.</source>
+        <translation>只有一种转速：再增加一段其他转速的运行，即可给出有保证的预测带。</translation>
+    </message>
+    <message>
+        <source>The sensors rose nearly together (condition %1): a stretch with the spindle at rest separates them.</source>
+        <translation>各传感器几乎同步升温（条件数 %1）：增加一段主轴静止的过程可将它们区分开。</translation>
+    </message>
+    <message>
+        <source>the machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>largest rise %1 K</source>
+        <translation>最大温升 %1 K</translation>
+    </message>
+    <message>
+        <source>the set of sensors</source>
+        <translation>传感器组</translation>
+    </message>
+    <message>
+        <source>condition number %1</source>
+        <translation>条件数 %1</translation>
+    </message>
+    <message>
+        <source>the fit</source>
+        <translation>拟合</translation>
+    </message>
+    <message>
+        <source>%1 blocks for %2 sensors</source>
+        <translation>%2 个传感器对应 %1 个数据块</translation>
+    </message>
+    <message>
+        <source>the coverage of the band</source>
+        <translation>预测带的覆盖率</translation>
+    </message>
+    <message>
+        <source>one cycle only</source>
+        <translation>仅一个循环</translation>
+    </message>
+    <message>
+        <source>ridge on %1 sensors (%2)</source>
+        <translation>%1 个传感器的岭回归（%2）</translation>
+    </message>
+    <message>
+        <source>the method</source>
+        <translation>方法</translation>
+    </message>
+    <message>
+        <source>physics without a machine description</source>
+        <translation>物理模型缺少机床描述</translation>
+    </message>
+    <message>
+        <source>the run</source>
+        <translation>该运行</translation>
+    </message>
+    <message>
+        <source>%1 blocks of measurements</source>
+        <translation>%1 个测量数据块</translation>
+    </message>
+    <message>
+        <source>at least 12</source>
+        <translation>至少 12</translation>
+    </message>
+    <message>
+        <source>each of %1 cycles in turn</source>
+        <translation>%1 个循环中的每一个</translation>
+    </message>
+    <message>
+        <source>the last quarter of the run</source>
+        <translation>运行的最后四分之一</translation>
+    </message>
+    <message>
+        <source>numbers above 0</source>
+        <translation>大于 0 的数值</translation>
+    </message>
+    <message>
+        <source>%1 % of the time, up to %2 of the trained range</source>
+        <translation>%1 % 的时间，最多达训练范围的 %2</translation>
+    </message>
+    <message>
+        <source>sensors together</source>
+        <translation>各传感器的组合</translation>
+    </message>
+    <message>
+        <source>longest %1 s</source>
+        <translation>最长 %1 s</translation>
+    </message>
+    <message>
+        <source>of %1</source>
+        <translation>共 %1</translation>
+    </message>
+    <message>
+        <source>%1 measurements left out</source>
+        <translation>已略去 %1 次测量</translation>
+    </message>
+    <message>
+        <source>at least 4</source>
+        <translation>至少 4</translation>
+    </message>
+    <message>
+        <source>the recording %1</source>
+        <translation>记录 %1</translation>
+    </message>
+    <message>
+        <source>no temperature column</source>
+        <translation>没有温度列</translation>
+    </message>
+    <message>
+        <source>columns named like T1_C</source>
+        <translation>名称形如 T1_C 的列</translation>
+    </message>
+    <message>
+        <source>no error column</source>
+        <translation>没有误差列</translation>
+    </message>
+    <message>
+        <source>columns named like dZ_um</source>
+        <translation>名称形如 dZ_um 的列</translation>
+    </message>
+    <message>
+        <source>%1 rows</source>
+        <translation>%1 行</translation>
+    </message>
+    <message>
+        <source>every temperature of the recording %1</source>
+        <translation>记录 %1 的所有温度</translation>
+    </message>
+    <message>
+        <source>every error of the recording %1</source>
+        <translation>记录 %1 的所有误差</translation>
+    </message>
+    <message>
+        <source>%1 %2 (%3) leave %4 um rms with %5 left out, %6 um with the noise of single readings</source>
+        <translation>%2 个%1（%3）：留出%5时残余误差 rms 为 %4 µm，计入单次读数噪声为 %6 µm</translation>
+    </message>
+    <message>
+        <source>%1; %2 %3: %4 um</source>
+        <translation>%1；%2 个%3：%4 µm</translation>
+    </message>
+    <message>
+        <source>%1; what was left out does not tell them apart, and the mean of more sensors is quieter</source>
+        <translation>%1；留出的数据无法区分它们，而更多传感器的平均噪声更小</translation>
+    </message>
+    <message>
+        <source>sensitive points of the clusters</source>
+        <translation>各聚类的热敏感点</translation>
+    </message>
+    <message>
+        <source>that differ most</source>
+        <translation>差异最大的传感器</translation>
+    </message>
+    <message>
+        <source>nearest to the model on all</source>
+        <translation>最接近全传感器模型的传感器</translation>
+    </message>
+    <message>
+        <source>sensitive points and those that differ most from them</source>
+        <translation>热敏感点及与其差异最大的传感器</translation>
+    </message>
+    <message>
+        <source>all that are usable</source>
+        <translation>全部可用传感器</translation>
+    </message>
+    <message>
+        <source>no recording</source>
+        <translation>没有记录</translation>
+    </message>
+    <message>
+        <source>the recordings</source>
+        <translation>各记录</translation>
+    </message>
+    <message>
+        <source>no common sensor</source>
+        <translation>没有共有的传感器</translation>
+    </message>
+    <message>
+        <source>no common error</source>
+        <translation>没有共有的误差</translation>
+    </message>
+    <message>
+        <source>runs of the same machine</source>
+        <translation>同一机床的运行</translation>
+    </message>
+    <message>
+        <source>errors at %1 times</source>
+        <translation>%1 个时刻的误差</translation>
+    </message>
+    <message>
+        <source>at least 8, spread over the run</source>
+        <translation>至少 8 个，分布于整个运行</translation>
+    </message>
+    <message>
+        <source>%1 (%2); it is not used</source>
+        <translation>%1（%2）；未予采用</translation>
+    </message>
+    <message>
+        <source>it is not used</source>
+        <translation>未予采用</translation>
+    </message>
+    <message>
+        <source>%1 gives no samples</source>
+        <translation>%1 没有采样值</translation>
+    </message>
+    <message>
+        <source>%1 gives no samples (%2)</source>
+        <translation>%1 没有采样值（%2）</translation>
+    </message>
+    <message>
+        <source>%1 stopped during the run</source>
+        <translation>%1 在运行中停止工作</translation>
+    </message>
+    <message>
+        <source>%1 stopped during the run (%2)</source>
+        <translation>%1 在运行中停止工作（%2）</translation>
+    </message>
+    <message>
+        <source>%1 never moves</source>
+        <translation>%1 始终不变</translation>
+    </message>
+    <message>
+        <source>%1 never moves (%2)</source>
+        <translation>%1 始终不变（%2）</translation>
+    </message>
+    <message>
+        <source>%1 repeats another sensor</source>
+        <translation>%1 与另一传感器重复</translation>
+    </message>
+    <message>
+        <source>%1 repeats another sensor (%2)</source>
+        <translation>%1 与另一传感器重复（%2）</translation>
+    </message>
+    <message>
+        <source>%1 has isolated spikes</source>
+        <translation>%1 有孤立的尖峰</translation>
+    </message>
+    <message>
+        <source>%1 has isolated spikes (%2)</source>
+        <translation>%1 有孤立的尖峰（%2）</translation>
+    </message>
+    <message>
+        <source>%1 has gaps</source>
+        <translation>%1 有缺失</translation>
+    </message>
+    <message>
+        <source>%1 has gaps (%2)</source>
+        <translation>%1 有缺失（%2）</translation>
+    </message>
+    <message>
+        <source>%1 looks like degrees Fahrenheit and was converted</source>
+        <translation>%1 疑似华氏温度，已换算</translation>
+    </message>
+    <message>
+        <source>%1 looks like degrees Fahrenheit and was converted (%2)</source>
+        <translation>%1 疑似华氏温度，已换算（%2）</translation>
+    </message>
+    <message>
+        <source>%1 looks like kelvin and was converted</source>
+        <translation>%1 疑似开尔文温度，已换算</translation>
+    </message>
+    <message>
+        <source>%1 looks like kelvin and was converted (%2)</source>
+        <translation>%1 疑似开尔文温度，已换算（%2）</translation>
+    </message>
+    <message>
+        <source>%1 has values no machine tool reaches</source>
+        <translation>%1 含有机床不可能达到的值</translation>
+    </message>
+    <message>
+        <source>%1 has values no machine tool reaches (%2)</source>
+        <translation>%1 含有机床不可能达到的值（%2）</translation>
+    </message>
+    <message>
+        <source>%1 holds no measurement</source>
+        <translation>%1 没有测量值</translation>
+    </message>
+    <message>
+        <source>%1 holds no measurement (%2)</source>
+        <translation>%1 没有测量值（%2）</translation>
+    </message>
+    <message>
+        <source>%1 hardly warmed up in this run</source>
+        <translation>%1 在本次运行中几乎没有升温</translation>
+    </message>
+    <message>
+        <source>%1 hardly warmed up in this run (%2)</source>
+        <translation>%1 在本次运行中几乎没有升温（%2）</translation>
+    </message>
+    <message>
+        <source>%1 is nearly a combination of the others</source>
+        <translation>%1 几乎是其他传感器的线性组合</translation>
+    </message>
+    <message>
+        <source>%1 is nearly a combination of the others (%2)</source>
+        <translation>%1 几乎是其他传感器的线性组合（%2）</translation>
+    </message>
+    <message>
+        <source>%1 has hardly more measurements than parameters</source>
+        <translation>%1 的测量次数仅略多于参数个数</translation>
+    </message>
+    <message>
+        <source>%1 has hardly more measurements than parameters (%2)</source>
+        <translation>%1 的测量次数仅略多于参数个数（%2）</translation>
+    </message>
+    <message>
+        <source>%1 is outside what the training saw</source>
+        <translation>%1 超出训练数据的范围</translation>
+    </message>
+    <message>
+        <source>%1 is outside what the training saw (%2)</source>
+        <translation>%1 超出训练数据的范围（%2）</translation>
+    </message>
+    <message>
+        <source>%1 cannot be guaranteed from this recording</source>
+        <translation>%1 无法由本次记录保证</translation>
+    </message>
+    <message>
+        <source>%1 cannot be guaranteed from this recording (%2)</source>
+        <translation>%1 无法由本次记录保证（%2）</translation>
+    </message>
+    <message>
+        <source>%1 and the simulation and the inputs</source>
+        <translation>%1及仿真和输入量</translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation>全部</translation>
+    </message>
+    <message>
+        <source>mlr</source>
+        <translation>多元线性回归</translation>
+    </message>
+    <message>
+        <source>ridge</source>
+        <translation>岭回归</translation>
+    </message>
+    <message>
+        <source>pcr</source>
+        <translation>主成分回归</translation>
+    </message>
+    <message>
+        <source>lasso</source>
+        <translation>LASSO 回归</translation>
+    </message>
+    <message>
+        <source>robust</source>
+        <translation>稳健回归</translation>
+    </message>
+    <message>
+        <source>dynamic</source>
+        <translation>动态模型</translation>
+    </message>
+    <message>
+        <source>arx</source>
+        <translation>ARX 模型</translation>
+    </message>
+    <message>
+        <source>greybox</source>
+        <translation>灰箱模型</translation>
+    </message>
+    <message>
+        <source>physics</source>
+        <translation>物理模型</translation>
+    </message>
+    <message>
+        <source>drift = %1</source>
+        <translation>漂移 = %1</translation>
+    </message>
+    <message>
+        <source>gain = %1</source>
+        <translation>增益误差 = %1</translation>
+    </message>
+    <message>
+        <source>excess = %1</source>
+        <translation>超出 = %1</translation>
+    </message>
+    <message>
+        <source>step = %1</source>
+        <translation>跳变 = %1</translation>
+    </message>
+    <message>
+        <source>from = %1</source>
+        <translation>自 = %1</translation>
+    </message>
+    <message>
+        <source>to = %1</source>
+        <translation>至 = %1</translation>
+    </message>
+    <message>
+        <source>period = %1</source>
+        <translation>周期 = %1</translation>
+    </message>
+    <message>
+        <source>slope = %1</source>
+        <translation>斜率 = %1</translation>
+    </message>
+    <message>
+        <source>%1 µm per unit of its driver</source>
+        <translation>%1 µm / 驱动量单位</translation>
+    </message>
+    <message>
+        <source>spindle</source>
+        <translation>主轴</translation>
+    </message>
+    <message>
+        <source>motor</source>
+        <translation>电机</translation>
+    </message>
+    <message>
+        <source>rear bearing</source>
+        <translation>后轴承</translation>
+    </message>
+    <message>
+        <source>front bearing</source>
+        <translation>前轴承</translation>
+    </message>
+    <message>
+        <source>column</source>
+        <translation>立柱</translation>
+    </message>
+    <message>
+        <source>headstock</source>
+        <translation>主轴箱</translation>
+    </message>
+    <message>
+        <source>bed</source>
+        <translation>床身</translation>
+    </message>
+    <message>
+        <source>screw</source>
+        <translation>丝杠</translation>
+    </message>
+    <message>
+        <source>component</source>
+        <translation>部件</translation>
+    </message>
+    <message>
+        <source>Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors&apos; noise.</source>
+        <translation>没有缺失：仿真与记录在公差和传感器噪声范围内一致。</translation>
+    </message>
+    <message>
+        <source>Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W.</source>
+        <translation>存在效应库无法解释的缺失：{channel} 处最严重，{@regime}，约 {watts} W。</translation>
+    </message>
+    <message>
+        <source>The simulation left out {+effects}.</source>
+        <translation>仿真遗漏了{+effects}。</translation>
+    </message>
+    <message>
+        <source>{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} ({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}.</source>
+        <translation>{@regime}，不计入该效应时 {channel} 与最佳仿真相差 {before} {unit}（rms）。计入{@where}{@name}（{parameters}）可消除其中的 {removed_percent} %。典型特征：{@fingerprint}。</translation>
+    </message>
+    <message>
+        <source>This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be excluded.</source>
+        <translation>{@where}{@name}对本记录的解释几乎同样好（对数证据仅低 {behind}），不能排除。</translation>
+    </message>
+    <message>
+        <source>To tell {@best} from {@rival}: {@run}.</source>
+        <translation>为区分{@best}与{@rival}：{@run}。</translation>
+    </message>
+    <message>
+        <source>The profile holds no machine description, so there is nothing to simulate.</source>
+        <translation>配置文件不含机床描述，无法仿真。</translation>
+    </message>
+    <message>
+        <source>The simulation differs most from the recording at {channel}: {rms} {unit} rms, {largest} {unit} at the most after {minutes} min.</source>
+        <translation>仿真与记录在 {channel} 处差异最大：rms {rms} {unit}，最大 {largest} {unit}，出现在 {minutes} min。</translation>
+    </message>
+    <message>
+        <source>The temperature of {component} between {from} and {to} mm from its fixed end follows the elongation best: a sensor belongs there.</source>
+        <translation>{component}距固定端 {from} 至 {to} mm 处的温度与热伸长的相关性最好：传感器应布置在该处。</translation>
+    </message>
+    <message>
+        <source> on {place_channel}</source>
+        <translation>{place_channel}的</translation>
+    </message>
+    <message>
+        <source> at {position} mm of {component}</source>
+        <translation>{component} {position} mm 处的</translation>
+    </message>
+    <message>
+        <source> between {from} and {to} mm</source>
+        <translation>{from} 至 {to} mm 之间的</translation>
+    </message>
+    <message>
+        <source> of {component}</source>
+        <translation>{component}的</translation>
+    </message>
+    <message>
+        <source> and </source>
+        <translation>和</translation>
+    </message>
+    <message>
+        <source>convection to the room</source>
+        <translation>向环境的对流散热</translation>
+    </message>
+    <message>
+        <source>convection that grows with speed</source>
+        <translation>随转速增强的对流散热</translation>
+    </message>
+    <message>
+        <source>radiation to the room</source>
+        <translation>向环境的辐射散热</translation>
+    </message>
+    <message>
+        <source>cooling by the coolant</source>
+        <translation>冷却液的冷却</translation>
+    </message>
+    <message>
+        <source>bearing oil that thins as it warms</source>
+        <translation>轴承润滑油受热变稀</translation>
+    </message>
+    <message>
+        <source>bearing preload that grows with the heat</source>
+        <translation>随温升增大的轴承预紧力</translation>
+    </message>
+    <message>
+        <source>an extra heat source</source>
+        <translation>额外热源</translation>
+    </message>
+    <message>
+        <source>a joint that conducts badly</source>
+        <translation>接触热阻过大的结合面</translation>
+    </message>
+    <message>
+        <source>the structure following the room</source>
+        <translation>结构件随室温变化</translation>
+    </message>
+    <message>
+        <source>bending of the structure</source>
+        <translation>结构件弯曲</translation>
+    </message>
+    <message>
+        <source>a sensor that answers late</source>
+        <translation>传感器响应滞后</translation>
+    </message>
+    <message>
+        <source>a sensor that reads wrong by a constant</source>
+        <translation>传感器恒定偏差</translation>
+    </message>
+    <message>
+        <source>a sensor that reads its rise wrong</source>
+        <translation>传感器温升示值误差</translation>
+    </message>
+    <message>
+        <source>heat of cutting at the nose</source>
+        <translation>主轴端部的切削热</translation>
+    </message>
+    <message>
+        <source>a draught or an open door</source>
+        <translation>气流扰动或门未关</translation>
+    </message>
+    <message>
+        <source>a chiller that switches on its own</source>
+        <translation>自行启停的冷却机</translation>
+    </message>
+    <message>
+        <source>bearings that run in</source>
+        <translation>轴承磨合</translation>
+    </message>
+    <message>
+        <source>conductivity that changes with temperature</source>
+        <translation>随温度变化的导热系数</translation>
+    </message>
+    <message>
+        <source>a wrong room sensor</source>
+        <translation>室温传感器示值错误</translation>
+    </message>
+    <message>
+        <source>a bracket that slipped</source>
+        <translation>支架滑移</translation>
+    </message>
+    <message>
+        <source>heat from a neighbouring part</source>
+        <translation>相邻部件传来的热量</translation>
+    </message>
+    <message>
+        <source>the heater&apos;s own body</source>
+        <translation>热源自身的热容</translation>
+    </message>
+    <message>
+        <source>a slow core behind the surface</source>
+        <translation>表层之后响应缓慢的内芯</translation>
+    </message>
+    <message>
+        <source>a heat that is there at rest as well</source>
+        <translation>静止时也存在的热量</translation>
+    </message>
+    <message>
+        <source>heat as a curve over speed</source>
+        <translation>随转速按曲线变化的热量</translation>
+    </message>
+    <message>
+        <source>a displacement that follows another part</source>
+        <translation>跟随另一部件的位移</translation>
+    </message>
+    <message>
+        <source>a structure that follows late</source>
+        <translation>响应滞后的结构件</translation>
+    </message>
+    <message>
+        <source>%1: unknown key &quot;%2&quot; is kept and ignored</source>
+        <translation>%1：未知的键“%2”已保留但忽略</translation>
+    </message>
+    <message>
+        <source>the channels that %1 and %2 share</source>
+        <translation>%1与%2共有的通道</translation>
+    </message>
+    <message>
+        <source>the recording and the description</source>
+        <translation>记录与描述</translation>
+    </message>
+    <message>
+        <source>the machine is not at the measuring position</source>
+        <translation>机床不在测量位置</translation>
+    </message>
+    <message>
+        <source>the zero of the warm-up run cannot be restored</source>
+        <translation>无法恢复暖机运行的零点</translation>
+    </message>
+    <message>
+        <source>the machine of this job</source>
+        <translation>本作业的机床</translation>
+    </message>
+    <message>
+        <source>serial %1 connected</source>
+        <translation>已连接序列号 %1</translation>
+    </message>
+    <message>
+        <source>serial %1, which the model was fitted on</source>
+        <translation>序列号 %1（模型在其上拟合）</translation>
+    </message>
+    <message>
+        <source>a physics model, which predicts recordings</source>
+        <translation>用于预测记录的物理模型</translation>
+    </message>
+    <message>
+        <source>one that runs sample by sample</source>
+        <translation>可逐个采样运行的模型</translation>
+    </message>
+    <message>
+        <source>compensate from this computer</source>
+        <translation>由本计算机补偿</translation>
+    </message>
+    <message>
+        <source>0 um, switch on</source>
+        <translation>0 µm，开关接通</translation>
+    </message>
+    <message>
+        <source>0 um, switch off</source>
+        <translation>0 µm，开关断开</translation>
+    </message>
+    <message>
+        <source>what the model says, at most %1 um, every %2 s</source>
+        <translation>按模型，最大 %1 µm，每 %2 s</translation>
+    </message>
+    <message>
+        <source>Error in %1</source>
+        <translation>%1 方向误差</translation>
+    </message>
+    <message>
+        <source>Tilt %1</source>
+        <translation>%1 倾角</translation>
+    </message>
+    <message>
+        <source>the region</source>
+        <translation>区域</translation>
+    </message>
+    <message>
+        <source>%1 temperatures and %2 errors, %3 values each</source>
+        <translation>%1 个温度和 %2 个误差，各 %3 个值</translation>
+    </message>
+    <message>
+        <source>%1 values each</source>
+        <translation>各 %1 个值</translation>
+    </message>
+    <message>
+        <source>%1 temperatures and %2</source>
+        <translation>%1 个温度和 %2</translation>
+    </message>
+    <message>
+        <source>imported from %1: that the compensation was off is not recorded</source>
+        <translation>由 %1 导入：未记录补偿是否断开</translation>
+    </message>
+    <message>
+        <source>imported from %1</source>
+        <translation>由 %1 导入</translation>
+    </message>
+    <message>
+        <source>%1: that the compensation was off is not recorded</source>
+        <translation>%1：未记录补偿是否断开</translation>
+    </message>
+    <message>
+        <source>Something is missing that the library does not explain: {channel} is off the best simulation by {um} µm (rms), {@regime}.</source>
+        <translation>存在效应库无法解释的缺失：{channel} 与最佳仿真相差 {um} µm（rms），{@regime}。</translation>
+    </message>
+    <message>
+        <source>This run at one speed would hardly show {@name}{@where}: it cannot be excluded.</source>
+        <translation>本次单一转速的运行几乎无法显示{@where}{@name}，不能排除。</translation>
+    </message>
+    <message>
+        <source>To see whether there is {@rival}: {@run}.</source>
+        <translation>为判断是否存在{@rival}：{@run}。</translation>
+    </message>
+    <message>
+        <source>the offset is moved by %1 um; the run does not show that the temperature terms are wrong, so they stay</source>
+        <translation>偏置移动 %1 µm；该运行未表明温度项有误，因此保持不变</translation>
+    </message>
+    <message>
+        <source>%1; one cycle cannot rank them (a second speed would), so fits on the first few of them are averaged, and what the run leaves open is filled by how machines are built</source>
+        <translation>%1；仅一个循环无法排序（需要第二种转速），因此对其中前几个的拟合取平均，运行未能确定的部分按机床的一般构造补充</translation>
+    </message>
+</context>
+<context>
+    <name>errors</name>
+    <message>
+        <source>The work was cancelled.</source>
+        <translation>工作已取消。</translation>
+    </message>
+    <message>
+        <source>Nothing was changed; start it again when you are ready.</source>
+        <translation>未作任何更改；准备好后可重新开始。</translation>
+    </message>
+    <message>
+        <source>Something unexpected happened inside the program ({detail}).</source>
+        <translation>程序内部发生意外（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Nothing was lost; please send the log to support.</source>
+        <translation>没有数据丢失；请将日志发送给技术支持。</translation>
+    </message>
+    <message>
+        <source>The file {file} does not exist.</source>
+        <translation>文件 {file} 不存在。</translation>
+    </message>
+    <message>
+        <source>Check the name and the folder.</source>
+        <translation>请检查文件名和文件夹。</translation>
+    </message>
+    <message>
+        <source>The file {file} cannot be read ({detail}).</source>
+        <translation>无法读取文件 {file}（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Check that it is a file you may read.</source>
+        <translation>请确认您有权读取该文件。</translation>
+    </message>
+    <message>
+        <source>The file {file} cannot be written ({detail}).</source>
+        <translation>无法写入文件 {file}（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Choose a folder that exists and that you may write to.</source>
+        <translation>请选择一个存在且可写入的文件夹。</translation>
+    </message>
+    <message>
+        <source>The file {file} is larger ({size} bytes) than the program accepts ({limit} bytes).</source>
+        <translation>文件 {file} 的大小（{size} 字节）超过程序的上限（{limit} 字节）。</translation>
+    </message>
+    <message>
+        <source>Cut it into shorter recordings.</source>
+        <translation>请将其分成较短的记录。</translation>
+    </message>
+    <message>
+        <source>The disk is full: {file} could not be written.</source>
+        <translation>磁盘已满：无法写入 {file}。</translation>
+    </message>
+    <message>
+        <source>Free some space; what was stored is intact.</source>
+        <translation>请释放一些空间；已存储的数据完好。</translation>
+    </message>
+    <message>
+        <source>{file} holds no rows.</source>
+        <translation>{file} 中没有数据行。</translation>
+    </message>
+    <message>
+        <source>It needs a header line and at least one line of numbers.</source>
+        <translation>需要一行表头和至少一行数值。</translation>
+    </message>
+    <message>
+        <source>{file}: column {column} of the header is &quot;{found}&quot;, expected {expected}.</source>
+        <translation>{file}：表头第 {column} 列为“{found}”，应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Correct the header or give a header map.</source>
+        <translation>请更正表头，或给出表头映射。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: {found} cells where the header has {expected}.</source>
+        <translation>{file} 第 {line} 行：有 {found} 个单元格，而表头有 {expected} 个。</translation>
+    </message>
+    <message>
+        <source>Check the line for a missing separator or a decimal comma.</source>
+        <translation>请检查该行是否缺少分隔符或使用了小数逗号。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: &quot;{found}&quot; is not a number.</source>
+        <translation>{file} 第 {line} 行第 {column} 列：“{found}”不是数值。</translation>
+    </message>
+    <message>
+        <source>Use a decimal point; leave the cell empty if the sample is missing.</source>
+        <translation>请使用小数点；缺少采样时单元格留空。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: the time &quot;{found}&quot; does not come after the line before.</source>
+        <translation>{file} 第 {line} 行：时间“{found}”不晚于前一行。</translation>
+    </message>
+    <message>
+        <source>time_s must be there in every line and increase.</source>
+        <translation>每行都必须有 time_s，且递增。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: not valid JSON ({detail}).</source>
+        <translation>{file} 第 {line} 行第 {column} 列：不是有效的 JSON（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Correct the file there.</source>
+        <translation>请更正文件中的该处。</translation>
+    </message>
+    <message>
+        <source>{file}: &quot;{key}&quot; is missing; expected {expected}.</source>
+        <translation>{file}：缺少“{key}”；应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Add the key.</source>
+        <translation>请添加该键。</translation>
+    </message>
+    <message>
+        <source>{file}: &quot;{key}&quot; is {found}; expected {expected}.</source>
+        <translation>{file}：“{key}”为 {found}；应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Correct the value.</source>
+        <translation>请更正该值。</translation>
+    </message>
+    <message>
+        <source>{file} is {found}; expected {expected}.</source>
+        <translation>{file} 为 {found}；应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Choose another file.</source>
+        <translation>请选择另一个文件。</translation>
+    </message>
+    <message>
+        <source>There is no channel {channel}; there are: {available}.</source>
+        <translation>没有通道 {channel}；现有：{available}。</translation>
+    </message>
+    <message>
+        <source>Check the name, or rename the column with a header map.</source>
+        <translation>请检查名称，或用表头映射重命名该列。</translation>
+    </message>
+    <message>
+        <source>Too little data: {what} has {found}, {needed} needed.</source>
+        <translation>数据太少：{what}有 {found}，需要 {needed}。</translation>
+    </message>
+    <message>
+        <source>Record longer or choose fewer.</source>
+        <translation>请延长记录时间或减少所选项。</translation>
+    </message>
+    <message>
+        <source>{what} never changes, so nothing can be learned from it.</source>
+        <translation>{what}始终不变，无法从中得到任何信息。</translation>
+    </message>
+    <message>
+        <source>Check the sensor, or leave it out; a run must warm the machine.</source>
+        <translation>请检查该传感器或将其略去；运行必须使机床升温。</translation>
+    </message>
+    <message>
+        <source>{what} is &quot;{found}&quot;; expected {expected}.</source>
+        <translation>{what}为“{found}”；应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Correct it and try again.</source>
+        <translation>请更正后重试。</translation>
+    </message>
+    <message>
+        <source>{what} does not fit: found {found}, expected {expected}.</source>
+        <translation>{what}不匹配：实际为 {found}，应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Check that both belong to the same machine.</source>
+        <translation>请确认二者属于同一台机床。</translation>
+    </message>
+    <message>
+        <source>The image {file} cannot be read ({detail}).</source>
+        <translation>无法读取图像 {file}（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Check the file; PNG and JPEG are accepted.</source>
+        <translation>请检查该文件；可接受 PNG 和 JPEG。</translation>
+    </message>
+    <message>
+        <source>The image {file} is {found} pixels; the template is {expected}.</source>
+        <translation>图像 {file} 为 {found} 像素；模板为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Use images from the same camera with the same settings.</source>
+        <translation>请使用同一相机、相同设置拍摄的图像。</translation>
+    </message>
+    <message>
+        <source>The region {region} is not inside the image {file} ({size}).</source>
+        <translation>区域 {region} 不在图像 {file}（{size}）之内。</translation>
+    </message>
+    <message>
+        <source>Give the region as X,Y,W,H in pixels inside the image.</source>
+        <translation>请以图像内的像素给出区域 X,Y,W,H。</translation>
+    </message>
+    <message>
+        <source>The region of the template {file} shows nothing that could be followed.</source>
+        <translation>模板 {file} 的区域内没有可跟踪的特征。</translation>
+    </message>
+    <message>
+        <source>Choose a region with the target in it; check light and focus.</source>
+        <translation>请选择包含靶标的区域；检查光照和对焦。</translation>
+    </message>
+    <message>
+        <source>The camera at {url} does not answer ({detail}).</source>
+        <translation>{url} 的相机无应答（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Check that it is switched on, connected and the address is right.</source>
+        <translation>请检查其是否通电、已连接且地址正确。</translation>
+    </message>
+    <message>
+        <source>The camera at {url} has sent no picture for {seconds} s.</source>
+        <translation>{url} 的相机已有 {seconds} s 未发送图像。</translation>
+    </message>
+    <message>
+        <source>Check cable and power; the run goes on and waits for it.</source>
+        <translation>请检查电缆和电源；运行继续并等待相机。</translation>
+    </message>
+    <message>
+        <source>The camera at {url} has sent the same picture for {seconds} s: it is frozen.</source>
+        <translation>{url} 的相机连续 {seconds} s 发送同一图像：画面已冻结。</translation>
+    </message>
+    <message>
+        <source>Restart the camera; no error was measured meanwhile.</source>
+        <translation>请重新启动相机；在此期间未测量误差。</translation>
+    </message>
+    <message>
+        <source>The target was not measured: {reason}.</source>
+        <translation>靶标未能测量：{reason}。</translation>
+    </message>
+    <message>
+        <source>Clear the view, check light and focus.</source>
+        <translation>请清除遮挡，检查光照和对焦。</translation>
+    </message>
+    <message>
+        <source>The calibration is refused: {reason}.</source>
+        <translation>标定被拒绝：{reason}。</translation>
+    </message>
+    <message>
+        <source>Measure again with positions further apart, not on one line.</source>
+        <translation>请加大位置间距、避免各点共线，重新测量。</translation>
+    </message>
+    <message>
+        <source>{file} is not a Zerodrift job.</source>
+        <translation>{file} 不是 Zerodrift 作业。</translation>
+    </message>
+    <message>
+        <source>Choose a file that Zerodrift made.</source>
+        <translation>请选择由 Zerodrift 创建的文件。</translation>
+    </message>
+    <message>
+        <source>{file} was made by a newer version (format {found}, this program knows {expected}).</source>
+        <translation>{file} 由更新的版本创建（格式 {found}，本程序支持到 {expected}）。</translation>
+    </message>
+    <message>
+        <source>Update Zerodrift; the file was not touched.</source>
+        <translation>请更新 Zerodrift；该文件未作改动。</translation>
+    </message>
+    <message>
+        <source>The job {file} is damaged ({detail}).</source>
+        <translation>作业 {file} 已损坏（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Open the latest backup; what can be read was left as it is.</source>
+        <translation>请打开最近的备份；可读取的部分保持原样。</translation>
+    </message>
+    <message>
+        <source>The job {file} is open in another program.</source>
+        <translation>作业 {file} 已在另一程序中打开。</translation>
+    </message>
+    <message>
+        <source>Close it there first.</source>
+        <translation>请先在那里关闭。</translation>
+    </message>
+    <message>
+        <source>The step {step} cannot run yet: it needs {needs}.</source>
+        <translation>步骤“{step}”尚不能执行：需要{needs}。</translation>
+    </message>
+    <message>
+        <source>Do that step first.</source>
+        <translation>请先完成该步骤。</translation>
+    </message>
+    <message>
+        <source>Port {port} at {host} cannot be served ({detail}).</source>
+        <translation>无法在 {host} 的端口 {port} 提供服务（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Choose another port, or 0 for any free one.</source>
+        <translation>请选择其他端口，或用 0 选取任一空闲端口。</translation>
+    </message>
+    <message>
+        <source>No connection to the controller at {host}, port {port} ({detail}).</source>
+        <translation>无法连接 {host} 端口 {port} 的控制器（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Check cable, address and port, and that the controller&apos;s Modbus server is on.</source>
+        <translation>请检查电缆、地址和端口，并确认控制器的 Modbus 服务器已启用。</translation>
+    </message>
+    <message>
+        <source>The controller did not answer within {timeout_ms} ms ({what}).</source>
+        <translation>控制器在 {timeout_ms} ms 内无应答（{what}）。</translation>
+    </message>
+    <message>
+        <source>Check the connection and the unit number; the link is opened anew by itself.</source>
+        <translation>请检查连接和单元号；链路会自动重新建立。</translation>
+    </message>
+    <message>
+        <source>The connection to the controller was lost ({what}, {detail}).</source>
+        <translation>与控制器的连接中断（{what}，{detail}）。</translation>
+    </message>
+    <message>
+        <source>Check the cable; the link is opened anew by itself.</source>
+        <translation>请检查电缆；链路会自动重新建立。</translation>
+    </message>
+    <message>
+        <source>The controller&apos;s answer does not belong to the question ({what}: {detail}); it was not used.</source>
+        <translation>控制器的应答与请求不符（{what}：{detail}）；该应答未被采用。</translation>
+    </message>
+    <message>
+        <source>Check for a second master or a faulty gateway.</source>
+        <translation>请检查是否存在第二个主站或有故障的网关。</translation>
+    </message>
+    <message>
+        <source>The controller is busy ({what}).</source>
+        <translation>控制器忙（{what}）。</translation>
+    </message>
+    <message>
+        <source>Wait a little and try again.</source>
+        <translation>请稍候再试。</translation>
+    </message>
+    <message>
+        <source>The controller refused {what} (Modbus exception {exception}).</source>
+        <translation>控制器拒绝了 {what}（Modbus 异常 {exception}）。</translation>
+    </message>
+    <message>
+        <source>Check the register map against the controller&apos;s manual.</source>
+        <translation>请对照控制器手册检查寄存器映射。</translation>
+    </message>
+    <message>
+        <source>The controller does not fit: {what} is {found}, expected {expected}.</source>
+        <translation>控制器不匹配：{what}为 {found}，应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Check profile and register map.</source>
+        <translation>请检查配置文件和寄存器映射。</translation>
+    </message>
+    <message>
+        <source>The register map {map} has no register &quot;{register}&quot;.</source>
+        <translation>寄存器映射 {map} 中没有寄存器“{register}”。</translation>
+    </message>
+    <message>
+        <source>Add it to the map, or switch off the function that needs it.</source>
+        <translation>请将其加入映射，或关闭需要它的功能。</translation>
+    </message>
+    <message>
+        <source>The machine is not ready for {what}: {reason}.</source>
+        <translation>机床尚未就绪，不能进行{what}：{reason}。</translation>
+    </message>
+    <message>
+        <source>Put it right and try again.</source>
+        <translation>请排除后重试。</translation>
+    </message>
+    <message>
+        <source>The target before camera {view} is partly occluded: {percent} % of it is measured.</source>
+        <translation>相机 {view} 前的靶标被部分遮挡：仅测得其 {percent} %。</translation>
+    </message>
+    <message>
+        <source>The numbers hold, with their uncertainty; wipe the target at the next stop.</source>
+        <translation>数值及其不确定度仍然有效；请在下次停机时擦拭靶标。</translation>
+    </message>
+    <message>
+        <source>The temperature sensor {sensor} gives no value.</source>
+        <translation>温度传感器 {sensor} 没有数值。</translation>
+    </message>
+    <message>
+        <source>Check its plug and cable, or leave it out of the model.</source>
+        <translation>请检查其插头和电缆，或不将其用于模型。</translation>
+    </message>
+    <message>
+        <source>The temperature sensor {sensor} has not moved for {seconds} s: it is stuck.</source>
+        <translation>温度传感器 {sensor} 已有 {seconds} s 没有变化：疑似卡死。</translation>
+    </message>
+    <message>
+        <source>Check it, or leave it out of the model.</source>
+        <translation>请检查该传感器，或不将其用于模型。</translation>
+    </message>
+    <message>
+        <source>Not allowed while the compensation is ON: {operation}.</source>
+        <translation>补偿接通时不允许：{operation}。</translation>
+    </message>
+    <message>
+        <source>Switch the compensation off first; data measured with it on would be wrong.</source>
+        <translation>请先断开补偿；补偿接通时测得的数据是错误的。</translation>
+    </message>
+    <message>
+        <source>Not allowed while the compensation is OFF: {operation}.</source>
+        <translation>补偿断开时不允许：{operation}。</translation>
+    </message>
+    <message>
+        <source>Switch the compensation on first.</source>
+        <translation>请先接通补偿。</translation>
+    </message>
+    <message>
+        <source>{what} is {found}, beyond the limit of {limit}.</source>
+        <translation>{what}为 {found}，超出限值 {limit}。</translation>
+    </message>
+    <message>
+        <source>Nothing was written; check the model or the limit.</source>
+        <translation>未写入任何内容；请检查模型或限值。</translation>
+    </message>
+    <message>
+        <source>{operation} was not confirmed; nothing was written.</source>
+        <translation>{operation}未经确认；未写入任何内容。</translation>
+    </message>
+    <message>
+        <source>Confirm it, or use --yes.</source>
+        <translation>请确认，或使用 --yes。</translation>
+    </message>
+    <message>
+        <source>Register {register} reads back {read} instead of {written}.</source>
+        <translation>寄存器 {register} 回读为 {read}，写入值为 {written}。</translation>
+    </message>
+    <message>
+        <source>Nothing was activated; check the link and the register map.</source>
+        <translation>未激活任何内容；请检查链路和寄存器映射。</translation>
+    </message>
+    <message>
+        <source>The controller rejected the table: {reason}.</source>
+        <translation>控制器拒绝了补偿表：{reason}。</translation>
+    </message>
+    <message>
+        <source>Nothing was activated; the old table is active.</source>
+        <translation>未激活任何内容；旧表仍然有效。</translation>
+    </message>
+    <message>
+        <source>The upload failed ({reason}); the old table was restored and read back.</source>
+        <translation>上传失败（{reason}）；旧表已恢复并回读。</translation>
+    </message>
+    <message>
+        <source>Find the cause, then upload again.</source>
+        <translation>请查明原因后重新上传。</translation>
+    </message>
+    <message>
+        <source>The upload failed ({reason}) AND the old table could not be restored ({detail}). The machine&apos;s table is not known.</source>
+        <translation>上传失败（{reason}），且旧表无法恢复（{detail}）。机床中的补偿表状态未知。</translation>
+    </message>
+    <message>
+        <source>Do not machine parts. Switch the compensation off at the controller, then use rollback.</source>
+        <translation>请勿加工工件。请在控制器上断开补偿，然后使用回滚。</translation>
+    </message>
+    <message>
+        <source>The sign check failed on axis {axis}: commanded {commanded_um} um, seen in um: {seen_um}.</source>
+        <translation>轴 {axis} 的符号检查未通过：指令 {commanded_um} µm，观测（µm）：{seen_um}。</translation>
+    </message>
+    <message>
+        <source>Nothing was written; check the axis direction and the calibration.</source>
+        <translation>未写入任何内容；请检查轴的方向和标定。</translation>
+    </message>
+</context>
+<context>
+    <name>happenings</name>
+    <message>
+        <source>gap in the recording</source>
+        <translation>记录出现间断</translation>
+    </message>
+    <message>
+        <source>recording interrupted</source>
+        <translation>记录中断</translation>
+    </message>
+    <message>
+        <source>controller busy</source>
+        <translation>控制器忙</translation>
+    </message>
+    <message>
+        <source>controller silent</source>
+        <translation>控制器无应答</translation>
+    </message>
+    <message>
+        <source>reply that does not belong to the question</source>
+        <translation>应答与请求不符</translation>
+    </message>
+    <message>
+        <source>connection to the controller lost</source>
+        <translation>与控制器的连接中断</translation>
+    </message>
+    <message>
+        <source>controller not reachable</source>
+        <translation>无法连接控制器</translation>
+    </message>
+    <message>
+        <source>machine could not be stopped</source>
+        <translation>机床无法停止</translation>
+    </message>
+    <message>
+        <source>reply in pieces</source>
+        <translation>应答分段到达</translation>
+    </message>
+    <message>
+        <source>sensor stuck</source>
+        <translation>传感器卡死</translation>
+    </message>
+    <message>
+        <source>sensor dead</source>
+        <translation>传感器失效</translation>
+    </message>
+    <message>
+        <source>camera frozen</source>
+        <translation>相机画面冻结</translation>
+    </message>
+    <message>
+        <source>camera silent</source>
+        <translation>相机不发送图像</translation>
+    </message>
+    <message>
+        <source>camera not reachable</source>
+        <translation>无法连接相机</translation>
+    </message>
+    <message>
+        <source>measurement refused</source>
+        <translation>测量被拒绝</translation>
+    </message>
+    <message>
+        <source>target partly occluded</source>
+        <translation>靶标部分被遮挡</translation>
+    </message>
+    <message>
+        <source>disk full</source>
+        <translation>磁盘已满</translation>
+    </message>
+    <message>
+        <source>%1, once</source>
+        <translation>%1，1 次</translation>
+    </message>
+    <message>
+        <source>%1, %2 times</source>
+        <translation>%1，%2 次</translation>
+    </message>
+    <message>
+        <source>%1, asked again</source>
+        <translation>%1，已重新询问</translation>
+    </message>
+</context>
+<context>
+    <name>steps</name>
+    <message>
+        <source>machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>calibrate</source>
+        <translation>标定</translation>
+    </message>
+    <message>
+        <source>calibration</source>
+        <translation>标定</translation>
+    </message>
+    <message>
+        <source>warm-up</source>
+        <translation>暖机</translation>
+    </message>
+    <message>
+        <source>sensors</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>fit</source>
+        <translation>拟合</translation>
+    </message>
+    <message>
+        <source>model</source>
+        <translation>模型</translation>
+    </message>
+    <message>
+        <source>physics</source>
+        <translation>物理分析</translation>
+    </message>
+    <message>
+        <source>upload</source>
+        <translation>上传</translation>
+    </message>
+    <message>
+        <source>verify</source>
+        <translation>验证</translation>
+    </message>
+    <message>
+        <source>verification</source>
+        <translation>验证</translation>
+    </message>
+    <message>
+        <source>report</source>
+        <translation>报告</translation>
+    </message>
+    <message>
+        <source>axis errors</source>
+        <translation>轴误差</translation>
+    </message>
+    <message>
+        <source>axis table</source>
+        <translation>轴补偿表</translation>
+    </message>
+    <message>
+        <source>correction</source>
+        <translation>修正</translation>
+    </message>
+    <message>
+        <source>job</source>
+        <translation>作业</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <comment>between the names of steps</comment>
+        <translation>、</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::Application</name>
+    <message>
+        <source>Switch the compensation ON?</source>
+        <translation>接通补偿？</translation>
+    </message>
+    <message>
+        <source>Switch the compensation OFF?</source>
+        <translation>断开补偿？</translation>
+    </message>
+    <message>
+        <source>The axes of %1 move by what the active table says.</source>
+        <translation>%1 的各轴将按有效表移动。</translation>
+    </message>
+    <message>
+        <source>The axes of %1 move back by what is applied now.</source>
+        <translation>%1 的各轴将退回当前施加的补偿量。</translation>
+    </message>
+    <message>
+        <source>Switch ON</source>
+        <translation>接通</translation>
+    </message>
+    <message>
+        <source>Switch OFF</source>
+        <translation>断开</translation>
+    </message>
+    <message>
+        <source>Switching the compensation</source>
+        <translation>正在切换补偿</translation>
+    </message>
+    <message>
+        <source>Compensation ON</source>
+        <translation>补偿接通</translation>
+    </message>
+    <message>
+        <source>Compensation OFF</source>
+        <translation>补偿断开</translation>
+    </message>
+    <message>
+        <source>Not started</source>
+        <translation>未开始</translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation>就绪</translation>
+    </message>
+    <message>
+        <source>Done</source>
+        <translation>完成</translation>
+    </message>
+    <message>
+        <source>Out of date: %1 changed</source>
+        <translation>已过期：%1已更改</translation>
+    </message>
+    <message>
+        <source>No job</source>
+        <translation>没有作业</translation>
+    </message>
+    <message>
+        <source>New job</source>
+        <translation>新作业</translation>
+    </message>
+    <message>
+        <source>Controller connected</source>
+        <translation>控制器已连接</translation>
+    </message>
+    <message>
+        <source>Controller off</source>
+        <translation>控制器未连接</translation>
+    </message>
+    <message>
+        <source>Nothing running</source>
+        <translation>无任务运行</translation>
+    </message>
+    <message>
+        <source>Camera off</source>
+        <translation>相机未连接</translation>
+    </message>
+    <message>
+        <source>1 camera</source>
+        <translation>1 台相机</translation>
+    </message>
+    <message>
+        <source>%1 cameras</source>
+        <translation>%1 台相机</translation>
+    </message>
+    <message>
+        <source>Probes</source>
+        <translation>测头</translation>
+    </message>
+    <message>
+        <source>Close Zerodrift?</source>
+        <translation>关闭 Zerodrift？</translation>
+    </message>
+    <message>
+        <source>%1 is running. What was recorded is kept and the run can be resumed.</source>
+        <translation>“%1”正在进行。已记录的内容会保留，运行可以继续。</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Job</source>
+        <translation>作业</translation>
+    </message>
+    <message>
+        <source>Window</source>
+        <translation>窗口</translation>
+    </message>
+    <message>
+        <source>Open job</source>
+        <translation>打开作业</translation>
+    </message>
+    <message>
+        <source>Open the sample job</source>
+        <translation>打开示例作业</translation>
+    </message>
+    <message>
+        <source>Connect to the virtual machine</source>
+        <translation>连接虚拟机床</translation>
+    </message>
+    <message>
+        <source>Undo the last choice</source>
+        <translation>撤销上一次选择</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::AxisErrorsPresenter</name>
+    <message>
+        <source>Laser report</source>
+        <translation>激光测量报告</translation>
+    </message>
+    <message>
+        <source>Laser reports (*.csv *.rtl *.REN *.ren *.pos);;All files (*)</source>
+        <translation>激光测量报告 (*.csv *.rtl *.REN *.ren *.pos);;所有文件 (*)</translation>
+    </message>
+    <message>
+        <source>Columns as for the last file of this make</source>
+        <translation>各列沿用该类文件上次的设置</translation>
+    </message>
+    <message>
+        <source>Laser report %1</source>
+        <translation>激光测量报告 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %n target(s)</source>
+        <translation>
+            <numerusform>%1：%n 个目标位置</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n run(s)</source>
+        <translation>
+            <numerusform>%n 次测量</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>accuracy, both directions</source>
+        <translation>双向定位精度</translation>
+    </message>
+    <message>
+        <source>accuracy upwards</source>
+        <translation>正向定位精度</translation>
+    </message>
+    <message>
+        <source>accuracy downwards</source>
+        <translation>负向定位精度</translation>
+    </message>
+    <message>
+        <source>systematic deviation</source>
+        <translation>双向定位系统偏差</translation>
+    </message>
+    <message>
+        <source>repeatability, both directions</source>
+        <translation>双向重复定位精度</translation>
+    </message>
+    <message>
+        <source>repeatability upwards</source>
+        <translation>正向重复定位精度</translation>
+    </message>
+    <message>
+        <source>repeatability downwards</source>
+        <translation>负向重复定位精度</translation>
+    </message>
+    <message>
+        <source>reversal, largest</source>
+        <translation>反向差值，最大</translation>
+    </message>
+    <message>
+        <source>reversal, mean</source>
+        <translation>反向差值，平均</translation>
+    </message>
+    <message>
+        <source>range of the mean deviation</source>
+        <translation>平均双向定位偏差的范围</translation>
+    </message>
+    <message>
+        <source>positional uncertainty</source>
+        <translation>定位不确定度</translation>
+    </message>
+    <message>
+        <source>positional deviation</source>
+        <translation>位置偏差</translation>
+    </message>
+    <message>
+        <source>scatter, largest</source>
+        <translation>位置离散度，最大</translation>
+    </message>
+    <message>
+        <source>scatter, mean</source>
+        <translation>位置离散度，平均</translation>
+    </message>
+    <message>
+        <source>this table cannot be written in it</source>
+        <translation>该补偿表无法写成此格式</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::CalibratePresenter</name>
+    <message>
+        <source>Calibrating</source>
+        <translation>正在标定</translation>
+    </message>
+    <message>
+        <source>%1 (mm, deg)</source>
+        <translation>%1（mm，°）</translation>
+    </message>
+    <message>
+        <source>Connect a machine and start the commissioning first.</source>
+        <translation>请先连接机床并开始调试。</translation>
+    </message>
+    <message>
+        <source>This machine is measured with displacement probes; no camera has to be calibrated.</source>
+        <translation>该机床用位移测头测量，无需标定相机。</translation>
+    </message>
+    <message>
+        <source>Waiting for your word: camera %1</source>
+        <translation>等待您的确认：相机 %1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::CompensatorPresenter</name>
+    <message>
+        <source>compensating</source>
+        <translation>正在补偿</translation>
+    </message>
+    <message>
+        <source>at the edge</source>
+        <translation>到达边界</translation>
+    </message>
+    <message>
+        <source>running to 0</source>
+        <translation>正在归零</translation>
+    </message>
+    <message>
+        <source>ending</source>
+        <translation>正在结束</translation>
+    </message>
+    <message>
+        <source>The axes of %1 move by what the model predicts, at most %2 µm, until you press Stop.</source>
+        <translation>%1 的各轴将按模型预测值移动，最大 %2 µm，直到按下“停止”。</translation>
+    </message>
+    <message>
+        <source>The compensation is switched ON for it and OFF after it.</source>
+        <translation>为此将接通补偿，结束后断开。</translation>
+    </message>
+    <message>
+        <source>First the axes go to the measuring position and a test offset of 10 µm is written in each direction, while the camera watches that it goes the right way. Is the work area clear?</source>
+        <translation>首先各轴移动到测量位置，并在每个方向写入 10 µm 的测试偏置，由相机观测方向是否正确。工作区是否已清空？</translation>
+    </message>
+    <message>
+        <source>Compensate from this computer?</source>
+        <translation>由本计算机进行补偿？</translation>
+    </message>
+    <message>
+        <source>Start compensating</source>
+        <translation>开始补偿</translation>
+    </message>
+    <message>
+        <source>starting</source>
+        <translation>正在启动</translation>
+    </message>
+    <message>
+        <source>checking signs</source>
+        <translation>正在检查符号</translation>
+    </message>
+    <message>
+        <source>Host compensator</source>
+        <translation>上位机补偿器</translation>
+    </message>
+    <message>
+        <source>no answer</source>
+        <translation>无应答</translation>
+    </message>
+    <message>
+        <source>The controller does not answer; its watchdog takes the offset out meanwhile.</source>
+        <translation>控制器无应答；在此期间其看门狗会撤销偏置。</translation>
+    </message>
+    <message>
+        <source>switch is OFF</source>
+        <translation>开关已断开</translation>
+    </message>
+    <message>
+        <source>Ended after %1: %2 turns, %3 without the controller; the offset is back at 0.</source>
+        <translation>%1 后结束：共 %2 个周期，其中 %3 个没有控制器应答；偏置已归零。</translation>
+    </message>
+    <message>
+        <source>When needed</source>
+        <translation>需要时使用</translation>
+    </message>
+    <message>
+        <source>Fit a model first: it says from the temperatures what to compensate.</source>
+        <translation>请先拟合模型：由它根据温度得出补偿量。</translation>
+    </message>
+    <message>
+        <source>Connect the machine first.</source>
+        <translation>请先连接机床。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::DemoMachine</name>
+    <message>
+        <source>it ended at once</source>
+        <translation>程序立即结束</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::FileOpener</name>
+    <message>
+        <source>%1 was not opened, because %2 is running.</source>
+        <translation>未打开 %1，因为“%2”正在进行。</translation>
+    </message>
+    <message>
+        <source>Wait until it has ended, or end it, and open the file then.</source>
+        <translation>请等待其结束，或将其结束，然后再打开该文件。</translation>
+    </message>
+    <message>
+        <source>%1 is none of the files that can be opened here.</source>
+        <translation>%1 不是此处可以打开的文件。</translation>
+    </message>
+    <message>
+        <source>Jobs (.zdj), connection profiles and plans (.json), laser reports (.csv, .rtl, .REN, .pos) and recordings (.csv with time_s) can.</source>
+        <translation>可以打开：作业（.zdj）、连接配置文件和计划（.json）、激光测量报告（.csv、.rtl、.REN、.pos）以及记录（含 time_s 的 .csv）。</translation>
+    </message>
+    <message>
+        <source>%1 rows over %2.</source>
+        <translation>%1 行，历时 %2。</translation>
+    </message>
+    <message>
+        <source>A new job is made for it.</source>
+        <translation>将为其新建作业。</translation>
+    </message>
+    <message>
+        <source>It takes the place of the warm-up run that this job has.</source>
+        <translation>它将取代本作业已有的暖机运行。</translation>
+    </message>
+    <message>
+        <source>Use %1 as the warm-up run?</source>
+        <translation>将 %1 用作暖机运行？</translation>
+    </message>
+    <message>
+        <source>It must have been recorded with the compensation off.</source>
+        <translation>该记录必须是在补偿断开时记录的。</translation>
+    </message>
+    <message>
+        <source>Use it</source>
+        <translation>使用</translation>
+    </message>
+    <message>
+        <source>sample</source>
+        <translation>示例</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::FitPresenter</name>
+    <message>
+        <source>Fitting the model</source>
+        <translation>正在拟合模型</translation>
+    </message>
+    <message>
+        <source>%1 to %2 rpm</source>
+        <translation>%1 至 %2 r/min</translation>
+    </message>
+    <message>
+        <source>%1 to %2 °C</source>
+        <translation>%1 至 %2 °C</translation>
+    </message>
+    <message>
+        <source>Choose the sensors first: the model is fitted to them.</source>
+        <translation>请先选择传感器：模型以它们拟合。</translation>
+    </message>
+    <message>
+        <source>Recording of a newer run</source>
+        <translation>较新运行的记录</translation>
+    </message>
+    <message>
+        <source>Recordings (*.csv)</source>
+        <translation>记录 (*.csv)</translation>
+    </message>
+    <message>
+        <source>Updating the model</source>
+        <translation>正在更新模型</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::MachinePresenter</name>
+    <message>
+        <source>The virtual machine could not be started: %1.</source>
+        <translation>无法启动虚拟机床：%1。</translation>
+    </message>
+    <message>
+        <source>Check that zerodrift-machine stands beside this program.</source>
+        <translation>请确认 zerodrift-machine 与本程序位于同一文件夹。</translation>
+    </message>
+    <message>
+        <source>New job</source>
+        <translation>新作业</translation>
+    </message>
+    <message>
+        <source>Zerodrift jobs (*.zdj)</source>
+        <translation>Zerodrift 作业 (*.zdj)</translation>
+    </message>
+    <message>
+        <source>Open job</source>
+        <translation>打开作业</translation>
+    </message>
+    <message>
+        <source>Connection profile</source>
+        <translation>连接配置文件</translation>
+    </message>
+    <message>
+        <source>Profiles (*.json)</source>
+        <translation>配置文件 (*.json)</translation>
+    </message>
+    <message>
+        <source>Checking the machine</source>
+        <translation>正在检查机床</translation>
+    </message>
+    <message>
+        <source>Modbus RTU %1, unit %2</source>
+        <translation>Modbus RTU %1，单元 %2</translation>
+    </message>
+    <message>
+        <source>Modbus TCP %1:%2, unit %3</source>
+        <translation>Modbus TCP %1:%2，单元 %3</translation>
+    </message>
+    <message>
+        <source>d MMM yyyy, HH:mm</source>
+        <comment>date and time, as QLocale writes it</comment>
+        <translation>yyyy年M月d日 HH:mm</translation>
+    </message>
+    <message>
+        <source>Something runs on the machine: what stands here was seen at %1.</source>
+        <translation>机床上正在运行任务：此处显示的是 %1 的状态。</translation>
+    </message>
+    <message>
+        <source>The page of the run shows it live.</source>
+        <translation>实时状态请看运行页面。</translation>
+    </message>
+    <message>
+        <source>No signal</source>
+        <translation>无信号</translation>
+    </message>
+    <message>
+        <source>Stuck</source>
+        <translation>卡死</translation>
+    </message>
+    <message>
+        <source>OK</source>
+        <translation>正常</translation>
+    </message>
+    <message>
+        <source>%1 axis</source>
+        <translation>%1 轴</translation>
+    </message>
+    <message>
+        <source>Spindle</source>
+        <translation>主轴</translation>
+    </message>
+    <message>
+        <source>%1 rpm</source>
+        <translation>%1 r/min</translation>
+    </message>
+    <message>
+        <source>Compensation</source>
+        <translation>补偿</translation>
+    </message>
+    <message>
+        <source>ON</source>
+        <translation>接通</translation>
+    </message>
+    <message>
+        <source>OFF</source>
+        <translation>断开</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::MapEditor</name>
+    <message>
+        <source>refused</source>
+        <translation>被拒绝</translation>
+    </message>
+    <message>
+        <source>, changed: save it to use it</source>
+        <translation>，已修改：保存后生效</translation>
+    </message>
+    <message>
+        <source>no %1 without %2</source>
+        <translation>缺少 %2，无法使用%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>no %1 without %2 and %n more</source>
+        <translation>
+            <numerusform>缺少 %2 及另外 %n 个，无法使用%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Registers</source>
+        <translation>寄存器</translation>
+    </message>
+    <message>
+        <source>Register lists and maps (*.csv *.txt *.json);;All files (*)</source>
+        <translation>寄存器列表和映射 (*.csv *.txt *.json);;所有文件 (*)</translation>
+    </message>
+    <message>
+        <source>Save register map</source>
+        <translation>保存寄存器映射</translation>
+    </message>
+    <message>
+        <source>Maps (*.json)</source>
+        <translation>映射 (*.json)</translation>
+    </message>
+    <message>
+        <source>no use known</source>
+        <translation>用途未知</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::PhysicsPresenter</name>
+    <message>
+        <source>Looking for what the simulation lacks</source>
+        <translation>正在查找仿真缺少的内容</translation>
+    </message>
+    <message>
+        <source>No sensor region could be found: the machine description has no rod whose deformation was simulated.</source>
+        <translation>未能找到传感器区域：机床描述中没有可仿真变形的杆件。</translation>
+    </message>
+    <message>
+        <source>A sensor between %1 and %2 mm from the fixed end of the %3 follows the deformation best</source>
+        <translation>距%3固定端 %1 至 %2 mm 处的传感器与变形的相关性最好</translation>
+    </message>
+    <message>
+        <source> (r = %1</source>
+        <translation>（r = %1</translation>
+    </message>
+    <message>
+        <source>, %1 µm left by a straight line</source>
+        <translation>，用直线拟合后剩余 %1 µm</translation>
+    </message>
+    <message>
+        <source>Blind trial</source>
+        <translation>盲测</translation>
+    </message>
+    <message>
+        <source>Blind trial: sealed %1</source>
+        <translation>盲测：已封存 %1</translation>
+    </message>
+    <message>
+        <source>Searching what is hidden</source>
+        <translation>正在查找隐藏的效应</translation>
+    </message>
+    <message>
+        <source>, %1 %</source>
+        <translation>，%1 %</translation>
+    </message>
+    <message>
+        <source>Blind trial: hidden %1, answered %2, seal %3</source>
+        <translation>盲测：隐藏 %1，答案 %2，封条%3</translation>
+    </message>
+    <message>
+        <source>whole</source>
+        <translation>完好</translation>
+    </message>
+    <message>
+        <source>broken</source>
+        <translation>已破坏</translation>
+    </message>
+    <message>
+        <source>Record a warm-up run first: it is what the simulation is compared with.</source>
+        <translation>请先记录一次暖机运行：仿真将与之比较。</translation>
+    </message>
+    <message>
+        <source>The profile holds no machine description, so there is nothing to simulate.</source>
+        <translation>配置文件不含机床描述，无法仿真。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::Presenter</name>
+    <message>
+        <source>%1 is still running</source>
+        <translation>“%1”仍在进行</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::ReportPresenter</name>
+    <message>
+        <source>Report (*.pdf)</source>
+        <translation>报告 (*.pdf)</translation>
+    </message>
+    <message>
+        <source>Report (*.html)</source>
+        <translation>报告 (*.html)</translation>
+    </message>
+    <message>
+        <source>Figures (*.csv)</source>
+        <translation>数据 (*.csv)</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>保存报告</translation>
+    </message>
+    <message>
+        <source>Report saved: %1</source>
+        <translation>报告已保存：%1</translation>
+    </message>
+    <message>
+        <source>Where to put the folder of the technical bundle</source>
+        <translation>技术数据包文件夹的位置</translation>
+    </message>
+    <message>
+        <source>-bundle</source>
+        <translation>-技术数据包</translation>
+    </message>
+    <message>
+        <source>Technical bundle: %1</source>
+        <translation>技术数据包：%1</translation>
+    </message>
+    <message>
+        <source>always part of the report</source>
+        <translation>始终属于报告</translation>
+    </message>
+    <message>
+        <source>The report is written from what was measured. Record a warm-up run first.</source>
+        <translation>报告由测量结果生成。请先记录一次暖机运行。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::RunFeed</name>
+    <message>
+        <source>Room</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>Left over</source>
+        <translation>残余</translation>
+    </message>
+    <message>
+        <source>Error at the nose</source>
+        <translation>主轴端部的误差</translation>
+    </message>
+    <message>
+        <source>%1 left</source>
+        <translation>%1 残余</translation>
+    </message>
+    <message>
+        <source>Without the compensation</source>
+        <translation>无补偿</translation>
+    </message>
+    <message>
+        <source>%1 without</source>
+        <translation>%1 无补偿</translation>
+    </message>
+    <message>
+        <source>Applied by the controller</source>
+        <translation>控制器施加</translation>
+    </message>
+    <message>
+        <source>%1 applied</source>
+        <translation>%1 已施加</translation>
+    </message>
+    <message>
+        <source>Spindle speed</source>
+        <translation>主轴转速</translation>
+    </message>
+    <message>
+        <source>dead</source>
+        <translation>失效</translation>
+    </message>
+    <message>
+        <source>stuck</source>
+        <translation>卡死</translation>
+    </message>
+    <message>
+        <source>%1 of %2 measurements without all directions</source>
+        <translation>%2 次测量中有 %1 次方向不全</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::RunPresenter</name>
+    <message>
+        <source>all axes go to the measuring position, again and again</source>
+        <translation>所有轴反复移动到测量位置</translation>
+    </message>
+    <message>
+        <source>the spindle turns at up to %1 rpm</source>
+        <translation>主轴最高转速为 %1 r/min</translation>
+    </message>
+    <message>
+        <source>the axes run their path in between</source>
+        <translation>其间各轴沿路径运动</translation>
+    </message>
+    <message>
+        <source>the coolant runs</source>
+        <translation>冷却液开启</translation>
+    </message>
+    <message>
+        <source>Start the run? The machine will move.</source>
+        <translation>开始运行？机床将会运动。</translation>
+    </message>
+    <message>
+        <source>For %1 of machine time: %2. Is the work area clear, the door closed and the tool fit for this speed?</source>
+        <translation>机床时间 %1：%2。工作区是否已清空、防护门是否关闭、刀具是否适合该转速？</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>开始</translation>
+    </message>
+    <message>
+        <source>Finish the run?</source>
+        <translation>结束运行？</translation>
+    </message>
+    <message>
+        <source>The run ends here and what was recorded is kept and used. The spindle, the path and the coolant stop.</source>
+        <translation>运行在此结束，已记录的内容将保留并采用。主轴、路径运动和冷却液将停止。</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>结束</translation>
+    </message>
+    <message>
+        <source>Abort the run?</source>
+        <translation>中止运行？</translation>
+    </message>
+    <message>
+        <source>The machine stops and this run is not used. Its samples stay in the job, but the step counts as not done. To keep the run, finish it instead.</source>
+        <translation>机床停止，本次运行不予采用。采样仍保留在作业中，但该步骤视为未完成。若要保留本次运行，请选择“结束”。</translation>
+    </message>
+    <message>
+        <source>Abort</source>
+        <translation>中止</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>备注</translation>
+    </message>
+    <message>
+        <source>What happened?</source>
+        <translation>发生了什么？</translation>
+    </message>
+    <message>
+        <source>%1 on the wall</source>
+        <translation>实际用时 %1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::SensorsPresenter</name>
+    <message>
+        <source>Room</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>Clustering the sensors</source>
+        <translation>正在对传感器聚类</translation>
+    </message>
+    <message>
+        <source>Record a warm-up run first: the sensors are chosen from it.</source>
+        <translation>请先记录一次暖机运行：传感器由此选出。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::Tour</name>
+    <message>
+        <source>The folder %1 cannot be made.</source>
+        <translation>无法创建文件夹 %1。</translation>
+    </message>
+    <message>
+        <source>The tour is complete.</source>
+        <translation>巡览完成。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::UploadPresenter</name>
+    <message>
+        <source>temperature terms and position points</source>
+        <translation>温度项和位置点</translation>
+    </message>
+    <message>
+        <source>position points</source>
+        <translation>位置点</translation>
+    </message>
+    <message>
+        <source>temperature terms</source>
+        <translation>温度项</translation>
+    </message>
+    <message>
+        <source>Sign seen by the camera</source>
+        <translation>相机观测符号</translation>
+    </message>
+    <message>
+        <source>dry run %1</source>
+        <translation>试运行 %1</translation>
+    </message>
+    <message>
+        <source>Fit the model first: the table is made from it.</source>
+        <translation>请先拟合模型：补偿表由模型生成。</translation>
+    </message>
+    <message>
+        <source>checked %1</source>
+        <translation>%1 检查</translation>
+    </message>
+    <message>
+        <source>the model&apos;s memory of the past (its static part is written)</source>
+        <translation>模型的历史记忆部分（只写入静态部分）</translation>
+    </message>
+    <message>
+        <source>Reading the table in the machine</source>
+        <translation>正在读取机床中的补偿表</translation>
+    </message>
+    <message>
+        <source>The machine holds version %1, which is not the table of this job.</source>
+        <translation>机床中为版本 %1，不是本作业的补偿表。</translation>
+    </message>
+    <message>
+        <source>It was written from elsewhere. Compare before you write; it cannot be rolled back from here.</source>
+        <translation>它由别处写入。写入前请先比较；无法由此处回滚到该表。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n register(s)</source>
+        <translation>
+            <numerusform>%n 个寄存器</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The dry run is good: the machine is ready, %1 fit, the largest change now would be %2 µm in %3.</source>
+        <translation>试运行通过：机床就绪，%1容量足够，此刻的最大变化为 %2 µm（%3 轴）。</translation>
+    </message>
+    <message>
+        <source>Nothing was written, not even the switch.</source>
+        <translation>未写入任何内容，开关也未动作。</translation>
+    </message>
+    <message>
+        <source>Dry run: %1, nothing written</source>
+        <translation>试运行：%1，未写入任何内容</translation>
+    </message>
+    <message>
+        <source>Write the table into %1?</source>
+        <translation>将补偿表写入 %1？</translation>
+    </message>
+    <message>
+        <source>%1 (serial %2)</source>
+        <translation>%1（序列号 %2）</translation>
+    </message>
+    <message>
+        <source>The sign was checked at %1.</source>
+        <translation>符号已于 %1 检查。</translation>
+    </message>
+    <message>
+        <source>Before that each axis is moved by 10 µm and back, watched by the camera.</source>
+        <translation>在此之前，每轴移动 10 µm 再返回，由相机观测。</translation>
+    </message>
+    <message>
+        <source>Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation is off while it is written and on afterwards. %6</source>
+        <translation>轴 %1。此刻的最大变化为 %2 µm（%3 轴）。版本 %4 取代版本 %5。写入期间补偿断开，之后接通。%6</translation>
+    </message>
+    <message>
+        <source>Write</source>
+        <translation>写入</translation>
+    </message>
+    <message>
+        <source>Writing the table</source>
+        <translation>正在写入补偿表</translation>
+    </message>
+    <message>
+        <source>Go back to version %1 in %2?</source>
+        <translation>在 %2 中回滚到版本 %1？</translation>
+    </message>
+    <message>
+        <source>The table that was active before is written again, under a new version number.</source>
+        <translation>之前有效的补偿表将以新的版本号重新写入。</translation>
+    </message>
+    <message>
+        <source>Go back</source>
+        <translation>回滚</translation>
+    </message>
+    <message>
+        <source>Going back to version %1</source>
+        <translation>正在回滚到版本 %1</translation>
+    </message>
+    <message>
+        <source>Move the axes of %1 by 10 µm?</source>
+        <translation>将 %1 的各轴移动 10 µm？</translation>
+    </message>
+    <message>
+        <source>A test offset is written for X, Y and Z, one after the other, watched by the camera and taken back.</source>
+        <translation>依次对 X、Y、Z 写入测试偏置，由相机观测后撤销。</translation>
+    </message>
+    <message>
+        <source>Move</source>
+        <translation>移动</translation>
+    </message>
+    <message>
+        <source>Checking the sign</source>
+        <translation>正在检查符号</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::VerifyPresenter</name>
+    <message>
+        <source>Verification run</source>
+        <translation>验证运行</translation>
+    </message>
+    <message>
+        <source>Judging the residual</source>
+        <translation>正在评定残差</translation>
+    </message>
+    <message>
+        <source>Write the table to the machine first; then the run shows what is left.</source>
+        <translation>请先将补偿表写入机床；之后的运行显示残余误差。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::WarmupPresenter</name>
+    <message>
+        <source>Finish the interrupted run?</source>
+        <translation>结束被中断的运行？</translation>
+    </message>
+    <message>
+        <source>What was recorded until the interruption is kept and used.</source>
+        <translation>中断之前记录的内容将保留并采用。</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>结束</translation>
+    </message>
+    <message>
+        <source>Warm-up plan</source>
+        <translation>暖机计划</translation>
+    </message>
+    <message>
+        <source>Plans (*.json)</source>
+        <translation>计划 (*.json)</translation>
+    </message>
+    <message>
+        <source>Save as CSV</source>
+        <translation>保存为 CSV</translation>
+    </message>
+    <message>
+        <source>Recordings (*.csv)</source>
+        <translation>记录 (*.csv)</translation>
+    </message>
+    <message>
+        <source>Save plan</source>
+        <translation>保存计划</translation>
+    </message>
+    <message>
+        <source>Warm-up run</source>
+        <translation>暖机运行</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera first: without it no error can be measured.</source>
+        <translation>请先标定相机：否则无法测量误差。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::Workbench</name>
+    <message>
+        <source>Connected to %1</source>
+        <translation>已连接 %1</translation>
+    </message>
+    <message>
+        <source>Job %1</source>
+        <translation>作业 %1</translation>
+    </message>
+    <message>
+        <source>Kept %1 #%2</source>
+        <translation>已保存%1 #%2</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::AxisPage</name>
+    <message>
+        <source>Axis errors</source>
+        <translation>轴误差</translation>
+    </message>
+    <message>
+        <source>Beside the main line: the geometric error of each axis, from a laser interferometer.</source>
+        <translation>主流程之外：由激光干涉仪测得的各轴几何误差。</translation>
+    </message>
+    <message>
+        <source>Judge the measurement, choose how it is cut into segments, then write the table.</source>
+        <translation>评定测量结果，选择分段方式，然后写入补偿表。</translation>
+    </message>
+    <message>
+        <source>Open laser file</source>
+        <translation>打开激光文件</translation>
+    </message>
+    <message>
+        <source>Use for upload</source>
+        <translation>用于上传</translation>
+    </message>
+    <message>
+        <source>The table is not monotonic: the axis would move backwards somewhere.</source>
+        <translation>该表不单调：轴会在某处倒退。</translation>
+    </message>
+    <message>
+        <source>Columns</source>
+        <translation>列</translation>
+    </message>
+    <message>
+        <source>Export one point</source>
+        <translation>导出单点</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>导出</translation>
+    </message>
+    <message>
+        <source>Accuracy now</source>
+        <translation>当前精度</translation>
+    </message>
+    <message>
+        <source>A, ISO 230-2</source>
+        <translation>A，ISO 230-2</translation>
+    </message>
+    <message>
+        <source>With the table</source>
+        <translation>使用补偿表后</translation>
+    </message>
+    <message>
+        <source>expected</source>
+        <translation>预期</translation>
+    </message>
+    <message>
+        <source>better</source>
+        <translation>改善</translation>
+    </message>
+    <message>
+        <source>worse</source>
+        <translation>变差</translation>
+    </message>
+    <message>
+        <source>Segments</source>
+        <translation>分段</translation>
+    </message>
+    <message>
+        <source>fewest</source>
+        <translation>最少</translation>
+    </message>
+    <message>
+        <source>as published</source>
+        <translation>按公开方法</translation>
+    </message>
+    <message>
+        <source>Largest residual</source>
+        <translation>最大残差</translation>
+    </message>
+    <message>
+        <source>There and back</source>
+        <translation>往返误差</translation>
+    </message>
+    <message>
+        <source>Forward of inverse against the position itself, largest over the travel.</source>
+        <translation>先逆变换再正变换所得位置与原位置之差，全行程最大值。</translation>
+    </message>
+    <message>
+        <source>Drop a laser file here</source>
+        <translation>将激光文件拖放到此处</translation>
+    </message>
+    <message>
+        <source>CSV, Renishaw .rtl or .pos with targets and runs. It is checked, drawn with its ISO 230-2 figures, and cut into segments that the controller can use.</source>
+        <translation>含目标位置和各次测量的 CSV、Renishaw .rtl 或 .pos 文件。文件将被检查，按 ISO 230-2 指标绘图，并分成控制器可用的线段。</translation>
+    </message>
+    <message>
+        <source>Measurement</source>
+        <translation>测量</translation>
+    </message>
+    <message>
+        <source>Axis %1</source>
+        <translation>轴 %1</translation>
+    </message>
+    <message>
+        <source>Cut into segments</source>
+        <translation>分段</translation>
+    </message>
+    <message>
+        <source>Criterion</source>
+        <translation>判据</translation>
+    </message>
+    <message>
+        <source>Tolerance</source>
+        <translation>容差</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>阈值</translation>
+    </message>
+    <message>
+        <source>First points</source>
+        <translation>起始点数</translation>
+    </message>
+    <message>
+        <source>r on coordinates</source>
+        <translation>坐标的 r</translation>
+    </message>
+    <message>
+        <source>r on errors</source>
+        <translation>误差的 r</translation>
+    </message>
+    <message>
+        <source>tolerance in µm</source>
+        <translation>容差（µm）</translation>
+    </message>
+    <message>
+        <source>On coordinates r is about 1 whatever the error: it hardly cuts.</source>
+        <translation>按坐标计算时，无论误差大小 r 都约为 1：几乎不会分段。</translation>
+    </message>
+    <message>
+        <source>Export as</source>
+        <translation>导出为</translation>
+    </message>
+    <message>
+        <source>Format of the export</source>
+        <translation>导出格式</translation>
+    </message>
+    <message>
+        <source>The format loses nothing.</source>
+        <translation>该格式没有损失。</translation>
+    </message>
+    <message>
+        <source>Lost in this format: %1.</source>
+        <translation>该格式的损失：%1。</translation>
+    </message>
+    <message>
+        <source>Largest difference %1 µm.</source>
+        <translation>最大差异 %1 µm。</translation>
+    </message>
+    <message>
+        <source>Confirm on one point first: %1.</source>
+        <translation>请先用一个点确认：%1。</translation>
+    </message>
+    <message>
+        <source>Rule</source>
+        <translation>方法</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Largest of a measured point, µm</source>
+        <translation>测量点的最大值，µm</translation>
+    </message>
+    <message>
+        <source>Fewest within %1 µm</source>
+        <translation>%1 µm 内的最少分段</translation>
+    </message>
+    <message>
+        <source>As published</source>
+        <translation>按公开方法</translation>
+    </message>
+    <message>
+        <source>Figures</source>
+        <translation>指标</translation>
+    </message>
+    <message>
+        <source>Figure</source>
+        <translation>指标</translation>
+    </message>
+    <message>
+        <source>Meaning</source>
+        <translation>含义</translation>
+    </message>
+    <message>
+        <source>From</source>
+        <translation>自</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>至</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>点数</translation>
+    </message>
+    <message>
+        <source>Largest residual of a point</source>
+        <translation>一个点的最大残差</translation>
+    </message>
+    <message>
+        <source>joint</source>
+        <translation>连接点</translation>
+    </message>
+    <message>
+        <source>mean of both</source>
+        <translation>双向平均值</translation>
+    </message>
+    <message>
+        <source>segments used</source>
+        <translation>采用的线段</translation>
+    </message>
+    <message>
+        <source>the other rule</source>
+        <translation>另一种方法</translation>
+    </message>
+    <message>
+        <source>mean up</source>
+        <translation>正向平均值</translation>
+    </message>
+    <message>
+        <source>mean down</source>
+        <translation>负向平均值</translation>
+    </message>
+    <message>
+        <source>± 2 s</source>
+        <translation>± 2 s</translation>
+    </message>
+    <message>
+        <source>reversal B</source>
+        <translation>反向差值 B</translation>
+    </message>
+    <message>
+        <source>runs</source>
+        <translation>各次测量</translation>
+    </message>
+    <message>
+        <source>position / mm</source>
+        <translation>位置 / mm</translation>
+    </message>
+    <message>
+        <source>error / µm</source>
+        <translation>误差 / µm</translation>
+    </message>
+    <message>
+        <source>Mean ± 2 s</source>
+        <translation>平均值 ± 2 s</translation>
+    </message>
+    <message>
+        <source>Run %1 upwards</source>
+        <translation>第 %1 次，正向</translation>
+    </message>
+    <message>
+        <source>Run %1 downwards</source>
+        <translation>第 %1 次，负向</translation>
+    </message>
+    <message>
+        <source>Mean upwards</source>
+        <translation>正向平均值</translation>
+    </message>
+    <message>
+        <source>Mean downwards</source>
+        <translation>负向平均值</translation>
+    </message>
+    <message>
+        <source>Reversal</source>
+        <translation>反向差值</translation>
+    </message>
+    <message>
+        <source>A = %1 µm</source>
+        <translation>A = %1 µm</translation>
+    </message>
+    <message>
+        <source>Mean of both directions</source>
+        <translation>双向平均值</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::CalibratePage</name>
+    <message>
+        <source>Calibrate</source>
+        <translation>标定</translation>
+    </message>
+    <message>
+        <source>Point the camera at the target, set focus and light, then draw the target&apos;s region.</source>
+        <translation>将相机对准靶标，调好焦距和光照，然后画出靶标区域。</translation>
+    </message>
+    <message>
+        <source>Camera %1 comes next: confirm that its axes may move, then measure.</source>
+        <translation>接下来是相机 %1：确认其对应的轴可以移动，然后测量。</translation>
+    </message>
+    <message>
+        <source>The axes go from position to position. Keep hands and doors away.</source>
+        <translation>各轴依次移动到各位置。请勿将手或防护门伸入。</translation>
+    </message>
+    <message>
+        <source>This camera is calibrated. Measure again when it was touched.</source>
+        <translation>该相机已标定。若触碰过相机，请重新测量。</translation>
+    </message>
+    <message>
+        <source>Judge the residuals: they must be small and without pattern. Then accept.</source>
+        <translation>评定残差：应当小且无规律。然后接受。</translation>
+    </message>
+    <message>
+        <source>Confirm that the axes may move, then measure the positions.</source>
+        <translation>确认各轴可以移动，然后测量各位置。</translation>
+    </message>
+    <message>
+        <source>Measure positions</source>
+        <translation>测量各位置</translation>
+    </message>
+    <message>
+        <source>Take the template</source>
+        <translation>拍摄模板</translation>
+    </message>
+    <message>
+        <source>Accept</source>
+        <translation>接受</translation>
+    </message>
+    <message>
+        <source>The residual is above the limit. Measure again, slower or with better light.</source>
+        <translation>残差超过限值。请降低速度或改善光照后重新测量。</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>The positions are being measured.</source>
+        <translation>正在测量各位置。</translation>
+    </message>
+    <message>
+        <source>Confirm first that the axes may move.</source>
+        <translation>请先确认各轴可以移动。</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>重新测量</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>µm/px</source>
+        <translation>µm/px</translation>
+    </message>
+    <message>
+        <source>Camera rotation</source>
+        <translation>相机转角</translation>
+    </message>
+    <message>
+        <source>Taken out by the calibration; it needs no turning of the camera.</source>
+        <translation>由标定消除，无需转动相机。</translation>
+    </message>
+    <message>
+        <source>Positions</source>
+        <translation>位置数</translation>
+    </message>
+    <message>
+        <source>of %1</source>
+        <translation>共 %1</translation>
+    </message>
+    <message>
+        <source>%1 left</source>
+        <translation>剩余 %1</translation>
+    </message>
+    <message>
+        <source>Residual, rms</source>
+        <translation>残差 rms</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不确定度</translation>
+    </message>
+    <message>
+        <source>No camera to calibrate</source>
+        <translation>没有需要标定的相机</translation>
+    </message>
+    <message>
+        <source>Live image</source>
+        <translation>实时图像</translation>
+    </message>
+    <message>
+        <source>reference target found</source>
+        <translation>已找到参考靶标</translation>
+    </message>
+    <message>
+        <source>no reference target</source>
+        <translation>没有参考靶标</translation>
+    </message>
+    <message>
+        <source>Draw region</source>
+        <translation>画区域</translation>
+    </message>
+    <message>
+        <source>Draw a box around the target in the image</source>
+        <translation>在图像中框出靶标</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera</source>
+        <translation>等待相机</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Plan</source>
+        <translation>计划</translation>
+    </message>
+    <message>
+        <source>The positions are proposed after the template</source>
+        <translation>拍摄模板后给出建议位置</translation>
+    </message>
+    <message>
+        <source>Field of view</source>
+        <translation>视场</translation>
+    </message>
+    <message>
+        <source>Expected drift</source>
+        <translation>预期漂移</translation>
+    </message>
+    <message>
+        <source>Planned</source>
+        <translation>计划</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>当前</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>已测量</translation>
+    </message>
+    <message>
+        <source>Refused</source>
+        <translation>已拒绝</translation>
+    </message>
+    <message>
+        <source>Shown when the positions are measured</source>
+        <translation>测量各位置后显示</translation>
+    </message>
+    <message>
+        <source>Dashed: field of view. Blue: expected drift; the positions must enclose it.</source>
+        <translation>虚线：视场。蓝色：预期漂移；各位置必须将其包围。</translation>
+    </message>
+    <message>
+        <source>Without a reference target the camera&apos;s own drift stays in the errors: some 2 µm for each K that 100 mm of its aluminium bracket warm up.</source>
+        <translation>没有参考靶标时，相机自身的漂移会留在误差中：100 mm 长的铝支架每升温 1 K 约 2 µm。</translation>
+    </message>
+    <message>
+        <source>%1 µm</source>
+        <translation>%1 µm</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>位置</translation>
+    </message>
+    <message>
+        <source>Residual vectors drawn %1 times larger.</source>
+        <translation>残差矢量放大 %1 倍绘制。</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>未知</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>对焦</translation>
+    </message>
+    <message>
+        <source>blurred</source>
+        <translation>模糊</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>曝光</translation>
+    </message>
+    <message>
+        <source>%1 % too bright</source>
+        <translation>%1 % 过亮</translation>
+    </message>
+    <message>
+        <source>too dark</source>
+        <translation>过暗</translation>
+    </message>
+    <message>
+        <source>too bright</source>
+        <translation>过亮</translation>
+    </message>
+    <message>
+        <source>Moves</source>
+        <translation>移动</translation>
+    </message>
+    <message>
+        <source>camera %1, %2 of %3</source>
+        <translation>相机 %1，第 %2 个，共 %3 个</translation>
+    </message>
+    <message>
+        <source>%1 and %2</source>
+        <translation>%1 和 %2</translation>
+    </message>
+    <message>
+        <source> and </source>
+        <translation> 和 </translation>
+    </message>
+    <message>
+        <source>%1 may move by ±%2 mm; the area is clear.</source>
+        <translation>%1 可移动 ±%2 mm；工作区已清空。</translation>
+    </message>
+    <message>
+        <source>First all axes go to the measuring position: %1.</source>
+        <translation>所有轴先移动到测量位置：%1。</translation>
+    </message>
+    <message>
+        <source>Each camera&apos;s moves are confirmed by themselves.</source>
+        <translation>每台相机的移动需单独确认。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::CameraView</name>
+    <message>
+        <source>Camera image</source>
+        <translation>相机图像</translation>
+    </message>
+    <message>
+        <source>No image from the camera</source>
+        <translation>没有来自相机的图像</translation>
+    </message>
+    <message>
+        <source>Reference</source>
+        <translation>参考靶标</translation>
+    </message>
+    <message>
+        <source>Target</source>
+        <translation>靶标</translation>
+    </message>
+    <message>
+        <source>drift × %1</source>
+        <translation>漂移 × %1</translation>
+    </message>
+    <message>
+        <source>± %1 px, drawn %2 ×</source>
+        <translation>± %1 px，放大 %2 倍绘制</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ChannelTable</name>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>数值</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ColumnDialog</name>
+    <message>
+        <source>not used</source>
+        <translation>不使用</translation>
+    </message>
+    <message>
+        <source>position</source>
+        <translation>位置</translation>
+    </message>
+    <message>
+        <source>error</source>
+        <translation>误差</translation>
+    </message>
+    <message>
+        <source>error, upwards</source>
+        <translation>误差，正向</translation>
+    </message>
+    <message>
+        <source>error, downwards</source>
+        <translation>误差，负向</translation>
+    </message>
+    <message>
+        <source>measured position</source>
+        <translation>实测位置</translation>
+    </message>
+    <message>
+        <source>measured, upwards</source>
+        <translation>实测，正向</translation>
+    </message>
+    <message>
+        <source>measured, downwards</source>
+        <translation>实测，负向</translation>
+    </message>
+    <message>
+        <source>direction</source>
+        <translation>方向</translation>
+    </message>
+    <message>
+        <source>run</source>
+        <translation>测量次序</translation>
+    </message>
+    <message>
+        <source>Columns of the laser table</source>
+        <translation>激光数据表的列</translation>
+    </message>
+    <message>
+        <source>Say what each column holds. Errors are actual minus commanded position.</source>
+        <translation>请指明每列的内容。误差为实际位置减去指令位置。</translation>
+    </message>
+    <message>
+        <source>Column %1</source>
+        <translation>第 %1 列</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>µm</source>
+        <translation>µm</translation>
+    </message>
+    <message>
+        <source>inch</source>
+        <translation>英寸</translation>
+    </message>
+    <message>
+        <source>The file holds compensations (turn the sign)</source>
+        <translation>文件中为补偿值（符号取反）</translation>
+    </message>
+    <message>
+        <source>Rows towards smaller positions are the downward approach</source>
+        <translation>位置递减的行为负向趋近</translation>
+    </message>
+    <message>
+        <source>Positions in</source>
+        <translation>位置单位</translation>
+    </message>
+    <message>
+        <source>Errors in</source>
+        <translation>误差单位</translation>
+    </message>
+    <message>
+        <source>Use these columns</source>
+        <translation>使用这些列</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::CommandPalette</name>
+    <message>
+        <source>Find a step, a sensor or an action</source>
+        <translation>查找步骤、传感器或操作</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::CompensatorPage</name>
+    <message>
+        <source>%1 predicted</source>
+        <translation>%1 预测</translation>
+    </message>
+    <message>
+        <source>%1 applied</source>
+        <translation>%1 已施加</translation>
+    </message>
+    <message>
+        <source>%1 left</source>
+        <translation>%1 残余</translation>
+    </message>
+    <message>
+        <source>Host compensator</source>
+        <translation>上位机补偿器</translation>
+    </message>
+    <message>
+        <source>This computer compensates: for controllers without a table of their own, and for models that remember.</source>
+        <translation>由本计算机进行补偿：用于没有补偿表的控制器，以及带历史记忆的模型。</translation>
+    </message>
+    <message>
+        <source>Temperatures are read, the model predicts, the controller gets the offset. Keep this computer connected.</source>
+        <translation>读取温度，模型预测，偏置发送给控制器。请保持本计算机连接。</translation>
+    </message>
+    <message>
+        <source>The offset runs to 0.</source>
+        <translation>偏置正在归零。</translation>
+    </message>
+    <message>
+        <source>Start compensating</source>
+        <translation>开始补偿</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
+    <message>
+        <source>The offset runs to 0 at the machine&apos;s rate.</source>
+        <translation>偏置按机床的速率归零。</translation>
+    </message>
+    <message>
+        <source>Nothing to compensate with yet</source>
+        <translation>尚不能补偿</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>断开</translation>
+    </message>
+    <message>
+        <source>as it should</source>
+        <translation>正常</translation>
+    </message>
+    <message>
+        <source>see at the right</source>
+        <translation>见右侧</translation>
+    </message>
+    <message>
+        <source>for %1</source>
+        <translation>已 %1</translation>
+    </message>
+    <message>
+        <source>Left now</source>
+        <translation>当前残余</translation>
+    </message>
+    <message>
+        <source>not measured</source>
+        <translation>未测量</translation>
+    </message>
+    <message>
+        <source>Most left</source>
+        <translation>最大残余</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>实测</translation>
+    </message>
+    <message>
+        <source>Turns</source>
+        <translation>周期数</translation>
+    </message>
+    <message>
+        <source>none lost</source>
+        <translation>无丢失</translation>
+    </message>
+    <message>
+        <source>%1 lost</source>
+        <translation>丢失 %1 个</translation>
+    </message>
+    <message>
+        <source>Latest turn</source>
+        <translation>最大延迟</translation>
+    </message>
+    <message>
+        <source>Prediction, compensation and what is left</source>
+        <translation>预测、补偿与残余误差</translation>
+    </message>
+    <message>
+        <source>1 min</source>
+        <translation>1 min</translation>
+    </message>
+    <message>
+        <source>10 min</source>
+        <translation>10 min</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>全部</translation>
+    </message>
+    <message>
+        <source>error predicted by the model</source>
+        <translation>模型预测的误差</translation>
+    </message>
+    <message>
+        <source>compensation applied</source>
+        <translation>施加的补偿</translation>
+    </message>
+    <message>
+        <source>left, measured</source>
+        <translation>残余，实测</translation>
+    </message>
+    <message>
+        <source>Waiting for the first turn</source>
+        <translation>等待第一个周期</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>当前</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>Error = actual − commanded, as the model says</source>
+        <translation>误差 = 实际 − 指令，按模型</translation>
+    </message>
+    <message>
+        <source>Applied</source>
+        <translation>已施加</translation>
+    </message>
+    <message>
+        <source>Compensation, as the controller tells</source>
+        <translation>补偿量，由控制器报告</translation>
+    </message>
+    <message>
+        <source>Left</source>
+        <translation>残余</translation>
+    </message>
+    <message>
+        <source>Error as measured, with the compensation</source>
+        <translation>补偿接通时实测的误差</translation>
+    </message>
+    <message>
+        <source>Nothing is measured: %1.</source>
+        <translation>未进行测量：%1。</translation>
+    </message>
+    <message>
+        <source>No offset is larger than %1 µm. If this computer or the cable fails, the controller takes the offset out by itself.</source>
+        <translation>任何偏置都不超过 %1 µm。若本计算机或电缆发生故障，控制器会自行撤销偏置。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ComponentDrawing</name>
+    <message>
+        <source>Component with heat sources and sensors</source>
+        <translation>部件及其热源和传感器</translation>
+    </message>
+    <message>
+        <source>recommended sensor region %1 to %2 mm</source>
+        <translation>推荐的传感器区域 %1 至 %2 mm</translation>
+    </message>
+    <message>
+        <source>mismatch %1 to %2 mm</source>
+        <translation>不一致 %1 至 %2 mm</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ExplanationCard</name>
+    <message>
+        <source>adopted</source>
+        <translation>已采纳</translation>
+    </message>
+    <message>
+        <source>rejected</source>
+        <translation>已否决</translation>
+    </message>
+    <message>
+        <source>sure</source>
+        <translation>确定</translation>
+    </message>
+    <message>
+        <source>possible</source>
+        <translation>可能</translation>
+    </message>
+    <message>
+        <source>%1, %2 %</source>
+        <translation>%1，%2 %</translation>
+    </message>
+    <message>
+        <source>&lt;span style=&apos;color:%1&apos;&gt;before %2&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%3&apos;&gt;only re-fitted %4&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%5&apos;&gt;with the effect %6 %7&lt;/span&gt;</source>
+        <translation>&lt;span style=&apos;color:%1&apos;&gt;之前 %2&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%3&apos;&gt;仅重新拟合 %4&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%5&apos;&gt;计入该效应 %6 %7&lt;/span&gt;</translation>
+    </message>
+    <message>
+        <source>Take out again</source>
+        <translation>撤销采纳</translation>
+    </message>
+    <message>
+        <source>Adopt</source>
+        <translation>采纳</translation>
+    </message>
+    <message>
+        <source>Reject</source>
+        <translation>否决</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::FigureCard</name>
+    <message>
+        <source>no value yet</source>
+        <translation>尚无数值</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::FitPage</name>
+    <message>
+        <source>Fit</source>
+        <translation>拟合</translation>
+    </message>
+    <message>
+        <source>Judge the model on stretches it has not seen. Only then is it worth writing to the machine.</source>
+        <translation>用模型未见过的数据段评定模型。合格后才值得写入机床。</translation>
+    </message>
+    <message>
+        <source>Use this model</source>
+        <translation>使用此模型</translation>
+    </message>
+    <message>
+        <source>Choose a method.</source>
+        <translation>请选择一种方法。</translation>
+    </message>
+    <message>
+        <source>Attainable peak error</source>
+        <translation>可达到的误差峰值</translation>
+    </message>
+    <message>
+        <source>Largest error that stays on unseen stretches, before anything is written.</source>
+        <translation>写入之前，在未参与拟合的数据段上残余的最大误差。</translation>
+    </message>
+    <message>
+        <source>Valid</source>
+        <translation>有效范围</translation>
+    </message>
+    <message>
+        <source>Removed</source>
+        <translation>消除</translation>
+    </message>
+    <message>
+        <source>Band coverage</source>
+        <translation>预测带覆盖率</translation>
+    </message>
+    <message>
+        <source>fitted</source>
+        <translation>参与拟合</translation>
+    </message>
+    <message>
+        <source>unseen</source>
+        <translation>未参与拟合</translation>
+    </message>
+    <message>
+        <source>No model yet</source>
+        <translation>尚无模型</translation>
+    </message>
+    <message>
+        <source>Prediction</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Measured and predicted</source>
+        <translation>实测与预测</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>实测</translation>
+    </message>
+    <message>
+        <source>predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>prediction band</source>
+        <translation>预测带</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>已测量</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>measured - predicted</source>
+        <translation>实测 - 预测</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>leading sensor / °C</source>
+        <translation>主要传感器 / °C</translation>
+    </message>
+    <message>
+        <source>residual / µm</source>
+        <translation>残差 / µm</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>方法</translation>
+    </message>
+    <message>
+        <source>on unseen stretches</source>
+        <translation>未参与拟合的数据段</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>方法</translation>
+    </message>
+    <message>
+        <source>rms</source>
+        <translation>rms</translation>
+    </message>
+    <message>
+        <source>Root mean square of what is left</source>
+        <translation>残余误差的均方根</translation>
+    </message>
+    <message>
+        <source>Peak</source>
+        <translation>峰值</translation>
+    </message>
+    <message>
+        <source>Band</source>
+        <translation>预测带</translation>
+    </message>
+    <message>
+        <source>Share of the measurements inside the stated band</source>
+        <translation>落在所给预测带内的测量比例</translation>
+    </message>
+    <message>
+        <source>Runs on</source>
+        <translation>运行于</translation>
+    </message>
+    <message>
+        <source>Controller: it can compute the model itself. Host: this computer must stay connected.</source>
+        <translation>控制器：控制器可自行计算该模型。上位机：本计算机必须保持连接。</translation>
+    </message>
+    <message>
+        <source>Proposed: %1</source>
+        <translation>推荐：%1</translation>
+    </message>
+    <message>
+        <source>controller</source>
+        <translation>控制器</translation>
+    </message>
+    <message>
+        <source>host</source>
+        <translation>上位机</translation>
+    </message>
+    <message>
+        <source>What to expect</source>
+        <translation>预期效果</translation>
+    </message>
+    <message>
+        <source>Choose a method to see what it will leave.</source>
+        <translation>选择一种方法，查看其残余误差。</translation>
+    </message>
+    <message>
+        <source>Left %1 µm on the end of the run; one cycle says nothing about other speeds.</source>
+        <translation>在运行末段残余 %1 µm；仅一个循环不能说明其他转速下的情况。</translation>
+    </message>
+    <message>
+        <source>Will leave %1 µm (90 %: %2 µm) at speeds like these.</source>
+        <translation>在类似转速下残余 %1 µm（90 %：%2 µm）。</translation>
+    </message>
+    <message>
+        <source>From %1.</source>
+        <translation>依据：%1。</translation>
+    </message>
+    <message>
+        <source>Update by a new run…</source>
+        <translation>用新的运行更新…</translation>
+    </message>
+    <message>
+        <source>Machines age. A recording of half an hour corrects this model instead of starting over: what it does not excite stays as it was.</source>
+        <translation>机床会老化。用半小时的记录即可修正此模型，无需重新开始：记录中未激励的部分保持不变。</translation>
+    </message>
+    <message>
+        <source>Corrected by the newer run %1.</source>
+        <translation>已按较新的运行 %1 修正。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::HelpPanel</name>
+    <message>
+        <source>Help for this step</source>
+        <translation>本步骤帮助</translation>
+    </message>
+    <message>
+        <source>Close (F1)</source>
+        <translation>关闭（F1）</translation>
+    </message>
+    <message>
+        <source>Close the help</source>
+        <translation>关闭帮助</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>快捷键</translation>
+    </message>
+    <message>
+        <source>About, licences</source>
+        <translation>关于、许可证</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::LegendRow</name>
+    <message>
+        <source>Curves: %1</source>
+        <translation>曲线：%1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::LivePlot</name>
+    <message>
+        <source>%1 rpm</source>
+        <translation>%1 r/min</translation>
+    </message>
+    <message>
+        <source>coolant</source>
+        <translation>冷却液</translation>
+    </message>
+    <message>
+        <source> · coolant</source>
+        <translation> · 冷却液</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::LogDrawer</name>
+    <message>
+        <source>What happened</source>
+        <translation>事件记录</translation>
+    </message>
+    <message>
+        <source>Copy all</source>
+        <translation>全部复制</translation>
+    </message>
+    <message>
+        <source>Close (Ctrl+L)</source>
+        <translation>关闭（Ctrl+L）</translation>
+    </message>
+    <message>
+        <source>Close the log</source>
+        <translation>关闭日志</translation>
+    </message>
+    <message>
+        <source>Log</source>
+        <translation>日志</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::MachineDrawing</name>
+    <message>
+        <source>Machine with its sensors</source>
+        <translation>机床及其传感器</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::MachinePage</name>
+    <message>
+        <source>Machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>Start a job for this machine, or go on with one.</source>
+        <translation>为该机床新建作业，或继续已有作业。</translation>
+    </message>
+    <message>
+        <source>Choose the connection profile and connect to the controller.</source>
+        <translation>选择连接配置文件，并连接控制器。</translation>
+    </message>
+    <message>
+        <source>Switch the compensation off: with it on, nothing can be measured for the model.</source>
+        <translation>请断开补偿：补偿接通时无法测量建模数据。</translation>
+    </message>
+    <message>
+        <source>%1 still changes by %2 K/h. You may start; the run is best when nothing changes any more.</source>
+        <translation>%1 仍以 %2 K/h 变化。可以开始，但最好等到不再变化。</translation>
+    </message>
+    <message>
+        <source>%1 stands %2 K apart from the others and rests there: that does no harm. Start when all sensors live.</source>
+        <translation>%1 与其他传感器相差 %2 K 且保持稳定，没有影响。所有传感器正常后即可开始。</translation>
+    </message>
+    <message>
+        <source>Check that every sensor is alive and the machine is at rest and of even temperature.</source>
+        <translation>检查各传感器是否正常，机床是否静止且温度均匀。</translation>
+    </message>
+    <message>
+        <source>Connect</source>
+        <translation>连接</translation>
+    </message>
+    <message>
+        <source>The connection is being made.</source>
+        <translation>正在建立连接。</translation>
+    </message>
+    <message>
+        <source>Choose or import a connection profile first.</source>
+        <translation>请先选择或导入连接配置文件。</translation>
+    </message>
+    <message>
+        <source>Start commissioning</source>
+        <translation>开始调试</translation>
+    </message>
+    <message>
+        <source>The compensation is ON. Measuring for the model is locked until it is switched off.</source>
+        <translation>补偿处于接通状态。断开之前，禁止测量建模数据。</translation>
+    </message>
+    <message>
+        <source>Import profile</source>
+        <translation>导入配置文件</translation>
+    </message>
+    <message>
+        <source>Other job</source>
+        <translation>其他作业</translation>
+    </message>
+    <message>
+        <source>Test again</source>
+        <translation>重新测试</translation>
+    </message>
+    <message>
+        <source>Disconnect</source>
+        <translation>断开连接</translation>
+    </message>
+    <message>
+        <source>Sensors alive</source>
+        <translation>正常的传感器</translation>
+    </message>
+    <message>
+        <source>of %1</source>
+        <translation>共 %1</translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation>全部</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n to check</source>
+        <translation>
+            <numerusform>%n 个待检查</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Clock difference</source>
+        <translation>时钟差</translation>
+    </message>
+    <message>
+        <source>Controller&apos;s clock minus this computer&apos;s.</source>
+        <translation>控制器时钟减去本计算机时钟。</translation>
+    </message>
+    <message>
+        <source>Round trip</source>
+        <translation>往返时间</translation>
+    </message>
+    <message>
+        <source>Spread at rest</source>
+        <translation>静止时温差</translation>
+    </message>
+    <message>
+        <source>even</source>
+        <translation>均匀</translation>
+    </message>
+    <message>
+        <source>steady</source>
+        <translation>稳定</translation>
+    </message>
+    <message>
+        <source>still settling</source>
+        <translation>仍在变化</translation>
+    </message>
+    <message>
+        <source>uneven</source>
+        <translation>不均匀</translation>
+    </message>
+    <message>
+        <source>%1 %2 K</source>
+        <translation>%1 %2 K</translation>
+    </message>
+    <message>
+        <source>%1 %2 K/h</source>
+        <translation>%1 %2 K/h</translation>
+    </message>
+    <message>
+        <source>Warmest sensor minus coldest. It forbids nothing: a sensor by a motor that always holds is always warmer. What counts is that nothing changes any more (%1 K/h) when the run begins.</source>
+        <translation>最热与最冷传感器之差。它不禁止任何操作：始终通电的电机旁的传感器总是较热。重要的是运行开始时不再变化（%1 K/h）。</translation>
+    </message>
+    <message>
+        <source>Not connected</source>
+        <translation>未连接</translation>
+    </message>
+    <message>
+        <source>Drawing</source>
+        <translation>示意图</translation>
+    </message>
+    <message>
+        <source>Registers</source>
+        <translation>寄存器</translation>
+    </message>
+    <message>
+        <source>Choose a profile</source>
+        <translation>选择配置文件</translation>
+    </message>
+    <message>
+        <source>Connection profile</source>
+        <translation>连接配置文件</translation>
+    </message>
+    <message>
+        <source>Sensors</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>value, age, noise</source>
+        <translation>数值、时效、噪声</translation>
+    </message>
+    <message>
+        <source>Sensor</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>数值</translation>
+    </message>
+    <message>
+        <source>Age, noise</source>
+        <translation>时效、噪声</translation>
+    </message>
+    <message>
+        <source>%1 °C</source>
+        <translation>%1 °C</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>  ±%1 K</source>
+        <translation>  ±%1 K</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>导入</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>删除</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Registers from a CSV list or a map file</source>
+        <translation>从 CSV 列表或映射文件导入寄存器</translation>
+    </message>
+    <message>
+        <source>A register more</source>
+        <translation>增加一个寄存器</translation>
+    </message>
+    <message>
+        <source>Take the selected register out</source>
+        <translation>删除所选寄存器</translation>
+    </message>
+    <message>
+        <source>Save the map and use it</source>
+        <translation>保存映射并使用</translation>
+    </message>
+    <message>
+        <source>Not connected; as it stood on %1</source>
+        <translation>未连接；显示 %1 时的状态</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::MachineStart</name>
+    <message>
+        <source>Start</source>
+        <translation>开始</translation>
+    </message>
+    <message>
+        <source>Recent jobs</source>
+        <translation>最近的作业</translation>
+    </message>
+    <message>
+        <source>New job</source>
+        <translation>新作业</translation>
+    </message>
+    <message>
+        <source>Open job</source>
+        <translation>打开作业</translation>
+    </message>
+    <message>
+        <source>Open the sample job</source>
+        <translation>打开示例作业</translation>
+    </message>
+    <message>
+        <source>Connect to the virtual machine</source>
+        <translation>连接虚拟机床</translation>
+    </message>
+    <message>
+        <source>One file holds the whole commissioning: measurements, model, tables, report.</source>
+        <translation>一个文件包含整个调试过程：测量、模型、补偿表、报告。</translation>
+    </message>
+    <message>
+        <source>Go on where the job stopped; also after a crash.</source>
+        <translation>从作业中断处继续；程序崩溃后也可以。</translation>
+    </message>
+    <message>
+        <source>A finished commissioning to look around in. Nothing needs to be connected.</source>
+        <translation>一次已完成的调试，可供浏览，无需连接任何设备。</translation>
+    </message>
+    <message>
+        <source>A five-axis machine in software, with controller and cameras, to try everything without risk.</source>
+        <translation>软件模拟的五轴机床，带控制器和相机，可无风险地试用全部功能。</translation>
+    </message>
+    <message>
+        <source>The way through</source>
+        <translation>流程</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>connect, see that all sensors live and the machine is cold</source>
+        <translation>连接，确认所有传感器正常且机床处于冷态</translation>
+    </message>
+    <message>
+        <source>Calibrate</source>
+        <translation>标定</translation>
+    </message>
+    <message>
+        <source>teach the camera what a micrometre is</source>
+        <translation>让相机得知一微米有多大</translation>
+    </message>
+    <message>
+        <source>Warm-up</source>
+        <translation>暖机</translation>
+    </message>
+    <message>
+        <source>record temperatures and errors while the machine warms</source>
+        <translation>在机床升温过程中记录温度和误差</translation>
+    </message>
+    <message>
+        <source>Sensors</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>keep the few that carry the error</source>
+        <translation>保留少数能反映误差的传感器</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>拟合</translation>
+    </message>
+    <message>
+        <source>make the model and judge it on what it has not seen</source>
+        <translation>建立模型，用其未见过的数据评定</translation>
+    </message>
+    <message>
+        <source>Physics</source>
+        <translation>物理分析</translation>
+    </message>
+    <message>
+        <source>find what the simulation lacks</source>
+        <translation>找出仿真缺少的内容</translation>
+    </message>
+    <message>
+        <source>Upload</source>
+        <translation>上传</translation>
+    </message>
+    <message>
+        <source>write the table as one transaction, old one saved</source>
+        <translation>将补偿表作为一个事务写入，并保存旧表</translation>
+    </message>
+    <message>
+        <source>Verify</source>
+        <translation>验证</translation>
+    </message>
+    <message>
+        <source>prove on the machine that the error is gone</source>
+        <translation>在机床上证明误差已消除</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>报告</translation>
+    </message>
+    <message>
+        <source>hand it over, every figure traceable</source>
+        <translation>交付报告，每个数值均可追溯</translation>
+    </message>
+    <message>
+        <source>No jobs yet. Jobs that you make or open are listed here.</source>
+        <translation>尚无作业。新建或打开的作业将列在这里。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::MainWindow</name>
+    <message>
+        <source>%1 (Ctrl+Enter)</source>
+        <translation>%1（Ctrl+Enter）</translation>
+    </message>
+    <message>
+        <source>Action</source>
+        <translation>操作</translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation>步骤</translation>
+    </message>
+    <message>
+        <source>Show what happened</source>
+        <translation>显示事件记录</translation>
+    </message>
+    <message>
+        <source>Window</source>
+        <translation>窗口</translation>
+    </message>
+    <message>
+        <source>Switch between light and dark</source>
+        <translation>切换浅色与深色</translation>
+    </message>
+    <message>
+        <source>Change language</source>
+        <translation>切换语言</translation>
+    </message>
+    <message>
+        <source>Help for this step</source>
+        <translation>本步骤帮助</translation>
+    </message>
+    <message>
+        <source>Quit</source>
+        <translation>退出</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>返回</translation>
+    </message>
+    <message>
+        <source>To the step before (Alt+Left). Nothing is lost by going back.</source>
+        <translation>返回上一步（Alt+Left）。返回不会丢失任何内容。</translation>
+    </message>
+    <message>
+        <source>All keys</source>
+        <translation>全部快捷键</translation>
+    </message>
+    <message>
+        <source>About Zerodrift, licences</source>
+        <translation>关于 Zerodrift、许可证</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::MatrixView</name>
+    <message>
+        <source>Correlation matrix</source>
+        <translation>相关矩阵</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::Page</name>
+    <message>
+        <source>Wait until the work is done, or cancel it.</source>
+        <translation>请等待工作完成，或将其取消。</translation>
+    </message>
+    <message>
+        <source>Not yet: an earlier step comes first.</source>
+        <translation>尚不可用：需先完成前面的步骤。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::PhysicsPage</name>
+    <message>
+        <source>Physics</source>
+        <translation>物理分析</translation>
+    </message>
+    <message>
+        <source>The run is simulated from the machine&apos;s description. Let the program find what the simulation lacks.</source>
+        <translation>已按机床描述对该运行进行仿真。由程序找出仿真缺少的内容。</translation>
+    </message>
+    <message>
+        <source>Simulation and recording agree down to the noise. Nothing needs to be added.</source>
+        <translation>仿真与记录在噪声范围内一致，无需增加任何效应。</translation>
+    </message>
+    <message>
+        <source>Map, curves and figures hold what was adopted. Go on, or take it out again.</source>
+        <translation>图、曲线和数值已包含所采纳的效应。可继续，或撤销采纳。</translation>
+    </message>
+    <message>
+        <source>Something is missing in the simulation. Judge the explanations; adopt what convinces.</source>
+        <translation>仿真缺少某些内容。请评判各项解释，采纳令人信服的解释。</translation>
+    </message>
+    <message>
+        <source>Map, curves and figures hold what was adopted; the rest no known effect explains.</source>
+        <translation>图、曲线和数值已包含所采纳的效应；其余部分没有已知效应可以解释。</translation>
+    </message>
+    <message>
+        <source>Something is missing that no known effect explains. It is shown, not guessed.</source>
+        <translation>存在已知效应无法解释的缺失。程序如实显示，不作猜测。</translation>
+    </message>
+    <message>
+        <source>Find what is missing</source>
+        <translation>查找缺失</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Open the seal</source>
+        <translation>开启封条</translation>
+    </message>
+    <message>
+        <source>The seal is opened when the answer is given.</source>
+        <translation>给出答案后开启封条。</translation>
+    </message>
+    <message>
+        <source>The seal is open.</source>
+        <translation>封条已开启。</translation>
+    </message>
+    <message>
+        <source>Blind trial</source>
+        <translation>盲测</translation>
+    </message>
+    <message>
+        <source>A blind trial is running.</source>
+        <translation>盲测正在进行。</translation>
+    </message>
+    <message>
+        <source>Open the seal of this trial first.</source>
+        <translation>请先开启本次盲测的封条。</translation>
+    </message>
+    <message>
+        <source>The virtual machine hides an effect; the program has to find it</source>
+        <translation>虚拟机床隐藏一种效应，由程序找出</translation>
+    </message>
+    <message>
+        <source>Find sensor region</source>
+        <translation>查找传感器区域</translation>
+    </message>
+    <message>
+        <source>Where on the component a sensor follows the deformation best</source>
+        <translation>部件上哪个位置的传感器与变形的相关性最好</translation>
+    </message>
+    <message>
+        <source>Search again</source>
+        <translation>重新查找</translation>
+    </message>
+    <message>
+        <source>Simulation against recording</source>
+        <translation>仿真与记录之差</translation>
+    </message>
+    <message>
+        <source>down to noise</source>
+        <translation>降至噪声水平</translation>
+    </message>
+    <message>
+        <source>something missing</source>
+        <translation>存在缺失</translation>
+    </message>
+    <message>
+        <source>With what was adopted.</source>
+        <translation>已计入所采纳的效应。</translation>
+    </message>
+    <message>
+        <source>As the machine is described.</source>
+        <translation>按机床描述。</translation>
+    </message>
+    <message>
+        <source>Noise of the sensors</source>
+        <translation>传感器噪声</translation>
+    </message>
+    <message>
+        <source>Missing heat</source>
+        <translation>缺失的热量</translation>
+    </message>
+    <message>
+        <source>explained by what was adopted</source>
+        <translation>已由所采纳的效应解释</translation>
+    </message>
+    <message>
+        <source>On unseen data</source>
+        <translation>未参与拟合的数据</translation>
+    </message>
+    <message numerus="yes">
+        <source>with %n adopted</source>
+        <translation>
+            <numerusform>已采纳 %n 项</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>none adopted</source>
+        <translation>未采纳任何效应</translation>
+    </message>
+    <message>
+        <source>The same difference on data that was not used for the search.</source>
+        <translation>在未用于查找的数据上的同一差值。</translation>
+    </message>
+    <message>
+        <source>Nothing to compare yet</source>
+        <translation>尚无可比较的内容</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>位置</translation>
+    </message>
+    <message>
+        <source>Channels</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>What is left</source>
+        <translation>剩余部分</translation>
+    </message>
+    <message>
+        <source>Recorded minus simulated</source>
+        <translation>记录减去仿真</translation>
+    </message>
+    <message>
+        <source>Simulation and recording</source>
+        <translation>仿真与记录</translation>
+    </message>
+    <message>
+        <source>K, over position in mm and time</source>
+        <translation>K，按位置（mm）和时间</translation>
+    </message>
+    <message>
+        <source>W, over position in mm and time</source>
+        <translation>W，按位置（mm）和时间</translation>
+    </message>
+    <message>
+        <source>Drawn when the search is done</source>
+        <translation>查找完成后绘制</translation>
+    </message>
+    <message>
+        <source>agrees</source>
+        <translation>一致</translation>
+    </message>
+    <message>
+        <source>differs</source>
+        <translation>不一致</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>rms</source>
+        <translation>rms</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>Recorded</source>
+        <translation>记录</translation>
+    </message>
+    <message>
+        <source>Simulated</source>
+        <translation>仿真</translation>
+    </message>
+    <message>
+        <source>With effects</source>
+        <translation>计入效应</translation>
+    </message>
+    <message>
+        <source>recorded</source>
+        <translation>记录</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>仿真</translation>
+    </message>
+    <message>
+        <source>adopted</source>
+        <translation>已采纳</translation>
+    </message>
+    <message>
+        <source>difference / %1</source>
+        <translation>差值 / %1</translation>
+    </message>
+    <message>
+        <source>Recorded - simulated</source>
+        <translation>记录 - 仿真</translation>
+    </message>
+    <message>
+        <source>Recorded - refined</source>
+        <translation>记录 - 改进模型</translation>
+    </message>
+    <message>
+        <source>Explanations</source>
+        <translation>解释</translation>
+    </message>
+    <message>
+        <source>ranked by evidence</source>
+        <translation>按证据排序</translation>
+    </message>
+    <message>
+        <source>Not searched yet.</source>
+        <translation>尚未查找。</translation>
+    </message>
+    <message>
+        <source>Shortest run that decides</source>
+        <translation>可作判定的最短运行</translation>
+    </message>
+    <message>
+        <source>Put it into the plan</source>
+        <translation>加入计划</translation>
+    </message>
+    <message>
+        <source>The virtual machine hides one effect and seals its name. Watch the run, see what the search answers, then open the seal. Start with Blind trial above.</source>
+        <translation>虚拟机床隐藏一种效应并封存其名称。观看运行，查看程序给出的答案，然后开启封条。由上方的“盲测”开始。</translation>
+    </message>
+    <message>
+        <source>%1 of %2 hidden effects named correctly.</source>
+        <translation>%2 个隐藏效应中正确识别 %1 个。</translation>
+    </message>
+    <message>
+        <source>Hidden</source>
+        <translation>隐藏</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>答案</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Improved</source>
+        <translation>改善</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>正确</translation>
+    </message>
+    <message>
+        <source>wrong</source>
+        <translation>错误</translation>
+    </message>
+    <message>
+        <source>to come</source>
+        <translation>待定</translation>
+    </message>
+    <message>
+        <source>1. Sealed: %1</source>
+        <translation>1. 已封存：%1</translation>
+    </message>
+    <message>
+        <source>2. Run watched: %1 %</source>
+        <translation>2. 已观看运行：%1 %</translation>
+    </message>
+    <message>
+        <source>3. Answer: %1</source>
+        <translation>3. 答案：%1</translation>
+    </message>
+    <message>
+        <source>searching</source>
+        <translation>正在查找</translation>
+    </message>
+    <message>
+        <source>4. Seal opened: %1 was hidden. The answer is %2; %3.</source>
+        <translation>4. 封条已开启：隐藏的是“%1”。答案%2；%3。</translation>
+    </message>
+    <message>
+        <source>the promise was kept</source>
+        <translation>承诺得到遵守</translation>
+    </message>
+    <message>
+        <source>the promise was broken</source>
+        <translation>承诺被破坏</translation>
+    </message>
+    <message>
+        <source>4. Seal: %1</source>
+        <translation>4. 封条：%1</translation>
+    </message>
+    <message>
+        <source>press Open the seal</source>
+        <translation>请按“开启封条”</translation>
+    </message>
+    <message>
+        <source>%1 simulated</source>
+        <translation>%1 仿真</translation>
+    </message>
+    <message>
+        <source>%1 with the answer</source>
+        <translation>%1 按答案</translation>
+    </message>
+    <message>
+        <source>with the answer</source>
+        <translation>按答案</translation>
+    </message>
+    <message>
+        <source>A part is explained, at the right. The rest no known effect explains: it is shown, not guessed.</source>
+        <translation>一部分已得到解释，见右侧。其余部分没有已知效应可以解释：程序如实显示，不作猜测。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::PlanTimeline</name>
+    <message>
+        <source>Plan: steps over time</source>
+        <translation>计划：各步骤随时间的安排</translation>
+    </message>
+    <message>
+        <source>%1 rpm</source>
+        <translation>%1 r/min</translation>
+    </message>
+    <message>
+        <source>rest</source>
+        <translation>静止</translation>
+    </message>
+    <message>
+        <source>axes run</source>
+        <translation>各轴运动</translation>
+    </message>
+    <message>
+        <source>axes stand</source>
+        <translation>各轴静止</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::PlotWidget</name>
+    <message>
+        <source>Fit to the data</source>
+        <translation>适应数据范围</translation>
+    </message>
+    <message>
+        <source>Add a note here</source>
+        <translation>在此添加备注</translation>
+    </message>
+    <message>
+        <source>Save picture (PNG)</source>
+        <translation>保存图片（PNG）</translation>
+    </message>
+    <message>
+        <source>Save drawing (SVG)</source>
+        <translation>保存矢量图（SVG）</translation>
+    </message>
+    <message>
+        <source>Save visible values (CSV)</source>
+        <translation>保存可见数值（CSV）</translation>
+    </message>
+    <message>
+        <source>Copy picture</source>
+        <translation>复制图片</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ProblemBanner</name>
+    <message>
+        <source>Dismiss</source>
+        <translation>关闭提示</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ProgressStrip</name>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>%1 left</source>
+        <translation>剩余 %1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::RegisterTable</name>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>地址</translation>
+    </message>
+    <message>
+        <source>Function</source>
+        <translation>功能</translation>
+    </message>
+    <message>
+        <source>Type</source>
+        <translation>类型</translation>
+    </message>
+    <message>
+        <source>Count</source>
+        <translation>数量</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>Order</source>
+        <translation>字节顺序</translation>
+    </message>
+    <message>
+        <source>Value now</source>
+        <translation>当前值</translation>
+    </message>
+    <message>
+        <source>Meaning</source>
+        <translation>含义</translation>
+    </message>
+    <message>
+        <source>ABCD: high word and high byte first</source>
+        <translation>ABCD：高位字、高位字节在前</translation>
+    </message>
+    <message>
+        <source>Registers</source>
+        <translation>寄存器</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ReportPage</name>
+    <message>
+        <source>Report</source>
+        <translation>报告</translation>
+    </message>
+    <message>
+        <source>Saved: %1</source>
+        <translation>已保存：%1</translation>
+    </message>
+    <message>
+        <source>Look at the doubtful figures first, fill in the head, then save.</source>
+        <translation>先查看可疑数值，填写报告抬头，然后保存。</translation>
+    </message>
+    <message>
+        <source>Save report</source>
+        <translation>保存报告</translation>
+    </message>
+    <message>
+        <source>Save as HTML</source>
+        <translation>保存为 HTML</translation>
+    </message>
+    <message>
+        <source>Save figures (CSV)</source>
+        <translation>保存数据（CSV）</translation>
+    </message>
+    <message>
+        <source>Technical bundle</source>
+        <translation>技术数据包</translation>
+    </message>
+    <message>
+        <source>Nothing to report yet</source>
+        <translation>尚无可报告的内容</translation>
+    </message>
+    <message>
+        <source>Head of the report</source>
+        <translation>报告抬头</translation>
+    </message>
+    <message>
+        <source>Customer</source>
+        <translation>客户</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>Serial</source>
+        <translation>序列号</translation>
+    </message>
+    <message>
+        <source>Engineer</source>
+        <translation>工程师</translation>
+    </message>
+    <message>
+        <source>Standards</source>
+        <translation>标准</translation>
+    </message>
+    <message>
+        <source>those that were followed, if any</source>
+        <translation>所遵循的标准（如有）</translation>
+    </message>
+    <message>
+        <source>For example ISO 230-3:2020. Only what was run by the standard may be named here.</source>
+        <translation>例如 ISO 230-3:2020。此处只能填写实际按标准进行的内容。</translation>
+    </message>
+    <message>
+        <source>Content</source>
+        <translation>内容</translation>
+    </message>
+    <message>
+        <source>Doubtful</source>
+        <translation>可疑</translation>
+    </message>
+    <message>
+        <source>Doubtful (%1)</source>
+        <translation>可疑（%1）</translation>
+    </message>
+    <message>
+        <source>Sections</source>
+        <translation>章节</translation>
+    </message>
+    <message>
+        <source>Click to look into it</source>
+        <translation>点击查看</translation>
+    </message>
+    <message>
+        <source>No figure of this job looks doubtful.</source>
+        <translation>本作业没有可疑数值。</translation>
+    </message>
+    <message>
+        <source>Language of the report</source>
+        <translation>报告语言</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>预览</translation>
+    </message>
+    <message>
+        <source>1 page</source>
+        <translation>1 页</translation>
+    </message>
+    <message>
+        <source>%1 pages</source>
+        <translation>%1 页</translation>
+    </message>
+    <message>
+        <source>The preview is being made.</source>
+        <translation>正在生成预览。</translation>
+    </message>
+    <message>
+        <source>Page %1</source>
+        <translation>第 %1 页</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::RunView</name>
+    <message>
+        <source>Temperatures</source>
+        <translation>温度</translation>
+    </message>
+    <message>
+        <source>Errors</source>
+        <translation>误差</translation>
+    </message>
+    <message>
+        <source>Inputs</source>
+        <translation>输入</translation>
+    </message>
+    <message>
+        <source>speed in rpm</source>
+        <translation>转速 r/min</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n channels</source>
+        <translation>
+            <numerusform>%n 个通道</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>10 min</source>
+        <translation>10 min</translation>
+    </message>
+    <message>
+        <source>1 h</source>
+        <translation>1 h</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>全部</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>数值</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>No picture yet</source>
+        <translation>尚无图像</translation>
+    </message>
+    <message>
+        <source>Waiting for the first sample</source>
+        <translation>等待第一次采样</translation>
+    </message>
+    <message>
+        <source>Happened in this run</source>
+        <translation>本次运行中发生</translation>
+    </message>
+    <message>
+        <source>Everything is in order again.</source>
+        <translation>已全部恢复正常。</translation>
+    </message>
+    <message>
+        <source>In this run: %1</source>
+        <translation>本次运行：%1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::SensorsPage</name>
+    <message>
+        <source>Sensors</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>Keep the few sensors that carry the error. Tick one in or out; its price shows at once.</source>
+        <translation>保留少数能反映误差的传感器。勾选或取消后立即显示其代价。</translation>
+    </message>
+    <message>
+        <source>Use these sensors</source>
+        <translation>使用这些传感器</translation>
+    </message>
+    <message>
+        <source>The figures of the last change are being computed.</source>
+        <translation>正在计算上次更改后的数值。</translation>
+    </message>
+    <message>
+        <source>Keep at least one sensor.</source>
+        <translation>至少保留一个传感器。</translation>
+    </message>
+    <message>
+        <source>Proposed choice</source>
+        <translation>推荐选择</translation>
+    </message>
+    <message>
+        <source>Sensors kept</source>
+        <translation>保留的传感器</translation>
+    </message>
+    <message>
+        <source>of %1</source>
+        <translation>共 %1</translation>
+    </message>
+    <message>
+        <source>Error on unseen</source>
+        <translation>未见数据误差</translation>
+    </message>
+    <message>
+        <source>Root mean square over stretches of the run that the model was not fitted to.</source>
+        <translation>未参与模型拟合的运行数据段上的均方根。</translation>
+    </message>
+    <message>
+        <source>Lost against all</source>
+        <translation>与全部相比的损失</translation>
+    </message>
+    <message>
+        <source>nothing lost</source>
+        <translation>没有损失</translation>
+    </message>
+    <message>
+        <source>only %1 µm</source>
+        <translation>仅 %1 µm</translation>
+    </message>
+    <message>
+        <source>Condition number</source>
+        <translation>条件数</translation>
+    </message>
+    <message>
+        <source>How alike the kept sensors are. Large: their coefficients cannot be told apart.</source>
+        <translation>所保留传感器的相似程度。数值大表示其系数难以区分。</translation>
+    </message>
+    <message>
+        <source>much alike</source>
+        <translation>非常相似</translation>
+    </message>
+    <message>
+        <source>computing</source>
+        <translation>正在计算</translation>
+    </message>
+    <message>
+        <source>No sensors to choose from yet</source>
+        <translation>尚无可选的传感器</translation>
+    </message>
+    <message>
+        <source>Clusters</source>
+        <translation>聚类</translation>
+    </message>
+    <message>
+        <source>Series</source>
+        <translation>时间序列</translation>
+    </message>
+    <message>
+        <source>Correlation</source>
+        <translation>相关性</translation>
+    </message>
+    <message>
+        <source>Budget</source>
+        <translation>传感器数量</translation>
+    </message>
+    <message>
+        <source>auto (%1)</source>
+        <translation>自动（%1）</translation>
+    </message>
+    <message>
+        <source>with sign</source>
+        <translation>带符号</translation>
+    </message>
+    <message>
+        <source>absolute</source>
+        <translation>绝对值</translation>
+    </message>
+    <message>
+        <source>As published the correlations with X, Y and Z are added with their signs.
+Opposite signs cancel: a sensor that drives X up and Z down may look useless.
+The sum of absolute values does not have this fault.</source>
+        <translation>按公开方法，与 X、Y、Z 的相关系数带符号相加。
+符号相反时会相互抵消：使 X 增大、Z 减小的传感器可能显得无用。
+绝对值之和没有这一缺陷。</translation>
+    </message>
+    <message>
+        <source>Component %1</source>
+        <translation>主成分 %1</translation>
+    </message>
+    <message>
+        <source>Component %1 (%2 %)</source>
+        <translation>主成分 %1（%2 %）</translation>
+    </message>
+    <message>
+        <source>Cluster %1</source>
+        <translation>聚类 %1</translation>
+    </message>
+    <message>
+        <source>Sensors near each other warm alike. Filled: kept. Click a sensor to keep or leave it.</source>
+        <translation>彼此靠近的传感器升温相似。实心：保留。点击传感器可保留或去除。</translation>
+    </message>
+    <message>
+        <source>Temperatures by cluster, each scaled to its own spread. Thick: kept.</source>
+        <translation>按聚类显示的温度，各自按其离散度缩放。粗线：保留。</translation>
+    </message>
+    <message>
+        <source>Correlation of each sensor with the errors, and their sum.</source>
+        <translation>各传感器与误差的相关系数及其总和。</translation>
+    </message>
+    <message>
+        <source>Error on unseen stretches against the number of sensors: where the curve turns flat, more do not help.</source>
+        <translation>未见数据段误差与传感器数量的关系：曲线变平后，增加传感器不再有益。</translation>
+    </message>
+    <message>
+        <source>mean</source>
+        <translation>平均</translation>
+    </message>
+    <message>
+        <source>number of sensors</source>
+        <translation>传感器数量</translation>
+    </message>
+    <message>
+        <source>error on unseen / µm</source>
+        <translation>未见数据误差 / µm</translation>
+    </message>
+    <message>
+        <source>The budget curve is being computed</source>
+        <translation>正在计算数量曲线</translation>
+    </message>
+    <message>
+        <source>Your choice</source>
+        <translation>您的选择</translation>
+    </message>
+    <message>
+        <source>limit</source>
+        <translation>限值</translation>
+    </message>
+    <message>
+        <source>Choice</source>
+        <translation>选择</translation>
+    </message>
+    <message>
+        <source>Sensor</source>
+        <translation>传感器</translation>
+    </message>
+    <message>
+        <source>Correlation with the error in X</source>
+        <translation>与 X 误差的相关系数</translation>
+    </message>
+    <message>
+        <source>Correlation with the error in Y</source>
+        <translation>与 Y 误差的相关系数</translation>
+    </message>
+    <message>
+        <source>Correlation with the error in Z</source>
+        <translation>与 Z 误差的相关系数</translation>
+    </message>
+    <message>
+        <source>Sum</source>
+        <translation>总和</translation>
+    </message>
+    <message>
+        <source>Largest in its cluster: thermally sensitive point</source>
+        <translation>该聚类中最大：热敏感点</translation>
+    </message>
+    <message>
+        <source>Lag</source>
+        <translation>滞后</translation>
+    </message>
+    <message>
+        <source>The error follows this sensor after so many minutes</source>
+        <translation>误差滞后于该传感器的分钟数</translation>
+    </message>
+    <message>
+        <source>Variance inflation: above 10 the sensor repeats others</source>
+        <translation>方差膨胀因子：大于 10 时该传感器与其他传感器重复</translation>
+    </message>
+    <message>
+        <source>Price</source>
+        <translation>代价</translation>
+    </message>
+    <message>
+        <source>Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better</source>
+        <translation>改变该勾选时未见数据段误差的变化；正：变差，负：改善</translation>
+    </message>
+    <message>
+        <source>%1 min</source>
+        <translation>%1 min</translation>
+    </message>
+    <message>
+        <source>0.00 µm</source>
+        <translation>0.00 µm</translation>
+    </message>
+    <message>
+        <source>Keeping it or not makes no difference</source>
+        <translation>保留与否没有差别</translation>
+    </message>
+    <message>
+        <source>Without it the error grows by %1 µm: keep it</source>
+        <translation>去掉它误差增大 %1 µm：应保留</translation>
+    </message>
+    <message>
+        <source>Without it the error shrinks by %1 µm: leave it out</source>
+        <translation>去掉它误差减小 %1 µm：应去除</translation>
+    </message>
+    <message>
+        <source>With it the error shrinks by %1 µm: worth keeping</source>
+        <translation>加入它误差减小 %1 µm：值得保留</translation>
+    </message>
+    <message>
+        <source>With it the error grows by %1 µm: leave it out</source>
+        <translation>加入它误差增大 %1 µm：应去除</translation>
+    </message>
+    <message>
+        <source>Price: what a click on the tick does to the error on unseen stretches. Plus: it grows, leave the tick as it is. Minus (bold): it shrinks.</source>
+        <translation>代价：点击勾选后未见数据段误差的变化。正：误差增大，保持勾选不变。负（粗体）：误差减小。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::SignCheck</name>
+    <message>
+        <source>%1 commanded %2, seen %3</source>
+        <translation>%1 指令 %2，观测 %3</translation>
+    </message>
+    <message>
+        <source>%1 not in view</source>
+        <translation>%1 不在视场内</translation>
+    </message>
+    <message>
+        <source>Sign check: %1. %2</source>
+        <translation>符号检查：%1。%2</translation>
+    </message>
+    <message>
+        <source>not in view</source>
+        <translation>不在视场内</translation>
+    </message>
+    <message>
+        <source>Not checked yet. Before the table is written each axis is moved by a few micrometres, watched by the camera: a wrong sign or axis stops everything.</source>
+        <translation>尚未检查。写入补偿表之前，每轴移动几微米并由相机观测：符号或轴有误时立即停止。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::SignaturePad</name>
+    <message>
+        <source>Signature</source>
+        <translation>签名</translation>
+    </message>
+    <message>
+        <source>Sign here. Double click clears.</source>
+        <translation>在此签名。双击清除。</translation>
+    </message>
+    <message>
+        <source>Sign here</source>
+        <translation>在此签名</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::StepButton</name>
+    <message>
+        <source>current page</source>
+        <translation>当前页面</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::StepList</name>
+    <message>
+        <source>done</source>
+        <translation>完成</translation>
+    </message>
+    <message>
+        <source>running</source>
+        <translation>进行中</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>skipped</source>
+        <translation>已跳过</translation>
+    </message>
+    <message>
+        <source>waiting</source>
+        <translation>等待</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::StepRail</name>
+    <message>
+        <source>No job open</source>
+        <translation>未打开作业</translation>
+    </message>
+    <message>
+        <source>Job: %1</source>
+        <translation>作业：%1</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>浅色</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>深色</translation>
+    </message>
+    <message>
+        <source>Switch to light colours</source>
+        <translation>切换到浅色</translation>
+    </message>
+    <message>
+        <source>Switch to dark colours</source>
+        <translation>切换到深色</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>帮助</translation>
+    </message>
+    <message>
+        <source>Help for this step (F1)</source>
+        <translation>本步骤帮助（F1）</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>语言</translation>
+    </message>
+    <message>
+        <source>Language: %1</source>
+        <translation>语言：%1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::UploadPage</name>
+    <message>
+        <source>Upload</source>
+        <translation>上传</translation>
+    </message>
+    <message>
+        <source>The table is being written. It becomes active as a whole or not at all.</source>
+        <translation>正在写入补偿表。它将整体生效，或完全不生效。</translation>
+    </message>
+    <message>
+        <source>Version %1 is active in %2. Now prove it.</source>
+        <translation>版本 %1 已在 %2 中生效。接下来进行验证。</translation>
+    </message>
+    <message>
+        <source>Compare the old table with the new one, let the camera check the sign, then write.</source>
+        <translation>比较新旧补偿表，由相机检查符号，然后写入。</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Write to the machine</source>
+        <translation>写入机床</translation>
+    </message>
+    <message>
+        <source>The table is being written.</source>
+        <translation>正在写入补偿表。</translation>
+    </message>
+    <message>
+        <source>The compensation is ON. Tables may only be written while it is off.</source>
+        <translation>补偿处于接通状态。只有断开时才能写入补偿表。</translation>
+    </message>
+    <message>
+        <source>The largest change is above the machine&apos;s limit.</source>
+        <translation>最大变化超过机床的限值。</translation>
+    </message>
+    <message>
+        <source>The camera saw the test move in the wrong direction.</source>
+        <translation>相机观测到测试移动的方向错误。</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>导出</translation>
+    </message>
+    <message>
+        <source>Dry run</source>
+        <translation>试运行</translation>
+    </message>
+    <message>
+        <source>Check sign</source>
+        <translation>检查符号</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>Version</source>
+        <translation>版本</translation>
+    </message>
+    <message>
+        <source>active</source>
+        <translation>有效</translation>
+    </message>
+    <message>
+        <source>to write</source>
+        <translation>待写入</translation>
+    </message>
+    <message>
+        <source>before: %1</source>
+        <translation>之前：%1</translation>
+    </message>
+    <message>
+        <source>in the machine: %1</source>
+        <translation>机床中：%1</translation>
+    </message>
+    <message>
+        <source>the machine is not read yet</source>
+        <translation>尚未读取机床</translation>
+    </message>
+    <message>
+        <source>Registers</source>
+        <translation>寄存器</translation>
+    </message>
+    <message>
+        <source>fits</source>
+        <translation>容量足够</translation>
+    </message>
+    <message>
+        <source>of %1</source>
+        <translation>共 %1</translation>
+    </message>
+    <message>
+        <source>Sign</source>
+        <translation>符号</translation>
+    </message>
+    <message>
+        <source>wrong</source>
+        <translation>错误</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>正确</translation>
+    </message>
+    <message>
+        <source>seen by the camera</source>
+        <translation>由相机观测</translation>
+    </message>
+    <message>
+        <source>not checked yet</source>
+        <translation>尚未检查</translation>
+    </message>
+    <message>
+        <source>Steepest term</source>
+        <translation>最大系数</translation>
+    </message>
+    <message>
+        <source>µm/K</source>
+        <translation>µm/K</translation>
+    </message>
+    <message>
+        <source>No table to write yet</source>
+        <translation>尚无可写入的补偿表</translation>
+    </message>
+    <message>
+        <source>Old and new compensation</source>
+        <translation>新旧补偿</translation>
+    </message>
+    <message>
+        <source>The controller takes %1.</source>
+        <translation>控制器可接受%1。</translation>
+    </message>
+    <message>
+        <source>Nothing is lost on the way.</source>
+        <translation>转换中没有损失。</translation>
+    </message>
+    <message>
+        <source>Lost: %1.</source>
+        <translation>损失：%1。</translation>
+    </message>
+    <message>
+        <source>Transaction</source>
+        <translation>事务</translation>
+    </message>
+    <message>
+        <source>Write</source>
+        <translation>写入</translation>
+    </message>
+    <message>
+        <source>History</source>
+        <translation>历史</translation>
+    </message>
+    <message>
+        <source>Sign check</source>
+        <translation>符号检查</translation>
+    </message>
+    <message>
+        <source>Term</source>
+        <translation>项</translation>
+    </message>
+    <message>
+        <source>Old</source>
+        <translation>旧</translation>
+    </message>
+    <message>
+        <source>New</source>
+        <translation>新</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>变化</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>old</source>
+        <translation>旧</translation>
+    </message>
+    <message>
+        <source>new</source>
+        <translation>新</translation>
+    </message>
+    <message>
+        <source>change</source>
+        <translation>变化</translation>
+    </message>
+    <message>
+        <source>limit</source>
+        <translation>限值</translation>
+    </message>
+    <message>
+        <source>ramp %1 %</source>
+        <translation>渐变 %1 %</translation>
+    </message>
+    <message>
+        <source>Written</source>
+        <translation>写入时间</translation>
+    </message>
+    <message>
+        <source>By</source>
+        <translation>写入人</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>内容</translation>
+    </message>
+    <message>
+        <source>active: %1</source>
+        <translation>有效：%1</translation>
+    </message>
+    <message>
+        <source>Roll back to version %1</source>
+        <translation>回滚到版本 %1</translation>
+    </message>
+    <message>
+        <source>Roll back</source>
+        <translation>回滚</translation>
+    </message>
+    <message>
+        <source>Select an earlier version</source>
+        <translation>请选择较早的版本</translation>
+    </message>
+    <message>
+        <source>Largest change now</source>
+        <translation>此刻最大变化</translation>
+    </message>
+    <message>
+        <source>Between the old and the new table at the temperatures of this moment: so far the axes would move. While the machine warms it grows; the curve shows it over the whole warm-up run.</source>
+        <translation>在此刻的温度下新旧补偿表之差，即各轴将移动的量。机床升温时该值会增大；曲线显示整个暖机运行中的变化。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::VerifyPage</name>
+    <message>
+        <source>Verify</source>
+        <translation>验证</translation>
+    </message>
+    <message>
+        <source>Run the machine with the compensation on and measure what is left.</source>
+        <translation>在补偿接通的状态下运行机床，测量残余误差。</translation>
+    </message>
+    <message>
+        <source>The compensation works while the camera watches. The measured curve must stay near zero.</source>
+        <translation>补偿正在工作，相机同时观测。实测曲线应保持在零附近。</translation>
+    </message>
+    <message>
+        <source>Paused. Resume when the machine may run again.</source>
+        <translation>已暂停。机床可以再次运行时请继续。</translation>
+    </message>
+    <message>
+        <source>Some parts of the error are above the threshold. Look at the proposed correction.</source>
+        <translation>部分误差超过阈值。请查看建议的修正。</translation>
+    </message>
+    <message>
+        <source>The proof is complete. Save the report next.</source>
+        <translation>验证完成。接下来请保存报告。</translation>
+    </message>
+    <message>
+        <source>Start verification</source>
+        <translation>开始验证</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>暂停</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>继续运行</translation>
+    </message>
+    <message>
+        <source>Apply correction</source>
+        <translation>应用修正</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Abort</source>
+        <translation>中止</translation>
+    </message>
+    <message>
+        <source>Stops the machine and drops this verification. Asks first.</source>
+        <translation>停止机床并放弃本次验证。会先询问。</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>结束</translation>
+    </message>
+    <message>
+        <source>Ends the run here and keeps what was measured. Asks first.</source>
+        <translation>在此结束运行并保留已测内容。会先询问。</translation>
+    </message>
+    <message>
+        <source>Verify again</source>
+        <translation>重新验证</translation>
+    </message>
+    <message>
+        <source>Leave as it is</source>
+        <translation>保持不变</translation>
+    </message>
+    <message>
+        <source>Peak without</source>
+        <translation>无补偿峰值</translation>
+    </message>
+    <message>
+        <source>in %1</source>
+        <translation>%1 轴</translation>
+    </message>
+    <message>
+        <source>Largest error of the warm-up run, over the minutes that the verification lasted.</source>
+        <translation>暖机运行在验证时长范围内的最大误差。</translation>
+    </message>
+    <message>
+        <source>Peak with</source>
+        <translation>有补偿峰值</translation>
+    </message>
+    <message>
+        <source>in %1, %2</source>
+        <translation>%1 轴，%2</translation>
+    </message>
+    <message>
+        <source>rms with</source>
+        <translation>有补偿 rms</translation>
+    </message>
+    <message>
+        <source>Removed</source>
+        <translation>消除</translation>
+    </message>
+    <message>
+        <source>%1 worse</source>
+        <translation>%1 变差</translation>
+    </message>
+    <message>
+        <source>Fit promised</source>
+        <translation>拟合的预期</translation>
+    </message>
+    <message>
+        <source>Largest error that the fit left on stretches of the warm-up run it had not seen.</source>
+        <translation>拟合在暖机运行未见数据段上残余的最大误差。</translation>
+    </message>
+    <message>
+        <source>not reached</source>
+        <translation>未达到</translation>
+    </message>
+    <message>
+        <source>held</source>
+        <translation>达到</translation>
+    </message>
+    <message>
+        <source>Last good frame</source>
+        <translation>上次有效图像</translation>
+    </message>
+    <message>
+        <source>measuring</source>
+        <translation>正在测量</translation>
+    </message>
+    <message>
+        <source>Machine time since the camera last measured the error. Up to %1 it is as planned.</source>
+        <translation>相机上次测得误差以来的机床时间。%1 以内属正常。</translation>
+    </message>
+    <message>
+        <source>%1 became worse: up to %2 µm without, %3 µm with the compensation.</source>
+        <translation>%1 变差：无补偿最大 %2 µm，有补偿最大 %3 µm。</translation>
+    </message>
+    <message>
+        <source>At the end %1 is worse than without: %2 µm instead of %3 µm.</source>
+        <translation>末段 %1 比无补偿时更差：%2 µm，而非 %3 µm。</translation>
+    </message>
+    <message>
+        <source>The fit promised %1 µm, measured are %2 µm. The promise is of stretches of the warm-up run that were left out, as means of some minutes each; this run goes through other speeds in another order, and every single measurement counts with its noise.</source>
+        <translation>拟合的预期为 %1 µm，实测为 %2 µm。预期针对暖机运行中留出的数据段，且为数分钟的平均值；本次运行以不同的次序经历其他转速，且每一次单独测量都带有噪声。</translation>
+    </message>
+    <message>
+        <source>A peak grows with the length of a run, so both runs are compared as far as the shorter one goes.</source>
+        <translation>峰值随运行时间增大，因此两次运行只比较到较短者的时长。</translation>
+    </message>
+    <message>
+        <source>Nothing to verify yet</source>
+        <translation>尚无可验证的内容</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>运行</translation>
+    </message>
+    <message>
+        <source>Live</source>
+        <translation>实时</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Correction proposed</source>
+        <translation>建议修正</translation>
+    </message>
+    <message>
+        <source>Correction</source>
+        <translation>修正</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Correction of the model</source>
+        <translation>模型的修正</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>阈值</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>The temperatures&apos; effect is multiplied by this</source>
+        <translation>温度影响乘以该系数</translation>
+    </message>
+    <message>
+        <source>Evidence</source>
+        <translation>依据</translation>
+    </message>
+    <message>
+        <source>Peak now</source>
+        <translation>当前峰值</translation>
+    </message>
+    <message>
+        <source>Then</source>
+        <translation>修正后</translation>
+    </message>
+    <message>
+        <source>Predicted with the correction</source>
+        <translation>采用修正后的预测值</translation>
+    </message>
+    <message>
+        <source>The correction is computed from the verification run when it is finished.</source>
+        <translation>验证运行结束后计算修正。</translation>
+    </message>
+    <message>
+        <source>With the correction the table is written anew, as a new version. The old one stays for rollback.</source>
+        <translation>采用修正后，补偿表将作为新版本重新写入。旧版本保留，可供回滚。</translation>
+    </message>
+    <message>
+        <source>A correction was proposed and left aside: the table stays as it is.</source>
+        <translation>曾建议修正但未采用：补偿表保持不变。</translation>
+    </message>
+    <message>
+        <source>All parts of the error are below the threshold. No correction is needed.</source>
+        <translation>所有误差部分均低于阈值，无需修正。</translation>
+    </message>
+    <message>
+        <source>Shown when the verification is finished</source>
+        <translation>验证结束后显示</translation>
+    </message>
+    <message>
+        <source>threshold</source>
+        <translation>阈值</translation>
+    </message>
+    <message>
+        <source>as measured</source>
+        <translation>实测</translation>
+    </message>
+    <message>
+        <source>with the correction</source>
+        <translation>采用修正后</translation>
+    </message>
+    <message>
+        <source>%1, measured</source>
+        <translation>%1，实测</translation>
+    </message>
+    <message>
+        <source>%1, with correction</source>
+        <translation>%1，采用修正后</translation>
+    </message>
+    <message>
+        <source>Share of the largest error that is gone, for each direction by itself; %1. Judged by the least of those whose error was above %2 µm before.</source>
+        <translation>各方向最大误差中已消除的比例；%1。以补偿前误差大于 %2 µm 的方向中的最小值评定。</translation>
+    </message>
+    <message>
+        <source>Removed in %1</source>
+        <translation>%1 消除</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::VerifyResult</name>
+    <message>
+        <source>Axis by axis</source>
+        <translation>各轴结果</translation>
+    </message>
+    <message>
+        <source>largest error in the first %1 min of each run</source>
+        <translation>每次运行前 %1 min 内的最大误差</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>Without</source>
+        <translation>无补偿</translation>
+    </message>
+    <message>
+        <source>Warm-up run, compensation off</source>
+        <translation>暖机运行，补偿断开</translation>
+    </message>
+    <message>
+        <source>With</source>
+        <translation>有补偿</translation>
+    </message>
+    <message>
+        <source>Verification run, compensation on</source>
+        <translation>验证运行，补偿接通</translation>
+    </message>
+    <message>
+        <source>Gain</source>
+        <translation>改善</translation>
+    </message>
+    <message>
+        <source>Share of the largest error that is gone</source>
+        <translation>最大误差中已消除的比例</translation>
+    </message>
+    <message>
+        <source>At the end</source>
+        <translation>末段</translation>
+    </message>
+    <message>
+        <source>Mean of the last tenth: without, with</source>
+        <translation>最后十分之一的平均值：无补偿，有补偿</translation>
+    </message>
+    <message>
+        <source>%1 % worse</source>
+        <translation>变差 %1 %</translation>
+    </message>
+    <message>
+        <source>%1 % removed</source>
+        <translation>消除 %1 %</translation>
+    </message>
+    <message>
+        <source>Worse at the end than without compensation</source>
+        <translation>末段比无补偿时更差</translation>
+    </message>
+    <message>
+        <source>Shown when the verification is finished</source>
+        <translation>验证结束后显示</translation>
+    </message>
+    <message>
+        <source>without</source>
+        <translation>无补偿</translation>
+    </message>
+    <message>
+        <source>with compensation</source>
+        <translation>有补偿</translation>
+    </message>
+    <message>
+        <source>Without and with compensation</source>
+        <translation>无补偿与有补偿</translation>
+    </message>
+    <message>
+        <source>%1 without and with compensation</source>
+        <translation>%1 无补偿与有补偿</translation>
+    </message>
+    <message>
+        <source>time since the start of each run</source>
+        <translation>自每次运行开始的时间</translation>
+    </message>
+    <message>
+        <source>limit</source>
+        <translation>限值</translation>
+    </message>
+    <message>
+        <source>%1 without</source>
+        <translation>%1 无补偿</translation>
+    </message>
+    <message>
+        <source>%1 with compensation</source>
+        <translation>%1 有补偿</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::WarmupPage</name>
+    <message>
+        <source>Warm-up</source>
+        <translation>暖机</translation>
+    </message>
+    <message>
+        <source>Choose a plan, change it by dragging, then start. The machine must be cold and at rest.</source>
+        <translation>选择计划，可拖动修改，然后开始。机床必须处于冷态且静止。</translation>
+    </message>
+    <message>
+        <source>Steady: %1. More time adds little; finish when you like.</source>
+        <translation>已稳定：%1。继续运行意义不大；可随时结束。</translation>
+    </message>
+    <message>
+        <source>The machine warms up. Watch that the errors move and no sensor drops out.</source>
+        <translation>机床正在升温。注意误差应有变化，且没有传感器失效。</translation>
+    </message>
+    <message>
+        <source>Paused. The machine stands; the gap stays visible in the recording.</source>
+        <translation>已暂停。机床静止；间断会在记录中保留可见。</translation>
+    </message>
+    <message>
+        <source>The run was interrupted. Everything stored is here; resume or finish with it.</source>
+        <translation>运行曾被中断。已存储的内容都在；可继续，或以现有内容结束。</translation>
+    </message>
+    <message>
+        <source>The run is complete. Look it over, then go on to the sensors.</source>
+        <translation>运行完成。请查看结果，然后进入传感器选择。</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>开始</translation>
+    </message>
+    <message>
+        <source>The compensation is ON. Measuring for the model is locked until it is switched off.</source>
+        <translation>补偿处于接通状态。断开之前，禁止测量建模数据。</translation>
+    </message>
+    <message>
+        <source>The plan has no steps yet.</source>
+        <translation>计划尚无步骤。</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>暂停</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>继续运行</translation>
+    </message>
+    <message>
+        <source>Use this run</source>
+        <translation>使用本次运行</translation>
+    </message>
+    <message>
+        <source>Abort</source>
+        <translation>中止</translation>
+    </message>
+    <message>
+        <source>Stops the machine and drops this run. Asks first.</source>
+        <translation>停止机床并放弃本次运行。会先询问。</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>结束</translation>
+    </message>
+    <message>
+        <source>Ends the run here and goes on with what was recorded. Asks first.</source>
+        <translation>在此结束运行，以已记录的内容继续。会先询问。</translation>
+    </message>
+    <message>
+        <source>Load plan</source>
+        <translation>加载计划</translation>
+    </message>
+    <message>
+        <source>Save plan</source>
+        <translation>保存计划</translation>
+    </message>
+    <message>
+        <source>Add note</source>
+        <translation>添加备注</translation>
+    </message>
+    <message>
+        <source>Writes a remark at this moment of the run</source>
+        <translation>在运行的此刻写入备注</translation>
+    </message>
+    <message>
+        <source>New run</source>
+        <translation>新运行</translation>
+    </message>
+    <message>
+        <source>Plans a new run; the interrupted one stays in the job unused</source>
+        <translation>计划新的运行；被中断的运行留在作业中不使用</translation>
+    </message>
+    <message>
+        <source>Save as CSV</source>
+        <translation>保存为 CSV</translation>
+    </message>
+    <message>
+        <source>Expected drift</source>
+        <translation>预期漂移</translation>
+    </message>
+    <message>
+        <source>no earlier job</source>
+        <translation>没有以前的作业</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>测量次数</translation>
+    </message>
+    <message>
+        <source>How often the error is measured. A model needs at least 20.</source>
+        <translation>误差的测量次数。模型至少需要 20 次。</translation>
+    </message>
+    <message>
+        <source>Total time</source>
+        <translation>总时间</translation>
+    </message>
+    <message>
+        <source>Time of the machine. A virtual machine goes through it faster than the clock on the wall.</source>
+        <translation>机床时间。虚拟机床的时间比实际时间快。</translation>
+    </message>
+    <message>
+        <source>Disk free</source>
+        <translation>磁盘剩余</translation>
+    </message>
+    <message>
+        <source>Time left</source>
+        <translation>剩余时间</translation>
+    </message>
+    <message>
+        <source>of %1</source>
+        <translation>共 %1</translation>
+    </message>
+    <message>
+        <source>Time of the machine. All curves and periods are in it; the bar above counts the time on the wall.</source>
+        <translation>机床时间。所有曲线和周期均以此计；上方进度条按实际时间计。</translation>
+    </message>
+    <message>
+        <source>Recorded</source>
+        <translation>记录</translation>
+    </message>
+    <message>
+        <source>Largest error</source>
+        <translation>最大误差</translation>
+    </message>
+    <message>
+        <source>Error slope now</source>
+        <translation>当前误差斜率</translation>
+    </message>
+    <message>
+        <source>Heat slope now</source>
+        <translation>当前温度斜率</translation>
+    </message>
+    <message>
+        <source>steady</source>
+        <translation>稳定</translation>
+    </message>
+    <message>
+        <source>still moving</source>
+        <translation>仍在变化</translation>
+    </message>
+    <message>
+        <source>Samples lost</source>
+        <translation>丢失的采样</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>Every sample of the plan was stored.</source>
+        <translation>计划中的每个采样均已存储。</translation>
+    </message>
+    <message>
+        <source>harmless</source>
+        <translation>无影响</translation>
+    </message>
+    <message>
+        <source>The longest time without a sample was %1 of machine time. Temperatures change over minutes: the model is the same without them. It stays in the report.</source>
+        <translation>最长有 %1 机床时间没有采样。温度以分钟计变化，缺少这些采样不影响模型。报告中会注明。</translation>
+    </message>
+    <message>
+        <source>a part is missing</source>
+        <translation>缺少一段</translation>
+    </message>
+    <message>
+        <source>gap of %1</source>
+        <translation>间断 %1</translation>
+    </message>
+    <message>
+        <source>Nothing is known about %1 of machine time. The model does not hold what happened then; a new run is better if the errors moved meanwhile.</source>
+        <translation>有 %1 机床时间没有任何信息。模型不包含期间发生的变化；若期间误差有变化，最好重新运行。</translation>
+    </message>
+    <message>
+        <source>No run yet</source>
+        <translation>尚无运行</translation>
+    </message>
+    <message>
+        <source>Plan</source>
+        <translation>计划</translation>
+    </message>
+    <message>
+        <source>spindle speed in rpm over time</source>
+        <translation>主轴转速（r/min）随时间的变化</translation>
+    </message>
+    <message>
+        <source>Step %1</source>
+        <translation>步骤 %1</translation>
+    </message>
+    <message>
+        <source>Duration</source>
+        <translation>时长</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>转速</translation>
+    </message>
+    <message>
+        <source>Axes</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>Coolant</source>
+        <translation>冷却液</translation>
+    </message>
+    <message>
+        <source>Sample every</source>
+        <translation>采样间隔</translation>
+    </message>
+    <message>
+        <source>Measure every</source>
+        <translation>测量间隔</translation>
+    </message>
+    <message>
+        <source>Blue ticks under the plan: here the machine goes to the measuring position.</source>
+        <translation>计划下方的蓝色刻度：机床在此处移动到测量位置。</translation>
+    </message>
+    <message>
+        <source> min</source>
+        <translation> min</translation>
+    </message>
+    <message>
+        <source> rpm</source>
+        <translation> r/min</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>on</source>
+        <translation>开</translation>
+    </message>
+    <message>
+        <source>Add step</source>
+        <translation>添加步骤</translation>
+    </message>
+    <message>
+        <source>Remove the selected step</source>
+        <translation>删除所选步骤</translation>
+    </message>
+    <message>
+        <source>run the path</source>
+        <translation>沿路径运动</translation>
+    </message>
+    <message>
+        <source>stand still</source>
+        <translation>静止</translation>
+    </message>
+    <message>
+        <source>Choose a plan</source>
+        <translation>选择计划</translation>
+    </message>
+    <message>
+        <source>Preset plans</source>
+        <translation>预设计划</translation>
+    </message>
+    <message>
+        <source>Known after the first run of this machine</source>
+        <translation>该机床首次运行后可知</translation>
+    </message>
+    <message>
+        <source>Step %1 of %2</source>
+        <translation>步骤 %1 / %2</translation>
+    </message>
+</context>
+</TS>
