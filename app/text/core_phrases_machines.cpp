@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 300> machines = {{
+constexpr std::array<const char*, 302> machines = {{
     QT_TRANSLATE_NOOP("core", "segments or points of the axis"),
     QT_TRANSLATE_NOOP("core", "the axis table near %1 mm"),
     QT_TRANSLATE_NOOP("core", "positions or images that fall"),
@@ -311,6 +311,8 @@ constexpr std::array<const char*, 300> machines = {{
     QT_TRANSLATE_NOOP("core", "the channels that %1 and %2 share"),
     QT_TRANSLATE_NOOP("core", "the recording and the description"),
     QT_TRANSLATE_NOOP("core", "the machine is not at the measuring position"),
+    QT_TRANSLATE_NOOP("core", "the controller does not answer"),
+    QT_TRANSLATE_NOOP("core", "the controller applies %1 um in %2 where %3 um was written: something else compensates"),
     QT_TRANSLATE_NOOP("core", "the zero of the warm-up run cannot be restored"),
     QT_TRANSLATE_NOOP("core", "the machine of this job"),
     QT_TRANSLATE_NOOP("core", "serial %1 connected"),

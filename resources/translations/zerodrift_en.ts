@@ -5,46 +5,67 @@
     <name>zerodrift::desktop::AxisErrorsPresenter</name>
     <message numerus="yes">
         <source>%1: %n target(s)</source>
-        <translation><numerusform>%1: %n target</numerusform><numerusform>%1: %n targets</numerusform></translation>
+        <translation>
+            <numerusform>%1: %n target</numerusform>
+            <numerusform>%1: %n targets</numerusform>
+        </translation>
     </message>
     <message numerus="yes">
         <source>%n run(s)</source>
-        <translation><numerusform>%n run</numerusform><numerusform>%n runs</numerusform></translation>
+        <translation>
+            <numerusform>%n run</numerusform>
+            <numerusform>%n runs</numerusform>
+        </translation>
     </message>
 </context>
 <context>
     <name>zerodrift::desktop::MapEditor</name>
     <message numerus="yes">
         <source>no %1 without %2 and %n more</source>
-        <translation><numerusform>no %1 without %2 and %n more</numerusform><numerusform>no %1 without %2 and %n more</numerusform></translation>
+        <translation>
+            <numerusform>no %1 without %2 and %n more</numerusform>
+            <numerusform>no %1 without %2 and %n more</numerusform>
+        </translation>
     </message>
 </context>
 <context>
     <name>zerodrift::desktop::UploadPresenter</name>
     <message numerus="yes">
         <source>%n register(s)</source>
-        <translation><numerusform>%n register</numerusform><numerusform>%n registers</numerusform></translation>
+        <translation>
+            <numerusform>%n register</numerusform>
+            <numerusform>%n registers</numerusform>
+        </translation>
     </message>
 </context>
 <context>
     <name>zerodrift::ui::MachinePage</name>
     <message numerus="yes">
         <source>%n to check</source>
-        <translation><numerusform>%n to check</numerusform><numerusform>%n to check</numerusform></translation>
+        <translation>
+            <numerusform>%n to check</numerusform>
+            <numerusform>%n to check</numerusform>
+        </translation>
     </message>
 </context>
 <context>
     <name>zerodrift::ui::PhysicsPage</name>
     <message numerus="yes">
         <source>with %n adopted</source>
-        <translation><numerusform>with %n adopted</numerusform><numerusform>with %n adopted</numerusform></translation>
+        <translation>
+            <numerusform>with %n adopted</numerusform>
+            <numerusform>with %n adopted</numerusform>
+        </translation>
     </message>
 </context>
 <context>
     <name>zerodrift::ui::RunView</name>
     <message numerus="yes">
         <source>%n channels</source>
-        <translation><numerusform>%n channel</numerusform><numerusform>%n channels</numerusform></translation>
+        <translation>
+            <numerusform>%n channel</numerusform>
+            <numerusform>%n channels</numerusform>
+        </translation>
     </message>
 </context>
 </TS>

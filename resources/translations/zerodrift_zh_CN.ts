@@ -3377,6 +3377,14 @@
         <source>%1; one cycle cannot rank them (a second speed would), so fits on the first few of them are averaged, and what the run leaves open is filled by how machines are built</source>
         <translation>%1；仅一个循环无法排序（需要第二种转速），因此对其中前几个的拟合取平均，运行未能确定的部分按机床的一般构造补充</translation>
     </message>
+    <message>
+        <source>the controller does not answer</source>
+        <translation>控制器没有应答</translation>
+    </message>
+    <message>
+        <source>the controller applies %1 um in %2 where %3 um was written: something else compensates</source>
+        <translation>控制器在 %2 方向施加了 %1 um，而写入的是 %3 um：另有补偿在起作用</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4215,10 +4223,6 @@
     <message>
         <source>Calibrating</source>
         <translation>正在标定</translation>
-    </message>
-    <message>
-        <source>%1 (mm, deg)</source>
-        <translation>%1（mm，°）</translation>
     </message>
     <message>
         <source>Connect a machine and start the commissioning first.</source>
@@ -5511,12 +5515,12 @@
         <translation>%1 可移动 ±%2 mm；工作区已清空。</translation>
     </message>
     <message>
-        <source>First all axes go to the measuring position: %1.</source>
-        <translation>所有轴先移动到测量位置：%1。</translation>
+        <source>First the machine drives to %1; an axis not named here stays where it is.</source>
+        <translation>机床先移动到 %1；这里没有列出的轴保持不动。</translation>
     </message>
     <message>
-        <source>Each camera&apos;s moves are confirmed by themselves.</source>
-        <translation>每台相机的移动需单独确认。</translation>
+        <source>Before the next camera is calibrated, you are asked again.</source>
+        <translation>标定下一台相机之前会再次询问。</translation>
     </message>
 </context>
 <context>

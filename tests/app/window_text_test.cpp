@@ -174,6 +174,8 @@ class WindowTextTest : public QObject {
       const auto texts = [&scene](MainWindow& window) {
         QVector<QPair<QString, QStringList>> all;
         for (const QWidget* widget : window.currentPage()->findChildren<QWidget*>()) {
+          // What is hidden is said when it is shown.
+          if (!widget->isVisible()) continue;
           if (const QStringList said = textsOf(widget); !said.isEmpty()) all.append({nameOf(widget), said});
         }
         for (const QWidget* widget : window.rail()->findChildren<QWidget*>())

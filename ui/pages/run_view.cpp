@@ -259,10 +259,11 @@ void RunView::retranslate() {
   m_temperatureCard->setTitle(tr("Temperatures"));
   m_temperatureCard->setSubtitle(tr("%n channels", nullptr, static_cast<int>(m_temperatureTable->rows().size())));
   m_span->setItems({tr("10 min"), tr("1 h"), tr("All")});
-  m_errorTable->setHeaders(tr("Channel"), tr("Value"), tr("Uncertainty"));
+  m_errorTable->setHeaders(tr("Channel"), tr("Value"), QStringLiteral("±"));
   m_temperatureTable->setHeaders(tr("Channel"), tr("Value"), tr("State"));
   m_camera->setPlaceholder(tr("No picture yet"));
   for (LivePlot* plot : {m_temperatures, m_errors, m_inputs}) plot->setPlaceholder(tr("Waiting for the first sample"));
+  showTrouble();
 }
 
 }  // namespace zerodrift::ui
