@@ -194,9 +194,9 @@ class Loop {
   CompensatorSummary m_summary;
   double m_last_good_s = 0.0;
   std::optional<double> m_foreign_since_s;  // machine time
-  std::optional<double> m_beat;  // the controller's, as last read
-  double m_beat_s = 0.0;         // when it changed
-  bool m_beats = false;          // it has been seen to change
+  std::optional<double> m_beat;             // the controller's, as last read
+  double m_beat_s = 0.0;                    // when it changed
+  bool m_beats = false;                     // it has been seen to change
 };
 
 }  // namespace

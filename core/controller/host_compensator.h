@@ -23,7 +23,7 @@ struct HostCompensatorOptions {
   double period_s = 1.0;             // host seconds
   std::optional<double> duration_s;  // host seconds; none: until stopped
   double give_up_s = 60.0;           // host seconds without the machine before it ends with the link's error
-  double silence_s = 3.0;  // host seconds its heartbeat may stand still; a controller that never beats is not watched
+  double silence_s = 3.0;   // host seconds its heartbeat may stand still; a controller that never beats is not watched
   double foreign_um = 2.0;  // applied beside what is written, for foreign_s of the machine's time: something else moves
   double foreign_s = 60.0;
   compensation::FollowerOptions follower;

@@ -47,9 +47,7 @@ class Watch {
     m_there = stands_there(turn.turn);
     if (!m_there) ++m_moves;
     turn.left = std::exchange(m_sample, std::nullopt);
-    turn.not_measured = turn.turn.link_lost                  ? no_answer
-                        : m_thread.joinable() && !m_there ? elsewhere
-                                                          : m_why;
+    turn.not_measured = turn.turn.link_lost ? no_answer : m_thread.joinable() && !m_there ? elsewhere : m_why;
     if (m_there) m_arrived.notify_all();
   }
 

@@ -123,8 +123,8 @@ void CompensatorPresenter::drain() {
     m_state.notMeasured = bench().inWords(live.not_measured);
     m_state.reasons.clear();
     for (const auto& reason : turn.output.reasons) m_state.reasons << bench().inWords(reason);
-    m_state.good = !turn.link_lost && turn.switch_on && !turn.foreign &&
-                   turn.output.mode == compensation::FollowerMode::following;
+    m_state.good =
+        !turn.link_lost && turn.switch_on && !turn.foreign && turn.output.mode == compensation::FollowerMode::following;
     if (turn.link_lost) {
       ++m_state.lostTurns;
       m_state.doing = tr("no answer");
