@@ -49,6 +49,7 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
 
 void RunPresenter::languageChanged() {
   themeChanged();
+  m_shown = 0;  // the finished run is told again, in the language there is now
   Presenter::languageChanged();
 }
 

@@ -3,25 +3,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
+#include "core/vision/backdrop_sheet.h"
 #include "core/vision/opencv_image.h"
 
 namespace zerodrift::vision {
+namespace backdrop {
 namespace {
 
-constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-constexpr int clipped_level = 252;
 constexpr double least_backdrop_move_px = 2.0;  // below it the target and what stands behind are not told apart
 constexpr std::size_t least_moved = 3;
-constexpr double light_length_px = 300.0;
-constexpr int light_step_px = 4;  // every fourth pixel of every fourth row tells the light well enough
-constexpr int light_rounds_behind = 4;
-constexpr std::size_t least_light_pixels = 500;
-constexpr double light_prior = 30.0;      // pixels' worth, that the light is as it was: an even backdrop cannot tell
-constexpr double same_light = 3.0;        // of the noise, that the still parts may differ by: else they moved
 constexpr double widest_reach_px = 80.0;  // beyond the region; further off it is not followed
 constexpr int squares_window_px = 5;      // over which squares are averaged
 constexpr float largest_backdrop_square = 50.0f;
@@ -39,184 +31,10 @@ constexpr float far_prior = 4.0f;
 constexpr double opacity_window_px = 0.8;  // blur of the products: odd across the outline, so it moves nothing
 constexpr double backdrop_blur_px = 1.0;   // against the noise; it is out of focus anyway
 constexpr double least_part = 0.02;        // of the template's pixels on either side
-constexpr float shot_noise_grey = 128.0f;
 constexpr float usual_read = 25.0f;
-
-bool is_known(float value) {
-  return !std::isnan(value);
-}
-
-// The light of a frame against the template's: gain, its slopes, offset.
-struct FrameLight {
-  Eigen::Vector4d factors{1.0, 0.0, 0.0, 0.0};
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-
-  float undone(double level, double x, double y) const {
-    const Eigen::Vector2d w = (Eigen::Vector2d(x, y) - middle) / light_length_px;
-    const double gain = factors(0) + factors(1) * w(0) + factors(2) * w(1);
-    return gain > 0.1 ? static_cast<float>((level - factors(3)) / gain) : unknown;
-  }
-};
-
-struct LitFrame : RegisteredFrame {
-  FrameLight light;
-};
-
-// The template's pixels with their margin, as the sheet on which everything below is drawn.
-class Sheet {
- public:
-  Sheet(const GrayImage& picture, const Region& region, const PixelPoint& point)
-      : m_picture(picture),
-        m_at{region.x - template_margin_px, region.y - template_margin_px, region.width + 2 * template_margin_px,
-             region.height + 2 * template_margin_px},
-        m_point(point.x_px, point.y_px) {}
-
-  const Region& at() const { return m_at; }
-  int width() const { return m_at.width; }
-  int height() const { return m_at.height; }
-
-  /// Where a pixel of the sheet is in a frame.
-  Eigen::Vector2d in_frame(int column, int row, const LitFrame& frame) const {
-    const Eigen::Vector2d w = Eigen::Vector2d(m_at.x + column, m_at.y + row) - m_point;
-    const Eigen::Vector2d& s = frame.displacement_px;
-    const Eigen::Vector2d bent = frame.lens.per_px2 * (2.0 * w.dot(s) * w + w.squaredNorm() * s);
-    return m_point + s + frame.linear * w + bent;
-  }
-  /// And back, on the sheet or beside it; the lens does not matter there.
-  Eigen::Vector2d on_sheet(double x, double y, const LitFrame& frame, const Eigen::Matrix2d& back) const {
-    const Eigen::Vector2d w = back * (Eigen::Vector2d(x, y) - m_point - frame.displacement_px);
-    return w + m_point - Eigen::Vector2d(m_at.x, m_at.y);
-  }
-  FloatImage of_template() const {
-    FloatImage out = crop(m_picture, m_at);
-    forget_bad(m_picture, out);
-    return out;
-  }
-
-  /// What each pixel of the sheet has become in the frame.
-  FloatImage travelled(const LitFrame& frame) const {
-    const int extra =
-        12 +
-        static_cast<int>(std::ceil((frame.linear - Eigen::Matrix2d::Identity()).norm() * std::max(width(), height())));
-    const int dx = static_cast<int>(std::lround(frame.displacement_px.x()));
-    const int dy = static_cast<int>(std::lround(frame.displacement_px.y()));
-    const Region patch{m_at.x + dx - extra, m_at.y + dy - extra, width() + 2 * extra, height() + 2 * extra};
-    const SplineImage spline(crop(*frame.image, patch));
-    FloatImage out(width(), height());
-    const std::size_t n = static_cast<std::size_t>(width());
-    std::vector<int> places(n);
-    std::vector<float> fx(n), fy(n);
-    for (int row = 0; row < height(); ++row) {
-      for (int column = 0; column < width(); ++column) {
-        const Eigen::Vector2d seen = in_frame(column, row, frame) - Eigen::Vector2d(patch.x, patch.y);
-        const int x = std::clamp(static_cast<int>(std::floor(seen.x())), 2, patch.width - SplineImage::reach_after);
-        const int y = std::clamp(static_cast<int>(std::floor(seen.y())), 2, patch.height - SplineImage::reach_after);
-        places[column] = y * patch.width + x;
-        fx[column] = static_cast<float>(std::clamp(seen.x() - x, 0.0, 1.0));
-        fy[column] = static_cast<float>(std::clamp(seen.y() - y, 0.0, 1.0));
-      }
-      spline.sample(places.data(), fx.data(), fy.data(), width(), out.row(row));
-      for (int column = 0; column < width(); ++column) {
-        const int x = patch.x + places[column] % patch.width;
-        const int y = patch.y + places[column] / patch.width;
-        out.row(row)[column] =
-            usable(*frame.image, x, y) ? frame.light.undone(double{out.row(row)[column]}, x, y) : unknown;
-      }
-    }
-    return out;
-  }
-
-  static bool usable(const GrayImage& image, int x, int y) {
-    if (x < 0 || y < 0 || x + 1 >= image.width || y + 1 >= image.height) return false;
-    return std::max({image.at(x, y), image.at(x + 1, y), image.at(x, y + 1), image.at(x + 1, y + 1)}) < clipped_level;
-  }
-
- private:
-  void forget_bad(const GrayImage& image, FloatImage& levels) const {
-    for (int row = 0; row < height(); ++row) {
-      for (int column = 0; column < width(); ++column) {
-        if (!usable(image, m_at.x + column, m_at.y + row)) levels.row(row)[column] = unknown;
-      }
-    }
-  }
-
-  const GrayImage& m_picture;
-  Region m_at;
-  Eigen::Vector2d m_point;
-};
 
 cv::Mat floats_of(const FloatImage& image) {
   return cv::Mat(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
-}
-
-float middle_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Standard deviation of the noise in an image of differences, by its second differences along both axes (Immerkaer,
-// Computer Vision and Image Understanding 64 (1996) 300), their median.
-float noise_of(const cv::Mat& difference) {
-  const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
-  cv::Mat high;
-  cv::filter2D(difference, high, CV_32F, kernel);
-  std::vector<float> sizes;
-  sizes.reserve(high.total());
-  for (std::size_t k = 0; k < high.total(); ++k) sizes.push_back(std::abs(high.ptr<float>()[k]));
-  return 1.4826f * middle_of(sizes) / 6.0f + 0.05f;
-}
-
-// Noise of a picture at its own levels.
-double noise_in(const GrayImage& image) {
-  cv::Mat levels;
-  mat_view(image).convertTo(levels, CV_32F);
-  return double{noise_of(levels)};
-}
-
-// From what stands still beside the target in both pictures. Nothing when that has changed in itself.
-std::optional<FrameLight> light_of(const GrayImage& picture, const Region& sheet, const RegisteredFrame& frame) {
-  FrameLight out;
-  out.middle = {picture.width / 2.0, picture.height / 2.0};
-  std::vector<Eigen::Vector4d> rows;
-  std::vector<double> levels, weights;
-  const auto on_target = [&](double x, double y) {
-    return x >= sheet.x && y >= sheet.y && x < sheet.x + sheet.width && y < sheet.y + sheet.height;
-  };
-  for (int y = 0; y < picture.height; y += light_step_px) {
-    for (int x = 0; x < picture.width; x += light_step_px) {
-      if (on_target(x, y) || on_target(x - frame.displacement_px.x(), y - frame.displacement_px.y())) continue;
-      const double level = picture.at(x, y);
-      if (level >= clipped_level || frame.image->at(x, y) >= clipped_level) continue;
-      const Eigen::Vector2d w = (Eigen::Vector2d(x, y) - out.middle) / light_length_px;
-      rows.emplace_back(level, level * w(0), level * w(1), shot_noise_grey);
-      levels.push_back(frame.image->at(x, y));
-    }
-  }
-  if (rows.size() < least_light_pixels) return out;  // a target that fills the picture: taken as unchanged
-  weights.assign(rows.size(), 1.0);
-  std::vector<float> sizes(rows.size());
-  double scale = 0.0;
-  for (int round = 0; round < light_rounds_behind; ++round) {
-    Eigen::Matrix4d normal = light_prior * shot_noise_grey * shot_noise_grey * Eigen::Matrix4d::Identity();
-    Eigen::Vector4d right = normal.col(0);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      normal += weights[k] * rows[k] * rows[k].transpose();
-      right += weights[k] * levels[k] * rows[k];
-    }
-    out.factors = normal.ldlt().solve(right);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      sizes[k] = static_cast<float>(std::abs(levels[k] - rows[k].dot(out.factors)));
-    }
-    std::vector<float> sorted = sizes;
-    scale = 1.4826 * double{middle_of(sorted)} + 0.1;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const double u = double{sizes[k]} / (4.0 * scale);
-      weights[k] = u < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
-    }
-  }
-  out.factors(3) *= shot_noise_grey;
-  return scale < same_light * noise_in(*frame.image) ? std::optional(out) : std::nullopt;
 }
 
 // Mean square of what a frame differs from the template by, over its noise, around each pixel.
@@ -507,6 +325,7 @@ class Learning {
 };
 
 }  // namespace
+}  // namespace backdrop
 
 float Backdrop::at(float x_px, float y_px) const {
   const float x = std::clamp(x_px - static_cast<float>(area.x), 0.0f, static_cast<float>(levels.width) - 1.001f);
@@ -522,6 +341,7 @@ float Backdrop::at(float x_px, float y_px) const {
 
 std::shared_ptr<const Backdrop> learn_backdrop(const GrayImage& picture, const Region& region, const PixelPoint& point,
                                                const std::vector<RegisteredFrame>& frames) {
+  using namespace backdrop;
   const Sheet sheet(picture, region, point);
   std::vector<LitFrame> away;
   for (const RegisteredFrame& one : frames) {

@@ -3,8 +3,6 @@
 #include <QApplication>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QSettings>
-#include <QTemporaryDir>
 #include <QTest>
 #include <QTimer>
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "app/desktop/application.h"
 #include "core/analysis/fit.h"
 #include "core/recording/recording.h"
+#include "tests/app/test_home.h"
 #include "ui/pages/compensator_page.h"
 
 using zerodrift::desktop::Application;
@@ -44,19 +43,12 @@ zerodrift::Result<zerodrift::analysis::Model> model() {
 
 }  // namespace
 
-class CompensatorTest : public QObject {
+class CompensatorTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
  private Q_SLOTS:
-  void initTestCase() {
-    QVERIFY(m_folder.isValid());
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
-    QSettings::setDefaultFormat(QSettings::NativeFormat);
-    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
-  }
-
   void compensatesAndMeasuresWhatIsLeft() {
-    Application application(*m_theme);
+    Application application(m_theme);
     application.show();
     DemoOptions demo;
     demo.program = QStringLiteral(ZERODRIFT_BIN_DIR "/zerodrift-machine");
@@ -137,9 +129,6 @@ class CompensatorTest : public QObject {
     });
     timer->start(50);
   }
-
-  QTemporaryDir m_folder;
-  std::unique_ptr<zerodrift::ui::Theme> m_theme;
 };
 
 QTEST_MAIN(CompensatorTest)

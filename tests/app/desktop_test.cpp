@@ -2,8 +2,6 @@
 
 #include <QApplication>
 #include <QFile>
-#include <QSettings>
-#include <QTemporaryDir>
 #include <QTest>
 
 #include "app/desktop/application.h"
@@ -13,6 +11,7 @@
 #include "app/desktop/steps/axis_errors_presenter.h"
 #include "app/desktop/upload_view.h"
 #include "core/controller/table_words.h"
+#include "tests/app/test_home.h"
 #include "ui/pages/axis_page.h"
 #include "ui/pages/machine_page.h"
 #include "ui/widgets/empty_state.h"
@@ -21,20 +20,13 @@ using zerodrift::desktop::Application;
 using zerodrift::ui::EmptyState;
 using zerodrift::ui::ProblemKind;
 
-class DesktopTest : public QObject {
+class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
  private Q_SLOTS:
-  void initTestCase() {
-    QVERIFY(m_folder.isValid());
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
-    QSettings::setDefaultFormat(QSettings::NativeFormat);
-    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
-  }
-
   /// Every page opens without a job, has its head, and the pages of later steps say what is needed first.
   void emptyWorkbench() {
-    Application application(*m_theme);
+    Application application(m_theme);
     application.show();
     QCOMPARE(application.presenters().size(), std::size_t{11});
     for (auto* presenter : application.presenters()) {
@@ -55,7 +47,7 @@ class DesktopTest : public QObject {
 
   /// A job without a single artefact: later pages are still empty, none fails.
   void newJob() {
-    Application application(*m_theme);
+    Application application(m_theme);
     const auto path = m_folder.filePath(QStringLiteral("new.zdj")).toStdString();
     QVERIFY(application.bench().createJob(path).has_value());
     for (auto* presenter : application.presenters()) {
@@ -89,7 +81,7 @@ class DesktopTest : public QObject {
   /// A list of registers becomes the draft, is edited, saved, and then is what the profile uses.
   void registerMap() {
     using namespace zerodrift;
-    Application application(*m_theme);
+    Application application(m_theme);
     const auto file = [&](const char* name, const QByteArray& content) {
       QFile out(m_folder.filePath(QString::fromLatin1(name)));
       if (out.open(QIODevice::WriteOnly)) out.write(content);
@@ -130,7 +122,7 @@ class DesktopTest : public QObject {
   /// Two axes in one file, another maker's names: read, shown, and the second axis on request.
   void laserTable() {
     using namespace zerodrift;
-    Application application(*m_theme);
+    Application application(m_theme);
     auto* presenter = qobject_cast<desktop::AxisErrorsPresenter*>(application.presenter(QStringLiteral("axis_errors")));
     presenter->setAsking(false);
     const auto write = [&](const char* name, const QByteArray& content) {
@@ -189,7 +181,7 @@ class DesktopTest : public QObject {
     QVERIFY(file.open(QIODevice::WriteOnly));
     file.write(content);
     file.close();
-    Application application(*m_theme);
+    Application application(m_theme);
     application.show();
     application.openJob(path);
     const auto& problem = application.presenters().front()->page()->problem();
@@ -201,7 +193,7 @@ class DesktopTest : public QObject {
 
   /// The banner of a failure goes when the next try succeeds.
   void bannerGoes() {
-    Application application(*m_theme);
+    Application application(m_theme);
     application.openJob(m_folder.filePath(QStringLiteral("missing.zdj")));
     const auto* page = application.presenters().front()->page();
     QVERIFY(!page->problem().sentence.isEmpty());
@@ -223,9 +215,6 @@ class DesktopTest : public QObject {
     for (qsizetype i = 100; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 37);
     return bytes;
   }
-
-  QTemporaryDir m_folder;
-  std::unique_ptr<zerodrift::ui::Theme> m_theme;
 };
 
 QTEST_MAIN(DesktopTest)

@@ -9,7 +9,6 @@
 #include <QProcess>
 #include <QSettings>
 #include <QShortcut>
-#include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,7 @@
 #include "app/desktop/steps/machine_presenter.h"
 #include "core/base/resources.h"
 #include "core/flow/flow.h"
+#include "tests/app/test_home.h"
 #include "ui/pages/fit_page.h"
 #include "ui/pages/sensors_page.h"
 #include "ui/pages/warmup_page.h"
@@ -32,17 +32,11 @@ using zerodrift::desktop::FileKind;
 using zerodrift::desktop::FileOpener;
 using zerodrift::desktop::kind_of_file;
 
-class HabitsTest : public QObject {
+class HabitsTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
  private Q_SLOTS:
-  void initTestCase() {
-    QVERIFY(m_folder.isValid());
-    qputenv("HOME", m_folder.path().toUtf8());  // jobs are made in the user's documents
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
-    QSettings::setDefaultFormat(QSettings::NativeFormat);
-    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
-  }
+  void initTestCase() { qputenv("HOME", m_folder.path().toUtf8()); }  // jobs are made in the user's documents
 
   void fileKinds() {
     QCOMPARE(kind_of_file(write("a.zdj", "")), FileKind::job);
@@ -69,7 +63,7 @@ class HabitsTest : public QObject {
     const QByteArray before = hash();
     QString job;
     {
-      Application application(*m_theme);
+      Application application(m_theme);
       application.openSample();
       QVERIFY2(application.presenters().front()->page()->problem().sentence.isEmpty(),
                qPrintable(application.presenters().front()->page()->problem().sentence));
@@ -100,7 +94,7 @@ class HabitsTest : public QObject {
 
   /// A recording of another logger becomes the run of a new job; sensors and fit follow without any machine.
   void recordingIsDropped() {
-    Application application(*m_theme);
+    Application application(m_theme);
     application.findChild<FileOpener*>()->setAsking(false);
     application.openFiles({write("old run.csv", warm_up())});
     QVERIFY(application.bench().job() != nullptr);
@@ -119,7 +113,7 @@ class HabitsTest : public QObject {
   }
 
   void whatCannotBeOpenedIsSaid() {
-    Application application(*m_theme);
+    Application application(m_theme);
     const auto said = [&] { return application.window().currentPage()->problem().sentence; };
     application.openFiles({write("picture.png", "")});
     QVERIFY2(said().contains(QStringLiteral("picture.png")), qPrintable(said()));
@@ -136,13 +130,13 @@ class HabitsTest : public QObject {
   void windowIsAsItWasLeft() {
     const QSize left(1333, 777);
     {
-      Application application(*m_theme);
+      Application application(m_theme);
       application.show();
       application.window().resize(left);
       application.window().setLogVisible(true);
       QVERIFY(application.window().close());
     }
-    Application again(*m_theme);
+    Application again(m_theme);
     again.show();
     QCOMPARE(again.window().size(), left);
     QVERIFY(again.window().isLogVisible());
@@ -152,7 +146,7 @@ class HabitsTest : public QObject {
   void recentJobsAreRemembered() {
     const QString path = m_folder.filePath(QStringLiteral("remembered.zdj"));
     {
-      Application application(*m_theme);
+      Application application(m_theme);
       QVERIFY(zerodrift::commissioning::Job::create(path.toStdString()).has_value());
       application.openFiles({path});
     }
@@ -163,7 +157,7 @@ class HabitsTest : public QObject {
 
   /// Every key of the window stands in the list that Shift+F1 shows.
   void keysAreListed() {
-    Application application(*m_theme);
+    Application application(m_theme);
     application.show();
     application.window().openHelp(QStringLiteral("keys"));
     const QString text = application.window().findChild<zerodrift::ui::HelpPanel*>()->text();
@@ -264,9 +258,6 @@ class HabitsTest : public QObject {
     idle();
     QCOMPARE(chosen(), before);
   }
-
-  QTemporaryDir m_folder;
-  std::unique_ptr<zerodrift::ui::Theme> m_theme;
 };
 
 QTEST_MAIN(HabitsTest)

@@ -6,13 +6,12 @@
 #include <QFile>
 #include <QProcess>
 #include <QPushButton>
-#include <QSettings>
 #include <QSignalSpy>
-#include <QTemporaryDir>
 #include <QTest>
 
 #include "app/desktop/application.h"
 #include "core/flow/devices.h"
+#include "tests/app/test_home.h"
 #include "ui/pages/calibrate_page.h"
 #include "ui/widgets/camera_view.h"
 
@@ -78,20 +77,13 @@ QRectF drawn_on_the_picture(CalibratePage* page, const QRectF& box, const QSizeF
 
 }  // namespace
 
-class SafetyTest : public QObject {
+class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
  private Q_SLOTS:
-  void initTestCase() {
-    QVERIFY(m_folder.isValid());
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
-    QSettings::setDefaultFormat(QSettings::NativeFormat);
-    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
-  }
-
   /// One consent, one sequence of moves: the next camera asks again, and so does measuring again.
   void consentIsForOneSequence() {
-    Application application(*m_theme);
+    Application application(m_theme);
     application.show();
     DemoOptions demo;
     demo.program = programs + QStringLiteral("/zerodrift-machine");
@@ -185,10 +177,6 @@ class SafetyTest : public QObject {
     if (!hard) QCOMPARE(window.exitCode(), 128 + 15);
     QTRY_VERIFY_WITH_TIMEOUT(!lives(machine), 10000);
   }
-
- private:
-  QTemporaryDir m_folder;
-  std::unique_ptr<zerodrift::ui::Theme> m_theme;
 };
 
 QTEST_MAIN(SafetyTest)

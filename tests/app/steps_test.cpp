@@ -1,8 +1,6 @@
 // Presenters over a job whose run is made up here: what was tried stays, what was judged is the job's.
 
 #include <QApplication>
-#include <QSettings>
-#include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include "core/flow/steps/sensors_step.h"
 #include "core/flow/steps/verify_step.h"
 #include "core/recording/csv.h"
+#include "tests/app/test_home.h"
 #include "ui/pages/fit_page.h"
 #include "ui/pages/verify_page.h"
 
@@ -53,19 +52,12 @@ SeriesId record(Job& job, const char* name, int rows, double left) {
 
 }  // namespace
 
-class StepsTest : public QObject {
+class StepsTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
  private Q_SLOTS:
-  void initTestCase() {
-    QVERIFY(m_folder.isValid());
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder.path());
-    QSettings::setDefaultFormat(QSettings::NativeFormat);
-    m_theme = std::make_unique<zerodrift::ui::Theme>(*qApp);
-  }
-
   void triedMethodsStay() {
-    Application application(*m_theme);
+    Application application(m_theme);
     QVERIFY(recorded(application));
     application.openPage(QStringLiteral("fit"));
     auto* page = qobject_cast<zerodrift::ui::FitPage*>(application.presenter(QStringLiteral("fit"))->page());
@@ -91,7 +83,7 @@ class StepsTest : public QObject {
   }
 
   void aNewerRunCorrectsTheModel() {
-    Application application(*m_theme);
+    Application application(m_theme);
     QVERIFY(recorded(application));
     application.openPage(QStringLiteral("fit"));
     auto* presenter = qobject_cast<zerodrift::desktop::FitPresenter*>(application.presenter(QStringLiteral("fit")));
@@ -115,7 +107,7 @@ class StepsTest : public QObject {
 
   /// Page, job and report name the same coefficient, also after the threshold was changed by hand.
   void oneCorrectionForPageAndReport() {
-    Application application(*m_theme);
+    Application application(m_theme);
     QVERIFY(recorded(application));
     auto& job = *application.bench().job();
     QVERIFY(put(job, "upload", {{"table", tableOf()}, {"sign_check", {{"passed", true}}}}, {}));
@@ -186,8 +178,6 @@ class StepsTest : public QObject {
     return sensors && application.bench().keep(*sensors).has_value();
   }
 
-  QTemporaryDir m_folder;
-  std::unique_ptr<zerodrift::ui::Theme> m_theme;
   int m_jobs = 0;
 };
 
