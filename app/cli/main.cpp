@@ -74,7 +74,7 @@ int run_command(zerodrift::cli::Cli& cli) {
 /// Commands that draw a report need fonts and a painter; without a display the offscreen platform gives them.
 std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
-  if (command != "commission" && command != "report" && command != "prove")
+  if (command != "commission" && command != "report" && command != "prove" && command != "bundle")
     return std::make_unique<QCoreApplication>(argc, argv);
   qputenv("QT_QPA_PLATFORM", "offscreen");
   // What the toolkit remarks about its surroundings is not for the reader of stderr.

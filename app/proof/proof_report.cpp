@@ -128,9 +128,9 @@ Section confusion_section(const Score& score) {
     ++index;
   }
   for (const auto& [truth, row] : cells) {
-    std::vector<std::string> texts = {truth};
+    std::vector<report::Cell> texts = {truth};
     for (const auto& column : columns) {
-      texts.push_back(row.count(column) != 0 ? std::to_string(row.at(column)) : "\u00b7");
+      texts.emplace_back(row.count(column) != 0 ? std::to_string(row.at(column)) : "\u00b7");
     }
     matrix.rows.push_back(std::move(texts));
   }

@@ -1,6 +1,10 @@
+#include <cctype>
+#include <cstdlib>
+
 #include "app/reporting/writers.h"
 #include "core/base/file.h"
 #include "core/recording/csv.h"
+#include "core/report/find_figure.h"
 
 namespace zerodrift::reporting {
 namespace {
@@ -19,10 +23,19 @@ const char* word_of(report::Verdict verdict) {
   return "";
 }
 
-/// A cell that no spreadsheet takes for a formula.
+bool is_plain_number(const std::string& text) {
+  if (text.empty() || std::isspace(static_cast<unsigned char>(text.front())) != 0) return false;
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return *end == '\0';
+}
+
+/// A cell that no spreadsheet takes for a formula, whoever entered its text.
 std::string harmless(const std::string& text) {
-  const bool number = !text.empty() && text.find_first_not_of("+-.0123456789eE") == std::string::npos;
-  const bool formula = !text.empty() && !number && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos;
+  const std::size_t first = text.find_first_not_of(" ");
+  const bool begins =
+      first != std::string::npos && std::string_view("=+-@\t\r\n").find(text[first]) != std::string_view::npos;
+  const bool formula = begins && text != "-" && !is_plain_number(text);
   return recording::cell_text(formula ? "'" + text : text);
 }
 
@@ -30,15 +43,20 @@ std::string harmless(const std::string& text) {
 
 std::string csv_of(const report::Report& report) {
   std::string out = "section,figure,label,value,unit,limit,verdict,artefact,detail\n";
+  for (const auto& [name, value] : report.header) out += "head,," + harmless(name) + "," + harmless(value) + ",,,,,\n";
   for (const auto& section : report.sections) {
+    report::Report one;
+    one.sections = {section};
+    for (const auto& f : report::all_figures(one)) {
+      const std::string artefact = f.trace.artefact + "#" + std::to_string(f.trace.id);
+      for (const auto& cell : {section.id, f.id, f.label, f.value, f.unit, f.limit}) out += harmless(cell) + ",";
+      out += std::string(word_of(f.verdict)) + "," + harmless(artefact) + "," + harmless(f.trace.detail) + "\n";
+    }
     for (const auto& block : section.blocks) {
-      const auto* figures = std::get_if<report::Figures>(&block);
-      if (figures == nullptr) continue;
-      for (const auto& f : figures->figures) {
-        const std::string artefact = f.trace.artefact + "#" + std::to_string(f.trace.id);
-        for (const auto& cell : {section.id, f.id, f.label, f.value, f.unit, f.limit}) out += harmless(cell) + ",";
-        out += std::string(word_of(f.verdict)) + "," + harmless(artefact) + "," + harmless(f.trace.detail) + "\n";
-      }
+      const auto* text = std::get_if<report::Text>(&block);
+      if (text == nullptr || !text->warning) continue;
+      out += section.id + ",," + harmless(text->text) + ",,,," + word_of(text->verdict) + "," +
+             harmless(text->trace.artefact) + "," + harmless(text->trace.detail) + "\n";
     }
   }
   return out;

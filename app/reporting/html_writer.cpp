@@ -1,13 +1,15 @@
 #include <QString>
+#include <set>
 
 #include "app/reporting/plot_data.h"
 #include "app/reporting/writers.h"
+#include "core/report/find_figure.h"
 
 namespace zerodrift::reporting {
 namespace {
 
 constexpr const char* style = R"(
-body{font:14px/1.5 Inter,"Noto Sans CJK SC","Noto Sans",sans-serif;color:#1c2530;background:#f3f5f7;margin:0}
+body{font:14px/1.5 Inter,"Noto Sans CJK SC","Microsoft YaHei","Noto Sans",sans-serif;color:#1c2530;background:#f3f5f7;margin:0}
 main{max-width:900px;margin:24px auto;background:#fff;border:1px solid #d9dfe5;border-radius:6px;padding:32px 40px}
 h1{font-size:24px;margin:0 0 8px}h2{font-size:18px;margin:32px 0 8px;border-bottom:1px solid #d9dfe5;padding-bottom:4px}
 h3{font-size:14px;margin:16px 0 4px}
@@ -18,15 +20,20 @@ h3{font-size:14px;margin:16px 0 4px}
 .figure small{color:#5f6e7c}.good{border-left:4px solid #2e8b57}.doubtful{border-left:4px solid #c77700}.bad{border-left:4px solid #c4314b}
 a.trace{color:inherit;text-decoration:none}a.trace:hover{text-decoration:underline}
 table{border-collapse:collapse;width:100%;font-size:12px;font-variant-numeric:tabular-nums}
-th,td{border-bottom:1px solid #d9dfe5;padding:3px 8px;text-align:left}th{color:#5f6e7c;font-weight:600}
+th,td{border-bottom:1px solid #d9dfe5;padding:3px 8px;text-align:left;overflow-wrap:anywhere}th{color:#5f6e7c;font-weight:600}
+td.bad{border-left:0;color:#b3263f;font-weight:600}
 .warning{border-left:4px solid #c77700;padding:4px 12px;background:#fff8ec}
 .warning.worst{border-left-color:#c4314b;background:#fdf0f2}
+.half{display:inline-block;width:49%;vertical-align:top}
+:target{background:#e3eefb}
 nav{margin:16px 0}nav a{margin-right:14px}footer{color:#5f6e7c;font-size:11px;margin-top:32px}
 svg{max-width:100%;height:auto}
+@media print{body{background:#fff}main{border:0;margin:0;max-width:none}}
 )";
 
+/// Whatever was entered by a person or came from a file is text and never markup.
 std::string escaped(const std::string& text) {
-  return QString::fromStdString(text).toHtmlEscaped().toStdString();
+  return QString::fromStdString(text).toHtmlEscaped().replace(QLatin1Char('\''), QLatin1String("&#39;")).toStdString();
 }
 
 const char* class_of(report::Verdict verdict) {
@@ -43,8 +50,14 @@ const char* class_of(report::Verdict verdict) {
   return "figure";
 }
 
-std::string trace_anchor(const report::Trace& trace) {
-  return trace.artefact + "-" + std::to_string(trace.id);
+std::string artefact_of(const report::Trace& trace) {
+  return trace.artefact + " #" + std::to_string(trace.id);
+}
+
+/// The value as a link to the line that says where it comes from.
+std::string linked(const std::string& id, const std::string& value, const report::Trace& trace) {
+  return "<a class=\"trace\" href=\"#trace-" + escaped(id) + "\" title=\"" +
+         escaped(artefact_of(trace) + ": " + trace.detail) + "\">" + escaped(value) + "</a>";
 }
 
 struct BlockHtml {
@@ -58,64 +71,82 @@ struct BlockHtml {
     std::string out = "<div class=\"figures\">\n";
     for (const auto& f : figures.figures) {
       out += std::string("<div class=\"") + class_of(f.verdict) + "\" id=\"" + escaped(f.id) + "\"><small>" +
-             escaped(f.label) + "</small><b><a class=\"trace\" href=\"#trace-" + escaped(trace_anchor(f.trace)) +
-             "\" title=\"" + escaped(f.trace.artefact + " #" + std::to_string(f.trace.id) + ": " + f.trace.detail) +
-             "\">" + escaped(f.value) + "</a> <small>" + escaped(f.unit) + "</small></b><small>" + escaped(f.limit) +
-             "</small></div>\n";
+             escaped(f.label) + "</small><b>" + linked(f.id, f.value, f.trace) + " <small>" + escaped(f.unit) +
+             "</small></b><small>" + escaped(f.limit) + "</small></div>\n";
     }
     return out + "</div>\n";
   }
 
   std::string operator()(const report::Table& table) const {
-    std::string out = "<h3>" + escaped(table.title) + "</h3>\n<table><thead><tr>";
+    std::string out = "<h3>" + escaped(table.title) + "</h3>\n<table id=\"" + escaped(table.id) + "\"><thead><tr>";
     for (const auto& cell : table.header) out += "<th>" + escaped(cell) + "</th>";
     out += "</tr></thead><tbody>\n";
     for (const auto& row : table.rows) {
       out += "<tr>";
-      for (const auto& cell : row) out += "<td>" + escaped(cell) + "</td>";
+      for (const auto& cell : row) {
+        out += cell.verdict == report::Verdict::bad ? "<td class=\"bad\"" : "<td";
+        if (!cell.id.empty()) out += " id=\"" + escaped(cell.id) + "\"";
+        out += ">" + (cell.id.empty() ? escaped(cell.text) : linked(cell.id, cell.text, cell.trace)) + "</td>";
+      }
       out += "</tr>\n";
     }
     return out + "</tbody></table>\n";
   }
 
   std::string operator()(const report::Plot& plot) const {
-    return "<h3>" + escaped(plot.title) + "</h3>\n" +
-           ui::reportPlotSvg(plot_data(plot), QSize(820, 300)).toStdString() + "\n";
+    const bool half = plot.width == report::Width::half;
+    return std::string(half ? "<div class=\"half\">" : "<div>") + "<h3>" + escaped(plot.title) + "</h3>\n" +
+           ui::reportPlotSvg(plot_data(plot), half ? QSize(410, 210) : QSize(820, 300)).toStdString() + "</div>\n";
+  }
+
+  std::string operator()(const report::HeatMap& map) const {
+    return "<h3>" + escaped(map.title) + "</h3>\n" + ui::reportMapSvg(map_data(map), QSize(820, 300)).toStdString() +
+           "\n";
   }
 };
 
-/// The artefacts behind the figures, so that each number's link has a target that says where it came from.
+std::string rows_in_words(const report::Trace& trace) {
+  std::string text;
+  for (const auto& row : trace.rows) {
+    text += (text.empty() ? "" : "; ") + QStringLiteral("series %1, row %2, %3 s, %4 = %5")
+                                             .arg(row.series)
+                                             .arg(row.row)
+                                             .arg(row.time_s, 0, 'f', 3)
+                                             .arg(QString::fromStdString(row.channel))
+                                             .arg(row.value)
+                                             .toStdString();
+  }
+  return text;
+}
+
+/// A line for each figure, so that its link has a target that says which artefact and which rows it came from.
 std::string traces_of(const report::Report& report) {
   std::string rows;
-  std::string last;
-  for (const auto& section : report.sections) {
-    for (const auto& block : section.blocks) {
-      const auto* figures = std::get_if<report::Figures>(&block);
-      if (figures == nullptr) continue;
-      for (const auto& f : figures->figures) {
-        const std::string anchor = trace_anchor(f.trace);
-        rows += "<tr" + (anchor == last ? "" : " id=\"trace-" + escaped(anchor) + "\"") + "><td><a href=\"#" +
-                escaped(f.id) + "\">" + escaped(f.id) + "</a></td><td>" + escaped(f.trace.artefact) + " #" +
-                std::to_string(f.trace.id) + "</td><td>" + escaped(f.trace.detail) + "</td></tr>\n";
-        last = anchor;
-      }
-    }
+  std::set<std::string> done;
+  for (const auto& f : report::all_figures(report)) {
+    if (!done.insert(f.id).second) continue;
+    rows += "<tr id=\"trace-" + escaped(f.id) + "\"><td><a href=\"#" + escaped(f.id) + "\">" + escaped(f.id) +
+            "</a></td><td>" + escaped(f.value + (f.unit.empty() ? "" : " " + f.unit)) + "</td><td>" +
+            escaped(artefact_of(f.trace)) + "</td><td>" + escaped(f.trace.detail) + "</td><td>" +
+            escaped(rows_in_words(f.trace)) + "</td></tr>\n";
   }
-  return "<h2>Where each figure comes from</h2>\n<table><tbody>\n" + rows + "</tbody></table>\n";
+  const std::string heading = report.origins.empty() ? "Where each figure comes from" : report.origins;
+  return "<h2 id=\"origins\">" + escaped(heading) + "</h2>\n<table><tbody>\n" + rows + "</tbody></table>\n";
 }
 
 }  // namespace
 
 std::string html_of(const report::Report& report) {
-  std::string out = "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>" + escaped(report.title) +
-                    "</title><style>" + style + "</style></head><body><main>\n<h1>" + escaped(report.title) +
-                    "</h1>\n<div class=\"head\">";
+  std::string out = "<!DOCTYPE html>\n<html lang=\"" + escaped(report.language) +
+                    "\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
+                    escaped(report.title) + "</title><style>" + style + "</style></head><body><main>\n<h1>" +
+                    escaped(report.title) + "</h1>\n<div class=\"head\">";
   for (const auto& [name, value] : report.header) {
     out += "<span>" + escaped(name) + "</span><span>" + escaped(value) + "</span>\n";
   }
   out += "</div>\n<nav>";
   for (const auto& section : report.sections) {
-    out += "<a href=\"#" + escaped(section.id) + "\">" + escaped(section.title) + "</a>";
+    out += "<a href=\"#" + escaped(section.id) + "\">" + escaped(section.title) + "</a>\n";
   }
   out += "</nav>\n";
   for (const auto& section : report.sections) {

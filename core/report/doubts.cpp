@@ -42,7 +42,7 @@ class Doubts {
 
   template <class... Args>
   void add(Verdict verdict, const char* detail, const char* words, const Args&... args) {
-    m_all.push_back({verdict, fmt::format(fmt::runtime(m_source.say(words)), args...), m_source.trace(m_kind, detail)});
+    m_all.push_back({verdict, m_source.tell(words, args...), m_source.trace(m_kind, detail)});
   }
 
   /// As pages judge: up to a quarter above the limit is doubtful, more is bad. Nothing for a value that is not there.
@@ -66,6 +66,14 @@ class Doubts {
   std::string m_kind;
   std::vector<Doubt> m_all;
 };
+
+void about_head(const Source& source, Doubts& doubts) {
+  doubts.about("head");
+  if (!source.header().engineer.empty()) return;
+  doubts.add(Verdict::doubtful, "engineer",
+             "Nobody is named as the engineer who did this work. Enter the name on the Report page, or give it to "
+             "commission as --engineer.");
+}
 
 void about_machine(Doubts& doubts) {
   const json* body = doubts.about("machine");
@@ -244,8 +252,9 @@ void about_verification(const Source& source, Doubts& doubts) {
 /// Results that were made from something which was made anew since. A step may have taken several of a kind, of which
 /// one must be the latest.
 void about_age(const Source& source, Doubts& doubts) {
-  for (const auto& [kind, artefact] : source.artefacts()) {
+  for (const auto& [kind, all] : source.artefacts()) {
     if (kind == "report") continue;  // an earlier report is no part of this one
+    const LoadedArtefact& artefact = all.back();
     std::map<std::string, bool> fresh;
     for (const auto& input : artefact.inputs) {
       const auto* latest = source.find(input.kind);
@@ -265,7 +274,7 @@ void about_writes(const Source& source, Doubts& doubts) {
   for (const auto& entry : source.audit()) {
     if (entry.result == "started" || entry.result == "done") continue;
     doubts.add(Verdict::doubtful, "audit", "A write to the machine was refused or failed at {}: {} {} ({}).", entry.utc,
-               entry.action, entry.subject, entry.result);
+               source.say(entry.action), source.say(entry.subject), source.say(entry.result));
   }
   if (!source.audit_is_whole()) {
     doubts.add(Verdict::bad, "audit", "The record of writes to the machine was changed afterwards.");
@@ -276,6 +285,7 @@ void about_writes(const Source& source, Doubts& doubts) {
 
 std::vector<Doubt> doubts_of(const Source& source) {
   Doubts doubts(source);
+  about_head(source, doubts);
   about_machine(doubts);
   about_calibration(doubts);
   about_run(source, "warmup", "Warm-up run", doubts);

@@ -35,27 +35,45 @@ std::string channel_in_words(const std::string& channel, const Labels& labels) {
   return channel;
 }
 
-std::string readable(const std::string& original, const Labels& labels) {
-  static const std::regex channels(R"(\b(T[0-9]+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)\b)");
+namespace {
+
+/// Units as people read them, and no zero with a sign.
+std::string with_units(const std::string& original) {
   static const std::regex micrometres(R"(\bum\b)");
   // A number of its own, not the one in "T17 C table drive".
   static const std::regex celsius(R"((^|[^A-Za-z0-9_.])([-+]?[0-9]+(\.[0-9]+)?) C\b)");
+  static const std::regex signed_zero(R"((^|[^A-Za-z0-9_.])-(0(\.0+)?)(?![0-9.]))");
   const std::string text = std::regex_replace(std::regex_replace(original, micrometres, "µm"), celsius, "$1$2 °C");
+  return std::regex_replace(text, signed_zero, "$1$2");
+}
+
+}  // namespace
+
+std::string readable(const std::string& original, const Labels& labels) {
+  return readable(original, labels, {});
+}
+
+std::string readable(const std::string& original, const Labels& labels,
+                     const std::function<std::string(const std::string&)>& name) {
+  static const std::regex channels(R"(\b(T[0-9]+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)\b)");
+  const std::string text = with_units(original);
   std::string words;
   auto from = text.cbegin();
   for (std::sregex_iterator at(text.begin(), text.end(), channels), end; at != end; ++at) {
     words.append(from, text.cbegin() + at->position());
-    std::string name = channel_in_words(at->str(), labels);
+    std::string said = name ? name(at->str()) : channel_in_words(at->str(), labels);
     const bool begins = words.empty() || words.ends_with(". ") || words.ends_with(": ");
-    if (!begins && at->str().front() != 'T') name.front() = static_cast<char>(std::tolower(name.front()));
-    words += name;
+    if (!name && !begins && at->str().front() != 'T') said.front() = static_cast<char>(std::tolower(said.front()));
+    words += said;
     from = text.cbegin() + at->position() + at->length();
     // Some sentences name the place already.
     const auto label = labels.find(at->str());
-    const std::string place = label == labels.end() ? std::string() : " (" + label->second + ")";
+    const std::string place = label == labels.end() ? std::string() : label->second;
     const auto rest = static_cast<std::size_t>(text.cend() - from);
-    if (!place.empty() && rest >= place.size() && std::equal(place.begin(), place.end(), from)) {
-      from += static_cast<std::ptrdiff_t>(place.size());
+    for (const std::string& repeated : {" (" + place + ")", "（" + place + "）"}) {
+      if (place.empty() || rest < repeated.size() || !std::equal(repeated.begin(), repeated.end(), from)) continue;
+      from += static_cast<std::ptrdiff_t>(repeated.size());
+      break;
     }
   }
   words.append(from, text.cend());

@@ -106,7 +106,9 @@ const Colors& colors() {
   return QGuiApplication::palette().color(QPalette::Window).lightness() < 128 ? darkColors() : lightColors();
 }
 
-QColor curveColor(int index) {
+namespace {
+
+QColor curveColorFor(int index, bool onDark) {
   // The prototype's hues, ordered so that neighbouring zones differ most.
   static constexpr std::array<int, 6> hues = {207, 28, 140, 345, 265, 50};
   static constexpr std::array<double, 4> light = {0.30, 0.41, 0.50, 0.62};
@@ -114,33 +116,66 @@ QColor curveColor(int index) {
   const int wrapped = ((index % 24) + 24) % 24;
   const int hue = hues[static_cast<size_t>(wrapped / 4)];
   const auto member = static_cast<size_t>(wrapped % 4);
-  double lightness = colors().dark ? dark[member] : light[member];
+  double lightness = onDark ? dark[member] : light[member];
   // Yellow looks lighter than blue at the same figure.
-  if (hue == 50) lightness *= colors().dark ? 0.90 : 0.82;
-  return QColor::fromHslF(static_cast<float>(hue) / 360.0F, colors().dark ? 0.62F : 0.66F,
-                          static_cast<float>(lightness));
+  if (hue == 50) lightness *= onDark ? 0.90 : 0.82;
+  return QColor::fromHslF(static_cast<float>(hue) / 360.0F, onDark ? 0.62F : 0.66F, static_cast<float>(lightness));
 }
 
-QColor groupColor(int group) {
+int groupMember(int group) {
   static constexpr std::array<int, 8> order = {1, 5, 9, 13, 17, 21, 3, 11};
-  return curveColor(order[static_cast<size_t>(((group % 8) + 8) % 8)]);
+  return order[static_cast<size_t>(((group % 8) + 8) % 8)];
 }
 
-QColor axisColor(int axis) {
+int axisMember(int axis) {
   static constexpr std::array<int, 3> order = {13, 9, 1};  // X red, Y green, Z blue, as on every drawing of a machine
-  return curveColor(order[static_cast<size_t>(((axis % 3) + 3) % 3)]);
+  return order[static_cast<size_t>(((axis % 3) + 3) % 3)];
 }
 
-QColor divergingColor(double value) {
+QColor divergingColorFor(double value, bool onDark) {
   // Anchors of about equal steps in CIELAB lightness on both sides of the neutral middle.
   static const std::array<QColor, 5> light = {QColor("#15508C"), QColor("#6FA6D6"), QColor("#F4F5F6"),
                                               QColor("#E58F77"), QColor("#9E1F2F")};
   static const std::array<QColor, 5> dark = {QColor("#7CC0FF"), QColor("#2F6CA3"), QColor("#222B34"), QColor("#A84A3A"),
                                              QColor("#FF9A85")};
-  const auto& anchors = colors().dark ? dark : light;
+  const auto& anchors = onDark ? dark : light;
   const double at = (std::clamp(std::isfinite(value) ? value : 0.0, -1.0, 1.0) + 1.0) * 2.0;
   const auto below = static_cast<size_t>(std::min(3.0, std::floor(at)));
   return mix(anchors[below], anchors[below + 1], at - static_cast<double>(below));
+}
+
+}  // namespace
+
+QColor curveColor(int index) {
+  return curveColorFor(index, colors().dark);
+}
+
+QColor groupColor(int group) {
+  return curveColor(groupMember(group));
+}
+
+QColor axisColor(int axis) {
+  return curveColor(axisMember(axis));
+}
+
+QColor divergingColor(double value) {
+  return divergingColorFor(value, colors().dark);
+}
+
+QColor paperCurveColor(int index) {
+  return curveColorFor(index, false);
+}
+
+QColor paperGroupColor(int group) {
+  return curveColorFor(groupMember(group), false);
+}
+
+QColor paperAxisColor(int axis) {
+  return curveColorFor(axisMember(axis), false);
+}
+
+QColor paperDivergingColor(double value) {
+  return divergingColorFor(value, false);
 }
 
 QFont uiFont(int pixels, QFont::Weight weight) {

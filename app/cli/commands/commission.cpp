@@ -26,6 +26,9 @@ struct Options {
   double limit_um = 5.0;
   bool yes = false;
   bool small = false;
+  std::string engineer;
+  std::string customer;
+  std::string language = "en";
 };
 
 /// A person at a terminal is asked; a script that calls this command has confirmed by calling it.
@@ -38,6 +41,18 @@ bool confirmed(const flow::UploadPreview& preview) {
   std::string answer;
   std::getline(std::cin, answer);
   return answer == "y" || answer == "yes";
+}
+
+/// Who did it stands in every entry of the job: given, asked for at a terminal, or missing, which the report says.
+Status name_people(commissioning::Job& job, const Options& options) {
+  ZD_TRY(auto header, job.header());
+  if (!options.customer.empty()) header.customer = options.customer;
+  if (!options.engineer.empty()) header.engineer = options.engineer;
+  if (header.engineer.empty() && ::isatty(STDIN_FILENO) != 0) {
+    std::fprintf(stderr, "Engineer (your name, for the report): ");
+    std::getline(std::cin, header.engineer);
+  }
+  return job.set_header(header);
 }
 
 nlohmann::json answer_of(const flow::CommissionResult& result) {
@@ -61,6 +76,7 @@ std::string text_of(const nlohmann::json& answer) {
 Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   CommandOutput output;
   ZD_CHECK(check_report_name(options.report));
+  ZD_TRY(const auto language, report::language_from(options.language));
   ZD_TRY(const auto profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const auto document, read_json_file(options.profile));
   flow::CommissionOptions commission_options;
@@ -69,9 +85,11 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   commission_options.keep_views = !options.small;
   if (!options.yes) commission_options.confirm = confirmed;
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
+  ZD_CHECK(name_people(job, options));
   ZD_TRY(const auto result, flow::commission(job, profile, document, commission_options, context));
   context.progress(0.99, "report");
-  ZD_CHECK(write_job_report(job, options.report));
+  ZD_CHECK(write_job_report(job, options.report, language));
+  if (auto warning = nobody_named(job); !warning.empty()) output.warnings.push_back(std::move(warning));
   output.json = answer_of(result);
   output.text = text_of(output.json) + "\nreport: " + options.report;
   return output;
@@ -91,6 +109,9 @@ void add_commission(Cli& cli) {
   command->add_option("--limit-um", options->limit_um, "Largest error that may be left")->check(CLI::PositiveNumber);
   command->add_flag("--small", options->small,
                     "Keep no pictures of the calibration's positions: the job is a fifth as large");
+  command->add_option("--engineer", options->engineer, "Who does the work; stands in the job and the report");
+  command->add_option("--customer", options->customer, "For whom; stands in the report");
+  command->add_option("--language", options->language, "Language of the report: en or zh");
   command->add_flag("--yes", options->yes, "Do not ask before the table is written");
 }
 

@@ -15,21 +15,15 @@ struct Options {
   std::string job;
   std::string out;
   std::string trace;
+  std::string language = "en";
 };
 
-Result<CommandOutput> trace(const commissioning::Job& job, const std::string& id) {
+Result<CommandOutput> trace(const commissioning::Job& job, const std::string& id, report::Language language) {
   CommandOutput output;
-  ZD_TRY(const auto report, report::build_report(job));
+  ZD_TRY(const auto report, report::build_report(job, language));
   ZD_TRY(const auto figure, report::find_figure(report, id));
-  output.json = {{"figure", figure.id},
-                 {"label", figure.label},
-                 {"value", figure.value},
-                 {"unit", figure.unit},
-                 {"artefact", figure.trace.artefact},
-                 {"artefact_id", figure.trace.id},
-                 {"detail", figure.trace.detail}};
-  output.text = fmt::format("{} = {} {} ({}), from artefact {} #{}: {}", figure.id, figure.value, figure.unit,
-                            figure.label, figure.trace.artefact, figure.trace.id, figure.trace.detail);
+  ZD_TRY(output.json, report::origin_of(job, figure));
+  output.text = report::origin_in_words(output.json);
   return output;
 }
 
@@ -37,11 +31,13 @@ Result<CommandOutput> run(const Options& options) {
   if (options.out.empty() && options.trace.empty()) {
     return fail(ErrorCode::bad_argument, {{"what", "report"}, {"found", "neither"}, {"expected", "--out or --trace"}});
   }
+  ZD_TRY(const auto language, report::language_from(options.language));
   ZD_TRY(const auto job, commissioning::Job::open_read_only(options.job));
-  if (!options.trace.empty()) return trace(job, options.trace);
+  if (!options.trace.empty()) return trace(job, options.trace, language);
   ZD_CHECK(check_report_name(options.out));
-  ZD_CHECK(write_job_report(job, options.out));
+  ZD_CHECK(write_job_report(job, options.out, language));
   CommandOutput output;
+  if (auto warning = nobody_named(job); !warning.empty()) output.warnings.push_back(std::move(warning));
   output.json = {{"report", options.out}};
   output.text = "report: " + options.out;
   return output;
@@ -56,7 +52,8 @@ void add_report(Cli& cli) {
       cli.add("report", "Write the report of a job", [options](const TaskContext&) { return run(*options); });
   command->add_option("--job", options->job, "Job file")->required();
   command->add_option("--out", options->out, "Report to write: .pdf, .html or .csv");
-  command->add_option("--trace", options->trace, "Say where the figure with this id comes from");
+  command->add_option("--language", options->language, "Language of the report: en or zh");
+  command->add_option("--trace", options->trace, "Say which artefact and rows the figure with this id comes from");
 }
 
 }  // namespace zerodrift::cli

@@ -223,14 +223,21 @@ void AxisErrorsPresenter::use() {
   for (const auto& note : chosen().notes) notes.push_back(note);
   // The axes of earlier reports stay; this one takes the place of its own.
   compensation::Table all = table();
+  const nlohmann::json statistics = compensation::to_json(compensation::positioning_figures(m_report));
+  nlohmann::json by_axis = {{axisName(), statistics}};
   if (const auto before = bench().body("axis_table"); before.is_object()) {
     const auto kept = compensation::table_from_json(before.at("table"), "the axis table");
     if (kept && (kept->machine == all.machine || kept->machine.empty())) {
       for (const auto& [name, axis] : kept->axes) all.axes.try_emplace(name, axis);
+      const auto figures = before.value("statistics_by_axis", nlohmann::json::object());
+      for (const auto& [name, one] : figures.items()) {
+        if (!by_axis.contains(name)) by_axis[name] = one;
+      }
     }
   }
   const nlohmann::json body = {{"table", compensation::to_json(all)},
-                               {"statistics", compensation::to_json(compensation::positioning_figures(m_report))},
+                               {"statistics", statistics},
+                               {"statistics_by_axis", by_axis},
                                {"file", QFileInfo(QString::fromStdString(m_report.file)).fileName().toStdString()},
                                {"largest_residual_um", chosen().largest_residual_um},
                                {"notes", notes}};

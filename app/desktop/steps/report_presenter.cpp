@@ -7,11 +7,10 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <algorithm>
+#include <array>
 
 #include "app/reporting/writers.h"
-#include "core/base/json.h"
 #include "core/flow/steps/inputs.h"
-#include "core/recording/csv.h"
 #include "core/report/build.h"
 #include "ui/pages/report_page.h"
 
@@ -32,6 +31,7 @@ QString page_of(const std::string& kind) {
   if (kind == "calibration") return QStringLiteral("calibrate");
   if (kind == "model") return QStringLiteral("fit");
   if (kind == "verification") return QStringLiteral("verify");
+  if (kind == "head") return QStringLiteral("report");
   if (kind == "axis_table") return QStringLiteral("axis_errors");
   return QString::fromStdString(kind);
 }
@@ -64,17 +64,7 @@ ui::ReportHead head_of(const commissioning::JobHeader& header) {
   return head;
 }
 
-Status write_series(const commissioning::Job& job, const char* kind, const QString& path) {
-  const auto input = flow::need(job, "report", kind);
-  if (!input) return {};  // not recorded yet: nothing to put into the bundle
-  ZD_TRY(const auto run, flow::run_of(job, *input));
-  return recording::write_recording(path.toStdString(), run);
-}
-
-Status write_body(const json& body, const char* part, const QString& path) {
-  if (!body.is_object() || !body.contains(part) || body.at(part).is_null()) return {};
-  return write_json_file(path.toStdString(), body.at(part));
-}
+constexpr std::array offered = {report::Language::english, report::Language::chinese};
 
 }  // namespace
 
@@ -91,6 +81,10 @@ ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Prese
     }
     m_of.clear();
     m_redraw.start();
+  });
+  connect(page, &ui::ReportPage::languageChosen, this, &ReportPresenter::setLanguage);
+  connect(&bench, &Workbench::logged, this, [this](const QDateTime& time, LogKind, const QString& text) {
+    m_log += time.toUTC().toString(Qt::ISODateWithMs) + QLatin1Char(' ') + text + QLatin1Char('\n');
   });
   connect(page, &ui::ReportPage::doubtClicked, this, &Presenter::pageRequested);
   connect(page, &ui::ReportPage::signatureDrawn, this, [this](const QImage& signature) {
@@ -116,7 +110,7 @@ void ReportPresenter::leave() {
 
 Result<report::Report> ReportPresenter::build() const {
   const auto* job = const_cast<ReportPresenter*>(this)->bench().job();
-  ZD_TRY(auto report, report::build_report(*job));
+  ZD_TRY(auto report, report::build_report(*job, m_language));
   if (!m_signature.isNull()) {
     QByteArray bytes;
     QBuffer buffer(&bytes);
@@ -140,14 +134,20 @@ void ReportPresenter::drawPreview() {
                 [this](const auto& section) { return m_left.contains(QString::fromStdString(section.id)); });
   QStringList head;
   for (const auto& [name, value] : shown.header) head << QString::fromStdString(value);
-  const QString of =
-      QString::fromStdString(shown.provenance) + head.join(QLatin1Char('|')) + QString::number(shown.sections.size());
+  const QString of = QString::fromStdString(shown.language) + QString::fromStdString(shown.provenance) +
+                     head.join(QLatin1Char('|')) + QString::number(shown.sections.size());
   if (m_pages.isEmpty() || of != m_of) {
     m_of = of;
     const auto pages = reporting::preview_pages(shown, preview_width_px);
     m_pages = QVector<QImage>(pages.begin(), pages.end());
   }
   refresh();
+}
+
+void ReportPresenter::setLanguage(int index) {
+  if (index < 0 || index >= static_cast<int>(offered.size())) return;
+  m_language = offered.at(static_cast<std::size_t>(index));
+  m_redraw.start();
 }
 
 void ReportPresenter::setHead(const ui::ReportHead& head) {
@@ -211,38 +211,45 @@ bool ReportPresenter::save(const QStringList& paths) {
   return true;
 }
 
+std::vector<reporting::BundleExtra> ReportPresenter::screenshots() const {
+  std::vector<reporting::BundleExtra> pictures;
+  const auto add = [&](const QString& name, QWidget* widget) {
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    buffer.open(QIODevice::WriteOnly);
+    if (!widget->grab().save(&buffer, "PNG")) return;
+    pictures.push_back({"screenshots/" + name.toStdString() + ".png", bytes.toStdString()});
+  };
+  add(QStringLiteral("00-window"), m_page->window());
+  int number = 0;
+  for (auto* page : m_page->window()->findChildren<ui::Page*>()) {
+    add(QStringLiteral("%1-%2")
+            .arg(++number, 2, 10, QLatin1Char('0'))
+            .arg(page->objectName().isEmpty() ? QStringLiteral("page") : page->objectName()),
+        page);
+  }
+  return pictures;
+}
+
 void ReportPresenter::saveBundle() {
   if (bench().job() == nullptr) return;
-  const QFileInfo proposed(defaultPath(QStringLiteral("pdf")));
-  const QString folder = QFileDialog::getExistingDirectory(
-      m_page, tr("Where to put the folder of the technical bundle"), proposed.absolutePath());
-  if (folder.isEmpty()) return;
-  // A folder of its own, named after the job: nothing is mixed with what lies there, nothing is written over.
-  const QString stem = proposed.completeBaseName() + tr("-bundle");
-  QString own = stem;
-  for (int number = 2; QDir(folder).exists(own); ++number) own = QStringLiteral("%1-%2").arg(stem).arg(number);
-  const QDir place(QDir(folder).filePath(own));
-  if (!QDir(folder).mkdir(own)) {
-    show({ErrorCode::file_not_writable,
-          {{"file", place.path().toStdString()}, {"detail", "no folder can be made there"}}});
-    return;
+  m_page->clearProblem();
+  // One click: beside the job, under a name of its own, so that nothing is written over.
+  const QFileInfo proposed(defaultPath(QStringLiteral("zip")));
+  const QString stem = proposed.completeBaseName() + QStringLiteral("-bundle");
+  QString name = stem + QStringLiteral(".zip");
+  for (int number = 2; proposed.absoluteDir().exists(name); ++number) {
+    name = QStringLiteral("%1-%2.zip").arg(stem).arg(number);
   }
-  const auto file = [&](const char* name) { return place.filePath(QString::fromLatin1(name)); };
-  if (!save({file("report.pdf"), file("report.html"), file("figures.csv")})) return;
-  const auto write = [&]() -> Status {
-    ZD_CHECK(write_series(*bench().job(), "warmup", file("warmup.csv")));
-    ZD_CHECK(write_series(*bench().job(), "verification", file("verification.csv")));
-    ZD_CHECK(write_body(bench().body("machine"), "profile", file("profile.json")));
-    ZD_CHECK(write_body(bench().body("model"), "model", file("model.json")));
-    ZD_CHECK(write_body(bench().body("upload"), "table", file("table.json")));
-    return write_body(bench().body("physics"), "diagnosis", file("diagnosis.json"));
-  };
-  if (const Status written = write(); !written) {
+  const QString path = proposed.absoluteDir().filePath(name);
+  if (const Status written =
+          reporting::write_bundle(*bench().job(), path.toStdString(), {m_language, m_log.toStdString(), screenshots()});
+      !written) {
     show(written.error());
     return;
   }
-  bench().log(LogKind::good, tr("Technical bundle: %1").arg(place.path()));
-  m_savedTo = QDir::toNativeSeparators(place.path());
+  bench().log(LogKind::good, tr("Technical bundle: %1").arg(path));
+  m_savedTo = QDir::toNativeSeparators(path);
   refresh();
 }
 
@@ -267,7 +274,8 @@ void ReportPresenter::refresh() {
     return;
   }
   state.head = head_of(job->header().value_or(commissioning::JobHeader{}));
-  state.languages = {QStringLiteral("English")};
+  state.languages = {QStringLiteral("English"), QStringLiteral("简体中文")};
+  state.language = m_language == report::Language::chinese ? 1 : 0;
   fillSections(state);
   state.pages = m_pages;
   state.savedTo = m_savedTo;

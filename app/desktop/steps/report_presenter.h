@@ -6,7 +6,8 @@
 #include <QTimer>
 
 #include "app/desktop/presenter.h"
-#include "core/report/report.h"
+#include "app/reporting/bundle.h"
+#include "core/report/text/language.h"
 
 namespace zerodrift::ui {
 class ReportPage;
@@ -29,6 +30,9 @@ class ReportPresenter : public Presenter {
  private:
   void saveAs(const QString& ending);
   void saveBundle();
+  void setLanguage(int index);
+  /// Every page of the window as it is now, for support.
+  std::vector<reporting::BundleExtra> screenshots() const;
   /// Writes the report into these files and keeps that it was done.
   bool save(const QStringList& paths);
   void setHead(const ui::ReportHead& head);
@@ -45,7 +49,9 @@ class ReportPresenter : public Presenter {
   report::Report m_report;
   QVector<QImage> m_pages;
   QString m_savedTo;
-  QString m_of;  // what the preview was drawn of
+  QString m_of;   // what the preview was drawn of
+  QString m_log;  // of the window since it was opened, for the bundle
+  report::Language m_language = report::Language::english;
 };
 
 }  // namespace zerodrift::desktop

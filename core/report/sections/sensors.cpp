@@ -1,6 +1,9 @@
 // Which sensors were kept and why.
 
+#include <cmath>
+
 #include "core/report/build.h"
+#include "core/report/pieces.h"
 
 namespace zerodrift::report {
 namespace {
@@ -16,6 +19,35 @@ std::string how_chosen(const Source& source, const nlohmann::json& body) {
   return text + " " + source.say("These points were compared with other sets:") + " " + source.in_words(reason) + ".";
 }
 
+/// A row a sensor: its cluster, how it goes with each error, how much the others say already (VIF), and whether it is
+/// kept.
+Table clusters_of(const Source& source, const nlohmann::json& body) {
+  Table table;
+  table.id = "clusters";
+  table.title = source.say("Clusters and correlation with the errors");
+  table.header = {
+      source.say("sensor"), source.say("cluster"), "r(X)", "r(Y)", "r(Z)", source.say("sum of correlations"), "VIF",
+      source.say("kept")};
+  table.trace = source.at("sensors", "/table");
+  std::map<std::string, nlohmann::json> details;
+  for (const auto& one : list_of(body, "sensors")) details[text_of(one, "sensor")] = one;
+  int number = 0;
+  for (const auto& row : list_of(body, "table")) {
+    const std::string channel = text_of(row, "channel");
+    const auto& detail = details[channel];
+    const auto correlation = detail.is_object() ? object_of(detail, "correlation") : nlohmann::json::object();
+    const double vif = detail.is_object() ? number_of(detail, "vif") : std::nan("");
+    const std::string pointer = fmt::format("/table/{}/correlation_sum", number++);
+    table.rows.push_back({source.channel_in_words(channel), text_of(row, "cluster"),
+                          shown(number_of(correlation, "dX_um"), 2), shown(number_of(correlation, "dY_um"), 2),
+                          shown(number_of(correlation, "dZ_um"), 2),
+                          cell(number_of(row, "correlation_sum"), 3,
+                               "correlation_" + channel.substr(0, channel.find('_')), source.at("sensors", pointer)),
+                          shown(vif, 0), row.value("kept", false) ? source.say("yes") : ""});
+  }
+  return table;
+}
+
 }  // namespace
 
 std::optional<Section> sensors_section(const Source& source) {
@@ -28,17 +60,7 @@ std::optional<Section> sensors_section(const Source& source) {
   }
   section.blocks.emplace_back(
       Text{source.say("Kept for the model:") + " " + chosen + ". " + how_chosen(source, sensors->body), false});
-  Table table;
-  table.id = "clusters";
-  table.title = source.say("Clusters and correlation with the errors");
-  table.header = {source.say("sensor"), source.say("cluster"), source.say("sum of correlations"), source.say("kept")};
-  table.trace = source.trace("sensors", "sensors");
-  for (const auto& row : sensors->body.value("table", nlohmann::json::array())) {
-    table.rows.push_back({source.channel_in_words(text_of(row, "channel")), text_of(row, "cluster"),
-                          shown(number_of(row, "correlation_sum"), 3),
-                          row.value("kept", false) ? source.say("yes") : ""});
-  }
-  section.blocks.emplace_back(std::move(table));
+  section.blocks.emplace_back(clusters_of(source, sensors->body));
   return section;
 }
 

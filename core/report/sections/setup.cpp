@@ -3,9 +3,58 @@
 #include <cmath>
 
 #include "core/report/build.h"
+#include "core/report/pieces.h"
 
 namespace zerodrift::report {
 namespace {
+
+void add_machine(const Source& source, Section& section) {
+  const LoadedArtefact* machine = source.find("machine");
+  if (machine == nullptr) return;
+  Figures figures;
+  const auto add = [&](const char* id, const char* label, const char* key, int digits, const char* unit) {
+    figures.figures.push_back(figure(id, source.say(label), shown(number_of(machine->body, key), digits), unit,
+                                     source.at("machine", std::string("/") + key)));
+  };
+  add("sensors_alive", "Temperature sensors alive", "sensors_alive", 0, "");
+  add("spread_K", "Spread of the sensors at rest", "spread_K", 2, "K");
+  add("round_trip_ms", "Answer of the controller", "round_trip_ms", 1, "ms");
+  add("clock_difference_s", "Clock against the computer's", "clock_difference_s", 2, "s");
+  section.blocks.emplace_back(std::move(figures));
+}
+
+Table cameras_of(const Source& source, const LoadedArtefact& calibration) {
+  Table table;
+  table.id = "cameras";
+  table.title = source.say("Camera calibration");
+  table.header = {source.say("camera"),         source.say("sees"),        source.say("µm per px"),
+                  source.say("uncertainty, %"), source.say("rotation, °"), source.say("rms residual, µm"),
+                  source.say("left out, µm"),   source.say("positions")};
+  table.trace = source.at("calibration", "/cameras");
+  int number = 0;
+  for (const auto& camera : list_of(calibration.body, "cameras")) {
+    std::string axes;
+    for (const auto& axis : list_of(camera, "axes")) axes += (axes.empty() ? "" : ", ") + axis.get<std::string>();
+    const std::string id = text_of(camera, "id");
+    const auto inner = object_of(camera, "calibration");
+    const double scale = number_of(camera, "um_per_px");
+    const auto sigma = list_of(inner, "sigma");
+    const bool has_sigma = !sigma.empty() && sigma[0].is_array() && !sigma[0].empty() && sigma[0][0].is_number();
+    const double percent = has_sigma ? 100.0 * sigma[0][0].get<double>() / scale : std::nan("");
+    const auto at = [&](const char* key) {
+      return source.at("calibration", fmt::format("/cameras/{}/{}", number, key));
+    };
+    table.rows.push_back({id, axes, cell(scale, 4, "um_per_px_" + id, at("um_per_px")),
+                          cell(percent, 3, "scale_uncertainty_" + id + "_percent", at("calibration/sigma")),
+                          cell(number_of(camera, "rotation_deg"), 3, "rotation_" + id + "_deg", at("rotation_deg")),
+                          cell(number_of(camera, "rms_um"), 3, "calibration_rms_" + id + "_um", at("rms_um")),
+                          cell(number_of(inner, "leave_one_out_um"), 3, "calibration_left_out_" + id + "_um",
+                               at("calibration/leave_one_out_um")),
+                          shown(number_of(camera, "positions"), 0)});
+    ++number;
+  }
+  return table;
+}
 
 void add_calibration(const Source& source, Section& section) {
   const LoadedArtefact* calibration = source.find("calibration");
@@ -14,21 +63,7 @@ void add_calibration(const Source& source, Section& section) {
     section.blocks.emplace_back(Text{source.say("The errors were measured with displacement probes."), false});
     return;
   }
-  Table table;
-  table.id = "cameras";
-  table.title = source.say("Camera calibration");
-  table.header = {source.say("camera"),           source.say("sees"),
-                  source.say("µm per px"),        source.say("rotation, °"),
-                  source.say("rms residual, µm"), source.say("positions")};
-  table.trace = source.trace("calibration", "cameras");
-  for (const auto& camera : calibration->body.value("cameras", nlohmann::json::array())) {
-    std::string axes;
-    for (const auto& axis : camera.value("axes", nlohmann::json::array())) axes += axis.get<std::string>() + " ";
-    table.rows.push_back({text_of(camera, "id"), axes, shown(number_of(camera, "um_per_px"), 4),
-                          shown(number_of(camera, "rotation_deg"), 3), shown(number_of(camera, "rms_um"), 3),
-                          shown(number_of(camera, "positions"), 0)});
-  }
-  section.blocks.emplace_back(std::move(table));
+  section.blocks.emplace_back(cameras_of(source, *calibration));
   const bool reference = calibration->body.value("reference_target", false);
   section.blocks.emplace_back(
       reference ? Text{source.say("A fixed reference target in each view removes the camera's own drift."), false}
@@ -45,11 +80,16 @@ void add_health(const Source& source, Section& section) {
   table.title = source.say("Temperature sensors at rest");
   table.header = {source.say("sensor"), source.say("place"), source.say("value, °C"), source.say("noise, K"),
                   source.say("state")};
-  table.trace = source.trace("machine", "health");
-  for (const auto& sensor : machine->body.value("health", nlohmann::json::array())) {
-    table.rows.push_back({text_of(sensor, "channel").substr(0, text_of(sensor, "channel").find('_')),
-                          text_of(sensor, "label"), shown(number_of(sensor, "value_C"), 2),
-                          shown(number_of(sensor, "noise_K"), 2), text_of(sensor, "state")});
+  table.trace = source.at("machine", "/health");
+  int number = 0;
+  for (const auto& sensor : list_of(machine->body, "health")) {
+    const std::string tag = text_of(sensor, "channel").substr(0, text_of(sensor, "channel").find('_'));
+    const auto at = [&](const char* key) { return source.at("machine", fmt::format("/health/{}/{}", number, key)); };
+    table.rows.push_back({tag, source.say(text_of(sensor, "label")),
+                          cell(number_of(sensor, "value_C"), 2, "rest_" + tag + "_C", at("value_C")),
+                          cell(number_of(sensor, "noise_K"), 2, "noise_" + tag + "_K", at("noise_K")),
+                          source.say(text_of(sensor, "state"))});
+    ++number;
   }
   if (!table.rows.empty()) section.blocks.emplace_back(std::move(table));
 }
@@ -58,6 +98,7 @@ void add_health(const Source& source, Section& section) {
 
 std::optional<Section> setup_section(const Source& source) {
   Section section{"setup", source.say("Measurement set-up"), {}};
+  add_machine(source, section);
   add_calibration(source, section);
   add_health(source, section);
   if (section.blocks.empty()) return std::nullopt;

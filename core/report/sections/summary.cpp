@@ -1,86 +1,63 @@
-// The customer's page: drift before and after, what was done, may the machine work.
+// The customer's page: drift before and after, what was written, for which temperatures, when to look again.
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/report/build.h"
 #include "core/report/doubts.h"
+#include "core/report/limits.h"
+#include "core/report/pieces.h"
 
 namespace zerodrift::report {
 namespace {
 
-Figure direction_figure(const Source& source, const std::string& direction, const char* key, const char* id,
-                        const char* label) {
-  const auto& body = source.find("verification")->body;
-  const double value = number_of(body, key, direction);
-  Figure figure;
-  figure.id = fmt::format("{}_{}_um", id, direction);
-  figure.label = source.say(label) + " " + direction;
-  figure.value = shown(value, 1);
-  figure.unit = "µm";
-  figure.trace = source.trace("verification", std::string(key) + "." + direction);
-  return figure;
-}
-
-/// What a direction gained. Worse than without is never good, even within the limit.
-void add_direction(const Source& source, const std::string& direction, Figures& figures) {
+/// The number of a direction: what is left, beside what there was.
+Figure left_in(const Source& source, const std::string& direction) {
   const auto& body = source.find("verification")->body;
   const double limit = number_of(body, "limit_um");
   const double value = number_of(body, "peak_error_after_um", direction);
-  const double removed = number_of(body, "removed_percent", direction);
-  const bool worse = removed < 0.0;
-  Figure before = direction_figure(source, direction, "peak_error_before_um", "peak_before", "Largest error before,");
-  const double span_s = number_of(body, "compared_s");
-  if (std::isfinite(span_s)) {
-    before.limit = fmt::format(fmt::runtime(source.say("first {} min of the run")), shown(span_s / 60.0, 0));
+  Figure made = figure("peak_after_" + direction + "_um", source.tell("Largest error left in {}", direction),
+                       shown(value, 1), "µm", source.at("verification", "/peak_error_after_um/" + direction));
+  if (const LoadedRun* run = source.run(source.find("verification"))) {
+    const std::string channel = "d" + direction + "_um";
+    const auto extremes = extremes_of(run->samples, channel, 1e12);
+    if (extremes.largest) made.trace.rows.push_back(row_of(*run, channel, *extremes.largest));
   }
-  figures.figures.push_back(std::move(before));
-  Figure after = direction_figure(source, direction, "peak_error_after_um", "peak_after", "Largest error after,");
-  if (std::isfinite(limit)) {
-    const bool kept = value <= limit;
-    after.limit = source.say("limit") + " " + shown(limit, 1) + " µm: " + source.say(kept ? "kept" : "exceeded");
-    after.verdict = !kept ? Verdict::bad : worse ? Verdict::doubtful : Verdict::good;
+  made = judged(source, std::move(made), value, limit, 1);
+  // Worse than without is never good, even within the limit.
+  if (number_of(body, "removed_percent", direction) < 0.0 && made.verdict == Verdict::good) {
+    made.verdict = Verdict::doubtful;
   }
-  figures.figures.push_back(std::move(after));
-  figures.figures.push_back(direction_figure(source, direction, "rms_error_after_um", "rms_after", "RMS after,"));
-  Figure gain = direction_figure(source, direction, "removed_percent", "removed",
-                                 worse ? "Made worse," : "Removed of the largest,");
-  gain.id = "removed_" + direction + "_percent";
-  gain.unit = "%";
-  if (worse) {
-    gain.value = shown(-removed, 1);
-    gain.limit = source.say("worse than without compensation");
-    gain.verdict = value <= limit ? Verdict::doubtful : Verdict::bad;
+  const double before = number_of(body, "peak_error_before_um", direction);
+  if (std::isfinite(before)) {
+    made.limit = source.tell("before {} µm", shown(before, 1)) + (made.limit.empty() ? "" : " · " + made.limit);
   }
-  figures.figures.push_back(std::move(gain));
+  return made;
 }
 
-Figures figures_of(const Source& source) {
-  Figures figures;
-  for (const auto& direction : directions_of(source.find("verification")->body, "peak_error_after_um")) {
-    add_direction(source, direction, figures);
-  }
-  return figures;
-}
-
-Plot before_and_after(const Source& source, const std::string& direction) {
+/// One picture: each direction in its colour, dashed without and solid with the compensation.
+Plot before_and_after(const Source& source, const std::vector<std::string>& directions) {
   Plot plot;
-  const std::string channel = "d" + direction + "_um";
-  plot.id = "before_after_" + direction;
-  plot.title = source.say("Error at the nose, before and after, in") + " " + direction;
+  plot.id = "before_after";
+  plot.title = source.say("Error at the nose: dashed without, solid with compensation");
   plot.x_label = source.say("hours since the start of each run");
   plot.y_label = "µm";
-  const auto add = [&](const char* kind, const char* name) {
+  const auto add = [&](const char* kind, Stroke stroke, const char* words) {
     const auto* run = source.run_of(kind);
-    if (run == nullptr) return;
-    for (auto& curve : curves_of(*run, {channel}, false)) {
-      curve.name = source.say(name);
-      plot.curves.push_back(std::move(curve));
+    for (const auto& direction : directions) {
+      if (run == nullptr) continue;
+      for (auto& curve : curves_of(*run, {"d" + direction + "_um"}, false)) {
+        curve.name = source.tell(words, direction);
+        curve.stroke = stroke;
+        plot.curves.push_back(std::move(curve));
+      }
     }
   };
-  add("warmup", "without compensation");
-  add("verification", "with compensation");
-  plot.trace = source.trace("verification", channel);
+  add("warmup", Stroke::dashed, "{} without");
+  add("verification", Stroke::solid, "{} with");
+  const double limit = number_of(source.find("verification")->body, "limit_um");
+  if (std::isfinite(limit)) plot.limit = limit;
+  plot.trace = source.trace("verification", "series");
   return plot;
 }
 
@@ -90,12 +67,62 @@ std::optional<Text> count_of_doubts(const Source& source) {
   if (doubts.empty()) return std::nullopt;
   const auto bad =
       std::count_if(doubts.begin(), doubts.end(), [](const Doubt& d) { return d.verdict == Verdict::bad; });
-  Text text{fmt::format(fmt::runtime(source.say("{} points were refused or look doubtful, {} of them outside their "
-                                                "limit; they are listed under \"Refused or doubtful\".")),
+  Text text{source.tell("{} points were refused or look doubtful, {} of them outside their limit; they are listed "
+                        "under \"Refused or doubtful\".",
                         doubts.size(), bad),
             true};
   text.verdict = bad > 0 ? Verdict::bad : Verdict::doubtful;
   return text;
+}
+
+/// The same day, so many months later; the last day of a shorter month.
+std::string months_after(const std::string& utc, int months) {
+  int year = 0;
+  int month = 0;
+  int day = 0;
+  if (std::sscanf(utc.c_str(), "%4d-%2d-%2d", &year, &month, &day) != 3) return "-";
+  using namespace std::chrono;
+  const auto later = year_month(std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month))) +
+                     std::chrono::months(months);
+  const auto last = year_month_day(later / std::chrono::last);
+  const unsigned kept = std::min(static_cast<unsigned>(day), static_cast<unsigned>(last.day()));
+  return fmt::format("{:04d}-{:02d}-{:02d}", static_cast<int>(later.year()), static_cast<unsigned>(later.month()),
+                     kept);
+}
+
+std::string valid_range(const Source& source, const nlohmann::json& table) {
+  std::string text;
+  const auto valid = object_of(table, "valid");
+  for (const auto& [sensor, range] : valid.items()) {
+    if (!range.is_array() || range.size() != 2) continue;
+    text +=
+        (text.empty() ? "" : "; ") + source.tell("{} from {} to {} °C", source.channel_in_words(sensor),
+                                                 shown(range[0].get<double>(), 1), shown(range[1].get<double>(), 1));
+  }
+  return text.empty() ? source.say("not stated") : text;
+}
+
+std::optional<Table> brief(const Source& source) {
+  const LoadedArtefact* upload = source.find("upload");
+  if (upload == nullptr) return std::nullopt;
+  Table table;
+  table.id = "brief";
+  table.title = source.say("What the machine runs now");
+  table.header = {source.say("what"), source.say("detail")};
+  table.trace = source.trace("upload", "table");
+  table.rows.push_back(
+      {source.say("Written to the controller"),
+       source.tell("compensation table version {}, checksum {} read back, {} UTC", text_of(upload->body, "version"),
+                   text_of(upload->body, "crc32"), minute_of(upload->created_utc))});
+  table.rows.push_back({source.say("Largest change against the table before"),
+                        shown(number_of(upload->body, "largest_change_um"), 1) + " µm"});
+  table.rows.push_back({source.say("Valid range"), valid_range(source, object_of(upload->body, "table"))});
+  if (const auto* verification = source.find("verification")) {
+    table.rows.push_back({source.say("Next check due"),
+                          source.tell("{}, and after a repair, a collision or a move of the machine",
+                                      months_after(verification->created_utc, limits::check_interval_months))});
+  }
+  return table;
 }
 
 }  // namespace
@@ -105,22 +132,24 @@ std::optional<Section> summary_section(const Source& source) {
   const LoadedArtefact* verification = source.find("verification");
   if (verification == nullptr) {
     section.blocks.emplace_back(Text{source.say("The compensation has not been verified on the machine yet."), true});
+    if (auto text = count_of_doubts(source)) section.blocks.emplace_back(std::move(*text));
     return section;
   }
-  const std::string verdict = text_of(verification->body, "verdict");
+  const bool passed = text_of(verification->body, "verdict") == "passed";
   section.blocks.emplace_back(
-      verdict == "passed"
-          ? Text{source.say(
-                     "The thermal error of this machine was measured, learned and compensated. A second run with "
-                     "the compensation on stayed within the limit."),
-                 false}
-          : Text{source.say("A second run with the compensation on did not stay within the limit; see Verification."),
-                 true});
+      passed ? Text{source.say("The thermal error of this machine was measured, learned and compensated. A second run "
+                               "with the compensation on stayed within the limit."),
+                    false}
+             : Text{source.say("A second run with the compensation on did not stay within the limit; see "
+                               "Verification."),
+                    true, Verdict::bad});
   if (auto text = count_of_doubts(source)) section.blocks.emplace_back(std::move(*text));
-  section.blocks.emplace_back(figures_of(source));
-  for (const auto& direction : directions_of(verification->body, "peak_error_after_um")) {
-    section.blocks.emplace_back(before_and_after(source, direction));
-  }
+  const auto directions = directions_of(verification->body, "peak_error_after_um");
+  Figures figures;
+  for (const auto& direction : directions) figures.figures.push_back(left_in(source, direction));
+  section.blocks.emplace_back(std::move(figures));
+  section.blocks.emplace_back(before_and_after(source, directions));
+  if (auto table = brief(source)) section.blocks.emplace_back(std::move(*table));
   return section;
 }
 

@@ -1,68 +1,103 @@
-// The warm-up run: errors, temperatures, inputs; ranges in the first hour and over the whole run as in ISO 230-3.
+// The warm-up run: errors, temperatures and inputs over the steps of its plan, with what happened on the way.
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/report/build.h"
+#include "core/report/pieces.h"
 
 namespace zerodrift::report {
 namespace {
 
-/// Largest minus smallest value up to the time; NaN when there is none.
-double range_um(const recording::Recording& run, const std::string& channel, double until_s) {
-  const auto* values = run.find(channel);
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (std::size_t r = 0; values != nullptr && r < run.rows(); ++r) {
-    if (std::isnan(values->values[r]) || run.time_s[r] - run.time_s.front() > until_s) continue;
-    low = std::min(low, values->values[r]);
-    high = std::max(high, values->values[r]);
-  }
-  return high >= low ? high - low : std::numeric_limits<double>::quiet_NaN();
-}
-
-Figure range_figure(const Source& source, const std::string& channel, double value, const char* id, const char* label) {
-  const std::string direction = channel.substr(1, 1);
-  Figure figure;
-  figure.id = fmt::format("{}_{}_um", id, direction);
-  figure.label = source.say(label) + " " + direction;
-  figure.value = shown(value, 1);
-  figure.unit = "µm";
-  figure.trace = source.trace("warmup", channel);
-  return figure;
-}
-
-Plot plot_of(const Source& source, const recording::Recording& run, const std::vector<std::string>& channels,
-             const char* id, const char* title, const char* unit, bool points) {
+Plot plot_of(const Source& source, const LoadedRun& run, const std::vector<std::string>& channels, const char* id,
+             const char* title, const char* unit) {
   Plot plot;
   plot.id = id;
   plot.title = source.say(title);
   plot.x_label = source.say("hours");
   plot.y_label = unit;
-  plot.curves = curves_of(run, channels, points);
-  plot.trace = source.trace("warmup", id);
+  plot.curves = curves_of(run.samples, channels, false);
+  for (auto& curve : plot.curves) {
+    if (curve.name == "Room") curve.name = source.say("Room");
+  }
+  plot.trace = source.trace("warmup", "series");
+  add_course(source, *source.find("warmup"), plot);
   return plot;
+}
+
+Table steps_of(const Source& source) {
+  Table table;
+  table.id = "plan";
+  table.title = source.tell("Plan: {}", source.say(text_of(object_of(source.find("warmup")->body, "plan"), "name")));
+  table.header = {source.say("step"), source.say("minutes"), source.say("spindle, rpm"), source.say("coolant"),
+                  source.say("axes")};
+  table.trace = source.at("warmup", "/plan");
+  int number = 0;
+  for (const auto& step : list_of(object_of(source.find("warmup")->body, "plan"), "steps")) {
+    table.rows.push_back({std::to_string(++number), shown(number_of(step, "duration_s") / 60.0, 0),
+                          shown(number_of(step, "spindle_rpm"), 0),
+                          source.say(step.value("coolant_on", false) ? "on" : "off"),
+                          source.say(step.value("path", "still") == "cycle" ? "run the path" : "stand still")});
+  }
+  return table;
+}
+
+Table notes_of(const Source& source, const LoadedRun& run) {
+  Table table;
+  table.id = "happenings";
+  table.title = source.say("What happened during the run (numbers as in the plots)");
+  table.header = {source.say("no."), source.say("after, min"), source.say("what"), source.say("text")};
+  table.trace = source.trace("warmup", "events");
+  for (const auto& one : happenings_of(source, run)) {
+    table.rows.push_back({std::to_string(one.number), shown(one.time_s / 60.0, 1), one.what, one.text});
+  }
+  return table;
+}
+
+/// Start, end and largest rise of each sensor: ISO 230-3 wants the temperatures beside the distortions.
+Table temperatures_of(const Source& source, const LoadedRun& run) {
+  Table table;
+  table.id = "rises";
+  table.title = source.say("Temperatures of the run");
+  table.header = {source.say("sensor"), source.say("start, °C"), source.say("end, °C"), source.say("largest rise, K"),
+                  source.say("after, min")};
+  table.trace = source.trace("warmup", "series");
+  auto channels = run.samples.names(recording::ChannelKind::temperature);
+  const auto room = run.samples.names(recording::ChannelKind::ambient);
+  channels.insert(channels.begin(), room.begin(), room.end());
+  for (const auto& channel : channels) {
+    const auto extremes = extremes_of(run.samples, channel, 1e12);
+    if (!extremes.highest) continue;
+    const auto* values = run.samples.find(channel);
+    const double start = recording::value_at(run.samples, *values, run.samples.time_s.front());
+    const double end = recording::value_at(run.samples, *values, run.samples.time_s.back());
+    const Trace trace =
+        of_rows(source, *source.find("warmup"), "warmup", channel, {row_of(run, channel, *extremes.highest)});
+    table.rows.push_back({source.channel_in_words(channel), shown(start, 2), shown(end, 2),
+                          cell(extremes.high - start, 2, "rise_" + channel.substr(0, channel.find('_')) + "_K", trace),
+                          shown((run.samples.time_s[*extremes.highest] - run.samples.time_s.front()) / 60.0, 0)});
+  }
+  return table;
 }
 
 }  // namespace
 
 std::optional<Section> warmup_section(const Source& source) {
-  const auto* run = source.run_of("warmup");
-  if (run == nullptr || run->rows() == 0) return std::nullopt;
+  const LoadedRun* run = source.run(source.find("warmup"));
+  if (run == nullptr || run->samples.rows() == 0) return std::nullopt;
   Section section{"warmup", source.say("Warm-up run"), {}};
-  const auto errors = run->names(recording::ChannelKind::error);
-  Figures figures;
-  for (const auto& channel : errors) {
-    figures.figures.push_back(
-        range_figure(source, channel, range_um(*run, channel, 3600.0), "range_60min", "Range in the first 60 min,"));
-    figures.figures.push_back(
-        range_figure(source, channel, range_um(*run, channel, 1e12), "range_total", "Range over the run,"));
-  }
-  section.blocks.emplace_back(std::move(figures));
-  section.blocks.emplace_back(plot_of(source, *run, errors, "errors", "Errors at the nose", "µm", false));
-  section.blocks.emplace_back(plot_of(source, *run, run->names(recording::ChannelKind::temperature), "temperatures",
-                                      "Temperatures", "°C", false));
-  section.blocks.emplace_back(plot_of(source, *run, {"spindle_rpm"}, "speed", "Spindle speed", "rpm", false));
+  if (auto steps = steps_of(source); !steps.rows.empty()) section.blocks.emplace_back(std::move(steps));
+  section.blocks.emplace_back(
+      plot_of(source, *run, run->samples.names(recording::ChannelKind::error), "errors", "Errors at the nose", "µm"));
+  const auto tilts = run->samples.names(recording::ChannelKind::tilt);
+  if (!tilts.empty()) section.blocks.emplace_back(plot_of(source, *run, tilts, "tilts", "Tilt at the nose", "µrad"));
+  auto temperatures = run->samples.names(recording::ChannelKind::temperature);
+  const auto room = run->samples.names(recording::ChannelKind::ambient);
+  temperatures.insert(temperatures.end(), room.begin(), room.end());
+  section.blocks.emplace_back(plot_of(source, *run, temperatures, "temperatures", "Temperatures", "°C"));
+  section.blocks.emplace_back(plot_of(source, *run, {"spindle_rpm"}, "speed", "Spindle speed", "rpm"));
+  if (auto notes = notes_of(source, *run); !notes.rows.empty()) section.blocks.emplace_back(std::move(notes));
+  section.blocks.emplace_back(temperatures_of(source, *run));
   return section;
 }
 

@@ -1,0 +1,84 @@
+#include "core/report/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zerodrift::report {
+
+using nlohmann::json;
+
+Cell cell(double value, int digits, std::string id, Trace trace) {
+  return {shown(value, digits), std::move(id), std::move(trace)};
+}
+
+Figure figure(std::string id, std::string label, std::string value, std::string unit, Trace trace) {
+  Figure made;
+  made.id = std::move(id);
+  made.label = std::move(label);
+  made.value = std::move(value);
+  made.unit = std::move(unit);
+  made.trace = std::move(trace);
+  return made;
+}
+
+Figure judged(const Source& source, Figure made, double value, double limit, int digits) {
+  if (!std::isfinite(limit)) return made;
+  const bool kept = value <= limit;
+  made.limit = source.tell(kept ? "limit {} {}: kept" : "limit {} {}: exceeded", shown(limit, digits), made.unit);
+  made.verdict = kept ? Verdict::good : Verdict::bad;
+  return made;
+}
+
+Trace of_rows(const Source& source, const LoadedArtefact& artefact, const std::string& kind, std::string detail,
+              std::vector<TraceRow> rows) {
+  Trace made = source.trace(kind, std::move(detail));
+  made.id = artefact.id;
+  made.rows = std::move(rows);
+  return made;
+}
+
+/// "3000 rpm", with what else runs.
+static std::string step_in_words(const Source& source, const json& step) {
+  std::string text = shown(number_of(step, "spindle_rpm"), 0) + " rpm";
+  if (step.value("coolant_on", false)) text += " · " + source.say("coolant");
+  return text;
+}
+
+void add_course(const Source& source, const LoadedArtefact& artefact, Plot& plot) {
+  const json steps = list_of(object_of(artefact.body, "plan"), "steps");
+  double fastest = 1.0;
+  for (const auto& step : steps) fastest = std::max(fastest, step.value("spindle_rpm", 0.0));
+  double at_s = 0.0;
+  for (const auto& step : steps) {
+    const double end_s = at_s + step.value("duration_s", 0.0);
+    plot.stretches.push_back(
+        {at_s / 3600.0, end_s / 3600.0, step.value("spindle_rpm", 0.0) / fastest, step_in_words(source, step)});
+    at_s = end_s;
+  }
+  const LoadedRun* run = source.run(&artefact);
+  if (run == nullptr) return;
+  for (const auto& one : happenings_of(source, *run)) {
+    plot.marks.push_back({one.time_s / 3600.0, std::to_string(one.number)});
+  }
+}
+
+std::vector<Happening> happenings_of(const Source& source, const LoadedRun& run) {
+  static const std::map<std::string, const char*> kinds = {
+      {"note", "note"},       {"pause", "pause"},          {"resume", "resumed"}, {"gap", "gap"},
+      {"problem", "problem"}, {"cleared", "problem over"}, {"clock", "clock"}};
+  std::vector<Happening> all;
+  for (const auto& event : run.events) {
+    const auto kind = kinds.find(event.kind);
+    if (kind == kinds.end()) continue;
+    std::string text = event.text;
+    // What a person wrote stays as it was written; identifiers become words.
+    if (event.kind != "note") {
+      std::replace(text.begin(), text.end(), '_', ' ');
+      text = source.in_words(text);
+    }
+    all.push_back({static_cast<int>(all.size()) + 1, event.time_s, source.say(kind->second), std::move(text)});
+  }
+  return all;
+}
+
+}  // namespace zerodrift::report

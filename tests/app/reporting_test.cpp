@@ -1,0 +1,158 @@
+// The report on paper, on screen, for spreadsheets, and the bundle for support.
+
+#include <zip.h>
+
+#include <QElapsedTimer>
+#include <QProcess>
+#include <QTest>
+#include <map>
+
+#include "app/reporting/bundle.h"
+#include "app/reporting/writers.h"
+#include "core/base/file.h"
+#include "core/report/build.h"
+#include "tests/report/rich_job.h"
+
+namespace zerodrift {
+namespace {
+
+const char* const evil = "<script>alert('x')</script>&\"";
+
+std::map<std::string, std::string> entries_of(const std::filesystem::path& path) {
+  std::map<std::string, std::string> entries;
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), ZIP_RDONLY, &code);
+  if (archive == nullptr) return entries;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
+    zip_stat_t stat;
+    zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &stat);
+    std::string bytes(stat.size, '\0');
+    zip_file_t* file = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
+    zip_fread(file, bytes.data(), bytes.size());
+    zip_fclose(file);
+    entries[stat.name] = std::move(bytes);
+  }
+  zip_discard(archive);
+  return entries;
+}
+
+std::string written_by_cli(const std::filesystem::path& job, const std::filesystem::path& out, const char* language) {
+  QProcess cli;
+  cli.start(
+      QStringLiteral(ZERODRIFT_BIN_DIR "/zerodrift-cli"),
+      {QStringLiteral("report"), QStringLiteral("--job"), QString::fromStdString(job.string()), QStringLiteral("--out"),
+       QString::fromStdString(out.string()), QStringLiteral("--language"), QString::fromLatin1(language)});
+  if (!cli.waitForFinished(60000) || cli.exitCode() != 0) return {};
+  return read_file(out).value_or(std::string());
+}
+
+}  // namespace
+
+class ReportingTest : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  /// Two processes, so that nothing drawn anew in each (the order of hash tables) can pass unseen.
+  void theSameJobGivesTheSameBytes() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    const auto file = rich.job().path();
+    for (const char* language : {"en", "zh"}) {
+      for (const char* ending : {".pdf", ".html", ".csv"}) {
+        const std::string first = written_by_cli(file, rich.folder() / (std::string("a") + ending), language);
+        QTest::qWait(1100);  // a date of writing would differ
+        const std::string second = written_by_cli(file, rich.folder() / (std::string("b") + ending), language);
+        QVERIFY(!first.empty());
+        QVERIFY2(first == second, ending);
+      }
+    }
+  }
+
+  void thePdfHasFontsLinksAndPagesInTime() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    for (const auto language : {report::Language::english, report::Language::chinese}) {
+      QElapsedTimer timer;
+      timer.start();
+      const auto report = report::build_report(rich.job(), language);
+      QVERIFY(report.has_value());
+      const auto path = rich.folder() / "r.pdf";
+      QVERIFY(reporting::write_pdf(*report, path).has_value());
+      QVERIFY2(timer.elapsed() < 3000, qPrintable(QString::number(timer.elapsed())));
+      QProcess fonts;
+      fonts.start(QStringLiteral("pdffonts"), {QString::fromStdString(path.string())});
+      if (!fonts.waitForFinished(10000)) QSKIP("poppler-utils are not installed");
+      const auto lines = QString::fromUtf8(fonts.readAllStandardOutput()).split(QLatin1Char('\n'), Qt::SkipEmptyParts);
+      QVERIFY(lines.size() > 3);
+      for (int i = 2; i < lines.size(); ++i) QVERIFY2(lines[i].contains(QStringLiteral(" yes ")), qPrintable(lines[i]));
+      QProcess text;
+      text.start(QStringLiteral("pdftotext"),
+                 {QStringLiteral("-layout"), QString::fromStdString(path.string()), QStringLiteral("-")});
+      QVERIFY(text.waitForFinished(10000));
+      const auto words = QString::fromUtf8(text.readAllStandardOutput());
+      const bool chinese = language == report::Language::chinese;
+      QVERIFY(
+          words.contains(chinese ? QStringLiteral("热误差补偿报告") : QStringLiteral("Thermal compensation report")));
+      QVERIFY(words.contains(chinese ? QStringLiteral("目录") : QStringLiteral("Contents")));
+      QVERIFY(words.contains(QStringLiteral("1 / ")));
+      const auto bytes = read_file(path).value();
+      QVERIFY(bytes.starts_with("%PDF"));
+    }
+  }
+
+  void whatPeopleEnterIsTextAndNoMarkup() {
+    report::RichJob rich({evil, "17", "=cmd|' /C calc'!A0", "+A. Keller", "@notes"});
+    const auto report = report::build_report(rich.job());
+    QVERIFY(report.has_value());
+    const std::string html = reporting::html_of(*report);
+    QVERIFY(html.find("<script") == std::string::npos);
+    QVERIFY(html.find("&lt;script&gt;") != std::string::npos);
+    QVERIFY(html.find("<b>briefly") == std::string::npos);
+    const std::string csv = reporting::csv_of(*report);
+    QVERIFY(csv.find(",=cmd") == std::string::npos);
+    QVERIFY(csv.find("'=cmd") != std::string::npos);
+    QVERIFY(csv.find("'+A. Keller") != std::string::npos);
+    QVERIFY(csv.find("'@notes") != std::string::npos);
+  }
+
+  void eachFigureOfTheHtmlIsALink() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    const auto report = report::build_report(rich.job()).value();
+    const std::string html = reporting::html_of(report);
+    for (const char* id : {"peak_after_Z_um", "range_60min_Z_um", "coefficient_Z_T1", "iso230_2_X_A_um"}) {
+      QVERIFY2(html.find(std::string("href=\"#trace-") + id + "\"") != std::string::npos, id);
+      QVERIFY2(html.find(std::string("id=\"trace-") + id + "\"") != std::string::npos, id);
+    }
+  }
+
+  void theBundleHoldsEverythingButSecrets() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    const auto path = rich.folder() / "b.zip";
+    const auto written = reporting::write_bundle(
+        rich.job(), path,
+        {report::Language::english, "09:00 camera http://u:hunter2@h/", {{"screenshots/a.png", "png"}}});
+    QVERIFY(written.has_value());
+    const auto entries = entries_of(path);
+    for (const char* name : {"README.txt", "job.zdj", "report.pdf", "report.html", "figures.csv", "log.txt",
+                             "window.txt", "versions.txt", "profile.json", "table.json", "diagnosis.json",
+                             "axis-table.json", "runs/01-warm-up.csv", "screenshots/a.png"}) {
+      QVERIFY2(entries.contains(name), name);
+    }
+    for (const auto& [name, bytes] : entries) {
+      QVERIFY2(bytes.find("hunter2") == std::string::npos, name.c_str());
+      QVERIFY2(bytes.find("abcdef") == std::string::npos, name.c_str());
+    }
+    // The job in it opens and holds the run.
+    QVERIFY(write_file(rich.folder() / "copy.zdj", entries.at("job.zdj")).has_value());
+    const auto copy = commissioning::Job::open_read_only(rich.folder() / "copy.zdj");
+    QVERIFY(copy.has_value());
+    QCOMPARE(copy->series()->size(), rich.job().series()->size());
+    QVERIFY(copy->latest("machine").value()->body.find("removed") != std::string::npos);
+    // And the job itself is as it was.
+    QVERIFY(rich.job().latest("machine").value()->body.find("hunter2") != std::string::npos);
+    QVERIFY(rich.job().check()->ok());
+  }
+};
+
+}  // namespace zerodrift
+
+QTEST_MAIN(zerodrift::ReportingTest)
+#include "reporting_test.moc"
