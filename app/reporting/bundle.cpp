@@ -11,6 +11,7 @@
 #include "core/base/json.h"
 #include "core/base/secrets.h"
 #include "core/base/time_text.h"
+#include "core/commissioning/copy.h"
 #include "core/recording/csv.h"
 #include "core/report/build.h"
 
@@ -172,7 +173,7 @@ Status write_bundle(const commissioning::Job& job, const std::filesystem::path& 
   }
   const std::filesystem::path place = folder.path().toStdString();
   ZD_TRY(const auto report, report::build_report(job, options.language));
-  ZD_TRY(const int secrets, job.copy_without_secrets(place / "job.zdj"));
+  ZD_TRY(const int secrets, commissioning::copy_without_secrets(job.path(), place / "job.zdj"));
   const auto made = utc_from_text(report.made_utc);
   const std::time_t time = made ? std::chrono::system_clock::to_time_t(*made) : std::time_t{};
   // Beside the others first: a bundle that could not be finished is not left lying about.

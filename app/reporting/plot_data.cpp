@@ -1,6 +1,6 @@
 #include "app/reporting/plot_data.h"
 
-#include "ui/widgets/colors.h"
+#include "ui/widgets/paper_colors.h"
 
 namespace zerodrift::reporting {
 namespace {

@@ -1,9 +1,12 @@
-// A copy of a job for others: everything that is in it but secrets.
+#include "core/commissioning/copy.h"
 
-#include <filesystem>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
 
 #include "core/base/secrets.h"
-#include "core/commissioning/job_store.h"
+#include "core/commissioning/database.h"
 
 namespace zerodrift::commissioning {
 namespace {
@@ -59,18 +62,17 @@ Result<int> clean(Database& database) {
 
 }  // namespace
 
-Result<int> Job::copy_without_secrets(const std::filesystem::path& path) const {
+Result<int> copy_without_secrets(const std::filesystem::path& job, const std::filesystem::path& copy) {
   std::error_code ignored;
-  std::filesystem::remove(path, ignored);
+  std::filesystem::remove(copy, ignored);
   {
-    const std::scoped_lock lock(m_store->mutex);
-    if (!m_store->read_only) ZD_CHECK(m_store->flush());
+    ZD_TRY(const auto database, Database::open(job, OpenMode::read_only));
     std::string quoted;
-    for (const char c : path.string()) quoted += c == '\'' ? "''" : std::string(1, c);
-    ZD_CHECK(m_store->database->execute("VACUUM INTO '" + quoted + "'"));
+    for (const char c : copy.string()) quoted += c == '\'' ? "''" : std::string(1, c);
+    ZD_CHECK(database->execute("VACUUM INTO '" + quoted + "'"));
   }
-  ZD_TRY(const auto copy, Database::open(path, OpenMode::read_write));
-  return clean(*copy);
+  ZD_TRY(const auto database, Database::open(copy, OpenMode::read_write));
+  return clean(*database);
 }
 
 }  // namespace zerodrift::commissioning

@@ -82,10 +82,6 @@ class Job {
   /// Everything: the database's own check, checksums of chunks, rows, blobs and artefacts, the audit trail.
   Result<CheckReport> check() const;
 
-  /// A copy to give away, in copy.cpp: as the job is now, with passwords replaced (core/base/secrets.h). Returns how many
-  /// texts had one; their check sums no longer fit, which check() of the copy will say. A file that is there is replaced.
-  Result<int> copy_without_secrets(const std::filesystem::path& path) const;
-
  private:
   struct Store;
   explicit Job(std::unique_ptr<Store> store);

@@ -187,11 +187,12 @@ void about_model(const Source& source, Doubts& doubts) {
   for (const auto& advice : quality.value("advice", json::array())) {
     if (advice.is_string()) doubts.add(Verdict::doubtful, "advice", "{}", source.in_words(advice.get<std::string>()));
   }
+  const std::string stop = source.say(".");
   for (const auto& finding : model.value("findings", json::array())) {
     std::string text = source.in_words(text_of(finding, "text"));
     if (text.empty()) continue;
     text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    doubts.add(Verdict::doubtful, "findings", "{}", text.ends_with('.') ? text : text + ".");
+    doubts.add(Verdict::doubtful, "findings", "{}", text.ends_with(stop) ? text : text + stop);
   }
 }
 

@@ -25,7 +25,4 @@ inline constexpr double attainable_peak_um = 5.0;
 inline constexpr double removed_percent = 85.0;
 inline constexpr double coverage_percent = 85.0;
 
-// The machine in use. No standard sets the time to the next check; a year is this program's proposal.
-inline constexpr int check_interval_months = 12;
-
 }  // namespace zerodrift::report::limits

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/report/naming.h"
+
 namespace zerodrift::report {
 
 using nlohmann::json;

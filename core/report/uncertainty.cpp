@@ -131,7 +131,7 @@ Budget budget_of_measurement(const Source& source) {
   const double span_mm = calibration_span_mm(source);
   part("axes", source.say("Positions of the axes during the calibration"),
        source.tell("assumed: within {} µm over {} mm, rectangular", shown(axis_error_um, 1), shown(span_mm, 1)), 'B',
-       source.at("machine", "/profile/calibration_span_mm"), [&](const std::string& axis) {
+       source.trace("machine", "/profile/calibration_span_mm"), [&](const std::string& axis) {
          return rectangular(axis_error_um) / (1000.0 * span_mm) * peak_um(source, axis);
        });
   const double room_K = room_range_K(source);
@@ -139,7 +139,7 @@ Budget budget_of_measurement(const Source& source) {
     part("camera_drift", source.say("Drift of camera and foot, no reference target in view"),
          source.tell("assumed: {} mm of aluminium, room changed by {} K, rectangular", shown(holder_mm, 0),
                      shown(room_K, 1)),
-         'B', source.at("calibration", "/reference_target"),
+         'B', source.trace("calibration", "/reference_target"),
          [&](const std::string&) { return rectangular(1000.0 * holder_mm * camera_expansion_1_K * room_K); });
   }
   part("expansion", source.say("Expansion coefficient of the target's holder"),

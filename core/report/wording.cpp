@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "core/recording/recording.h"
+#include "core/report/naming.h"
 
 namespace zerodrift::report {
 
@@ -50,7 +51,7 @@ std::string with_units(const std::string& original) {
 }  // namespace
 
 std::string readable(const std::string& original, const Labels& labels) {
-  return readable(original, labels, {});
+  return readable(original, labels, nullptr);
 }
 
 std::string readable(const std::string& original, const Labels& labels,

@@ -1,7 +1,6 @@
 #pragma once
 // From the identifiers of files and logs to what people read: "T14_C" is "T14 Spindle nose", "um" is "µm".
 
-#include <functional>
 #include <map>
 #include <string>
 
@@ -14,8 +13,5 @@ using Labels = std::map<std::string, std::string>;
 std::string channel_in_words(const std::string& channel, const Labels& labels);
 /// A sentence of core with its units and channels as people read them.
 std::string readable(const std::string& original, const Labels& labels);
-/// The same for a text in another language: `name` says a channel in it.
-std::string readable(const std::string& original, const Labels& labels,
-                     const std::function<std::string(const std::string&)>& name);
 
 }  // namespace zerodrift::report

@@ -20,8 +20,8 @@ const std::string literal = R"("(?:[^"\\]|\\.)*")";
 
 /// The literals that stand side by side, as one text.
 std::string joined(const std::string& literals) {
-  static const std::regex one(R"("((?:[^"\\]|\\.)*)") ");
-      std::string text;
+  static const std::regex one(R"x("((?:[^"\\]|\\.)*)")x");
+  std::string text;
   for (std::sregex_iterator at(literals.begin(), literals.end(), one), end; at != end; ++at) text += (*at)[1].str();
   return std::regex_replace(text, std::regex(R"(\\")"), "\"");
 }
@@ -127,12 +127,13 @@ TEST(ReportLanguage, EntriesAgreeInPlaceholdersNumbersAndUnits) {
       return all_of(std::regex_replace(bare(text), std::regex(R"(GB/T 17421\.[0-9])"), ""), R"([0-9]+(\.[0-9]+)?)");
     };
     const bool in_words = english.find("One speed") == 0 || english == "{}, once" || english == "{} ({}), once";
-    if (!in_words) EXPECT_EQ(numbers(english), numbers(chinese)) << english;
+    if (!in_words) {
+      EXPECT_EQ(numbers(english), numbers(chinese)) << english;
+    }
     for (const char* unit : {"µm", "°C", "rpm", "mm", "ms", "µrad", "%"}) {
+      const std::regex alone(std::string("(^|[^A-Za-z])") + unit + "(?![A-Za-z])");
       const auto count = [&](const std::string& text) {
-        std::size_t n = 0;
-        for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1)) ++n;
-        return n;
+        return std::distance(std::sregex_iterator(text.begin(), text.end(), alone), std::sregex_iterator());
       };
       EXPECT_EQ(count(english), count(chinese)) << unit << " in " << english;
     }

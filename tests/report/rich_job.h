@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "core/commissioning/job.h"
@@ -38,6 +39,10 @@ class RichJob {
  private:
   using Json = nlohmann::json;
 
+  static void must(const Status& done) {
+    if (!done) throw std::runtime_error(describe(done.error()));
+  }
+
   static std::string unique() {
     static int number = 0;
     return std::to_string(++number);
@@ -68,13 +73,13 @@ class RichJob {
                                        20.0,
                                        21.0,
                                        22.0 + i};
-      m_job->append(series, 60.0 * i, row).value();
+      must(m_job->append(series, 60.0 * i, row));
     }
-    m_job->flush().value();
-    m_job->add_event(series, {1200.0, "note", "door opened <b>briefly</b>", "{}", ""}).value();
-    m_job->add_event(series, {1500.0, "pause", "", "{}", ""}).value();
-    m_job->add_event(series, {1600.0, "problem", "sensor_stuck", "{}", ""}).value();
-    m_job->finish_series(series).value();
+    must(m_job->flush());
+    must(m_job->add_event(series, {1200.0, "note", "door opened <b>briefly</b>", "{}", ""}));
+    must(m_job->add_event(series, {1500.0, "pause", "", "{}", ""}));
+    must(m_job->add_event(series, {1600.0, "problem", "sensor_stuck", "{}", ""}));
+    must(m_job->finish_series(series));
     return series;
   }
 

@@ -7,6 +7,7 @@
 
 #include "ui/plots/custom_plot.h"
 #include "ui/widgets/colors.h"
+#include "ui/widgets/paper_colors.h"
 
 namespace zerodrift::ui {
 namespace {

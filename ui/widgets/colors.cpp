@@ -1,5 +1,7 @@
 #include "ui/widgets/colors.h"
 
+#include "ui/widgets/paper_colors.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>

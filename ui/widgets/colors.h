@@ -43,11 +43,6 @@ QColor groupColor(int group);
 QColor axisColor(int axis);
 /// Perceptually even diverging colours, blue - neutral - red; value in -1 .. 1, 0 is the neutral middle.
 QColor divergingColor(double value);
-// The same on paper, whatever the theme of the window is.
-QColor paperCurveColor(int index);
-QColor paperGroupColor(int group);
-QColor paperAxisColor(int axis);
-QColor paperDivergingColor(double value);
 
 QColor mix(const QColor& from, const QColor& to, double share);
 

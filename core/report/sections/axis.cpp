@@ -95,7 +95,8 @@ Table segments_of(const Source& source, const std::string& name, const nlohmann:
 /// By axis; jobs of earlier versions keep those of the last axis only.
 std::map<std::string, std::pair<nlohmann::json, std::string>> statistics_of(const nlohmann::json& body) {
   std::map<std::string, std::pair<nlohmann::json, std::string>> by_axis;
-  for (const auto& [name, statistics] : object_of(body, "statistics_by_axis").items()) {
+  const auto kept = object_of(body, "statistics_by_axis");
+  for (const auto& [name, statistics] : kept.items()) {
     by_axis[name] = {statistics, "/statistics_by_axis/" + name};
   }
   const auto axes = object_of(object_of(body, "table"), "axes");

@@ -22,6 +22,7 @@ const char* test_of(const nlohmann::json& plan) {
     travels = travels || step.value("path", "still") == "cycle";
     cools = cools || step.value("coolant_on", false);
   }
+  if (list_of(plan, "steps").empty()) return "plan not kept in the job";
   if (!turns && !travels) return cools ? "Machine at rest, coolant on" : "ETVE (clause 5)";
   if (turns && travels) return "Spindle and axes together";
   return turns ? "Spindle (clause 6)" : "Linear axes (clause 7)";

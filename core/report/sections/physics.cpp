@@ -150,7 +150,8 @@ Table effects_of(const json& diagnosis, const Source& source) {
     const std::string pointer = fmt::format("/diagnosis/effects/{}/", number++);
     std::string parameters;
     const auto sigma = object_of(effect, "sigma");
-    for (const auto& [key, value] : object_of(effect, "parameters").items()) {
+    const auto values = object_of(effect, "parameters");
+    for (const auto& [key, value] : values.items()) {
       if (!value.is_number()) continue;
       const double width = number_of(sigma, key);
       const auto one = diagnosis::parameter_in_words(key, value.get<double>(), std::isfinite(width) ? width : 0.0);

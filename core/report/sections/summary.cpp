@@ -5,11 +5,12 @@
 
 #include "core/report/build.h"
 #include "core/report/doubts.h"
-#include "core/report/limits.h"
 #include "core/report/pieces.h"
 
 namespace zerodrift::report {
 namespace {
+
+constexpr int check_interval_months = 12;  // no standard sets the time to the next check: this program's proposal
 
 /// The number of a direction: what is left, beside what there was.
 Figure left_in(const Source& source, const std::string& direction) {
@@ -118,9 +119,9 @@ std::optional<Table> brief(const Source& source) {
                         shown(number_of(upload->body, "largest_change_um"), 1) + " µm"});
   table.rows.push_back({source.say("Valid range"), valid_range(source, object_of(upload->body, "table"))});
   if (const auto* verification = source.find("verification")) {
-    table.rows.push_back({source.say("Next check due"),
-                          source.tell("{}, and after a repair, a collision or a move of the machine",
-                                      months_after(verification->created_utc, limits::check_interval_months))});
+    table.rows.push_back(
+        {source.say("Next check due"), source.tell("{}, and after a repair, a collision or a move of the machine",
+                                                   months_after(verification->created_utc, check_interval_months))});
   }
   return table;
 }

@@ -17,9 +17,7 @@ Plot plot_of(const Source& source, const LoadedRun& run, const std::vector<std::
   plot.x_label = source.say("hours");
   plot.y_label = unit;
   plot.curves = curves_of(run.samples, channels, false);
-  for (auto& curve : plot.curves) {
-    if (curve.name == "Room") curve.name = source.say("Room");
-  }
+  for (auto& curve : plot.curves) curve.name = source.say(curve.name);
   plot.trace = source.trace("warmup", "series");
   add_course(source, *source.find("warmup"), plot);
   return plot;

@@ -41,7 +41,8 @@ std::vector<TextEntry> texts_of_machine() {
        "r 与比例无关：不反映 um 大小；最大残差为 {} um，位于 {} mm 处"},
       {"criterion: the fewest segments that stay within {} um at every point; the largest residual is {} um",
        "判据：在每一点都不超过 {} um 的最少分段；最大残差为 {} um"},
-      {"criterion: |r| of position and measured position at least {}; with laser data it is always about 1, so it can never drop a point: use errors or a tolerance",
+      {"criterion: |r| of position and measured position at least {}; with laser data it is always about 1, so it can "
+       "never drop a point: use errors or a tolerance",
        "判据：位置与实测位置的 |r| 至少 {}；对激光数据该值总约为 1，不会舍弃任何点：请改用误差或公差"},
       {"criterion: |r| of position and error at least {}, from {} points",
        "判据：位置与误差的 |r| 至少 {}，起始 {} 点"},
