@@ -35,7 +35,7 @@ Table figures_of(const Source& source, const nlohmann::json& statistics, const s
   table.header = {source.say("figure"), source.say("what"), "µm"};
   table.trace = source.at("axis_table", pointer);
   for (const Named& one : names) {
-    table.rows.push_back({one.sign, source.say(one.words),
+    table.rows.push_back({source.say(one.sign), source.say(one.words),
                           cell(number_of(statistics, one.key), 2, fmt::format("{}_{}_{}", id, axis, one.key),
                                source.at("axis_table", fmt::format("{}/{}", pointer, one.key)))});
   }

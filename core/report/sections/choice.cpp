@@ -12,9 +12,12 @@ Table sets_of(const Source& source, const nlohmann::json& body) {
   Table table;
   table.id = "sets";
   table.title = source.say("Sets of sensors tried, error on unseen stretches");
-  table.header = {
-      source.say("set"),  source.say("sensors"), "RMS, µm", source.say("largest, µm"), source.say("to be expected, µm"),
-      source.say("taken")};
+  table.header = {source.say("set"),
+                  source.say("sensors"),
+                  source.say("RMS, µm"),
+                  source.say("largest, µm"),
+                  source.say("to be expected, µm"),
+                  source.say("taken")};
   table.trace = source.at("sensors", "/choice/sets");
   int number = 0;
   for (const auto& set : list_of(object_of(body, "choice"), "sets")) {
@@ -35,7 +38,7 @@ Plot budget_of(const Source& source, const nlohmann::json& body) {
   plot.title = source.say("Error on unseen stretches against number of sensors");
   plot.x_label = source.say("sensors");
   plot.y_label = "µm";
-  Curve rms{"RMS", {}, {}, false};
+  Curve rms{source.say("RMS"), {}, {}, false};
   Curve peak{source.say("largest"), {}, {}, false};
   for (const auto& point : list_of(body, "budget")) {
     const double count = number_of(point, "sensors");

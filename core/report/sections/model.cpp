@@ -116,8 +116,8 @@ Table candidates_of(const Source& source, const nlohmann::json& body) {
   Table table;
   table.id = "methods";
   table.title = source.say("Methods tried, error on unseen data");
-  table.header = {source.say("method"), "RMS, µm", source.say("largest, µm"), source.say("runs on the controller"),
-                  source.say("taken")};
+  table.header = {source.say("method"), source.say("RMS, µm"), source.say("largest, µm"),
+                  source.say("runs on the controller"), source.say("taken")};
   table.trace = source.at("model", "/model/candidates");
   int number = 0;
   for (const auto& one : list_of(object_of(body, "model"), "candidates")) {
