@@ -61,6 +61,18 @@ if(ZERODRIFT_SANITIZE)
   target_link_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE})
 endif()
 
+# Hardening: stack canaries, no jump over the guard page, checked string functions, addresses fixed before main.
+# PIE comes from the position independent code above. Sanitizers bring checks of their own.
+if(NOT ZERODRIFT_SANITIZE)
+  target_compile_options(zerodrift_options INTERFACE -fstack-protector-strong -fstack-clash-protection)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_options(zerodrift_options INTERFACE -fcf-protection=full)
+  endif()
+  target_compile_options(zerodrift_options INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE>
+                                                     $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
+endif()
+target_link_options(zerodrift_options INTERFACE -pie -Wl,-z,relro,-z,now,-z,noexecstack)
+
 # Code of libraries and of programs is compiled alike, so that one precompiled header serves both.
 target_compile_options(zerodrift_options INTERFACE -fPIC)
 

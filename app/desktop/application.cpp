@@ -9,6 +9,7 @@
 #include "app/desktop/ask.h"
 #include "app/desktop/file_opener.h"
 #include "app/desktop/machine_writes.h"
+#include "app/desktop/pin_dialog.h"
 #include "app/desktop/registry.h"
 #include "app/desktop/steps/machine_presenter.h"
 #include "app/desktop/steps/physics_presenter.h"
@@ -96,6 +97,8 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::profileChanged, this, changed);
   connect(m_bench.get(), &Workbench::machineSeen, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::machineLost, this, &Application::updateLamps);
+  connect(m_bench.get(), &Workbench::accessChanged, this, &Application::updateLamps);
+  new IdleLock(*m_bench, this);
   connect(&m_bench->tasks(), &TaskRunner::started, this, [this] { updateLamps(); });
   connect(&m_bench->tasks(), &TaskRunner::finished, this, [this] {
     updateLamps();
@@ -131,6 +134,7 @@ void Application::wireSteps() {
           });
   connect(m_window.get(), &ui::MainWindow::lampClicked, this, [this](ui::LampId lamp) {
     if (lamp == ui::LampId::compensation) switchCompensation();
+    if (lamp == ui::LampId::access) changeAccess();
   });
 }
 
@@ -143,16 +147,36 @@ void Application::switchCompensation() {
   const QString text = on ? tr("The axes of %1 move by what the active table says.").arg(machine)
                           : tr("The axes of %1 move back by what is applied now.").arg(machine);
   if (!ask(m_window.get(), heading, text, on ? tr("Switch ON") : tr("Switch OFF"))) return;
+  const auto permit = permit_for(*m_bench, m_window.get(), tr("Switching the compensation"));
+  if (!permit) return;
   m_bench->tasks().start<bool>(
       tr("Switching the compensation"),
-      [profile = *profile, job = m_bench->job(), on](const TaskContext&) {
-        return desktop::switch_compensation(job, profile, on);
+      [profile = *profile, permit = *permit, job = m_bench->job(), on](const TaskContext&) {
+        return desktop::switch_compensation(job, profile, permit, on);
       },
       [this](Result<bool> now) {
         m_bench->log(now ? LogKind::good : LogKind::bad, !now   ? lineOf(now.error())
                                                          : *now ? tr("Compensation ON")
                                                                 : tr("Compensation OFF"));
       });
+}
+
+void Application::changeAccess() {
+  const auto& access = m_bench->access();
+  if (!access.has_pin()) return change_pin(*m_bench, m_window.get());
+  if (access.role() == access::Role::operator_) {
+    unlock(*m_bench, m_window.get(), tr("Everybody may look. Writing to a machine needs the engineer."));
+    return;
+  }
+  const QString text = tr("Whoever comes next may look and not write. To change the PIN choose \"Change\".");
+  switch (ask(m_window.get(), tr("Lock this computer?"), text, tr("Lock"), tr("Change"))) {
+    case Answer::yes:
+      return lock(*m_bench, tr("Locked"));
+    case Answer::other:
+      return change_pin(*m_bench, m_window.get());
+    case Answer::no:
+      return;
+  }
 }
 
 void Application::show() {
@@ -306,6 +330,13 @@ void Application::updateLamps() {
       : camera ? (profile->cameras.size() == 1 ? tr("1 camera") : tr("%1 cameras").arg(profile->cameras.size()))
                : tr("Probes"),
       profile ? ui::Judgement::ok : ui::Judgement::none);
+  const auto& access = m_bench->access();
+  const bool engineer = access.role() == access::Role::engineer;
+  m_window->setLamp(ui::LampId::access,
+                    !access.has_pin() ? tr("No PIN")
+                    : engineer        ? tr("Engineer")
+                                      : tr("Locked"),
+                    access.has_pin() && engineer ? ui::Judgement::ok : ui::Judgement::none);
   const bool on = m_bench->compensationOn();
   m_window->setLamp(ui::LampId::compensation, on ? tr("Compensation ON") : tr("Compensation OFF"),
                     on ? ui::Judgement::warn : ui::Judgement::none, on);

@@ -48,6 +48,8 @@ class Application : public QObject {
   /// What one page asks of another.
   void wireSteps();
   void switchCompensation();
+  /// The lamp of the lock: sets a PIN, unlocks or locks.
+  void changeAccess();
   void openNext(const QString& after);
   void openBack();
   void updateSteps();

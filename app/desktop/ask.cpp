@@ -17,4 +17,16 @@ bool ask(QWidget* parent, const QString& heading, const QString& text, const QSt
   return box.clickedButton() == agree;
 }
 
+Answer ask(QWidget* parent, const QString& heading, const QString& text, const QString& deed, const QString& other) {
+  QMessageBox box(QMessageBox::NoIcon, heading, heading, QMessageBox::Cancel, parent);
+  box.setInformativeText(text);
+  const auto* agree = box.addButton(deed, QMessageBox::AcceptRole);
+  const auto* second = box.addButton(other, QMessageBox::ActionRole);
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.setEscapeButton(QMessageBox::Cancel);
+  box.exec();
+  if (box.clickedButton() == agree) return Answer::yes;
+  return box.clickedButton() == second ? Answer::other : Answer::no;
+}
+
 }  // namespace zerodrift::desktop

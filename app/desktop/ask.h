@@ -10,4 +10,13 @@ namespace zerodrift::desktop {
 /// True when the person pressed `deed`; Cancel is the default and what Escape means.
 bool ask(QWidget* parent, const QString& heading, const QString& text, const QString& deed);
 
+enum class Answer {
+  no,
+  yes,
+  other,
+};
+
+/// With a second deed beside the first.
+Answer ask(QWidget* parent, const QString& heading, const QString& text, const QString& deed, const QString& other);
+
 }  // namespace zerodrift::desktop

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "core/controller/modbus_machine.h"
 
@@ -16,7 +17,7 @@ namespace {
 bool wait(const std::stop_token& stop, std::chrono::milliseconds duration) {
   std::mutex mutex;
   std::condition_variable_any wake;
-  std::unique_lock lock(mutex);
+  std::unique_lock lock(mutex);  // cppcheck-suppress localMutex; only what the condition needs
   wake.wait_for(lock, stop, duration, [] { return false; });
   return !stop.stop_requested();
 }
@@ -81,8 +82,7 @@ void MachineMonitor::start(const controller::Profile& profile) {
 void MachineMonitor::stop() {
   if (!m_thread.joinable()) return;
   m_thread.request_stop();
-  m_thread.join();
-  m_thread = {};
+  m_ending.drop(std::make_shared<std::jthread>(std::exchange(m_thread, {})));
 }
 
 void MachineMonitor::watch(std::shared_ptr<const controller::RegisterMap> map) {
@@ -107,8 +107,8 @@ void MachineMonitor::work(const std::stop_token& stop, const controller::Profile
     if (!seen) eye.forget();
     QMetaObject::invokeMethod(
         this,
-        [this, seen] {
-          if (m_paused) return;
+        [this, seen, stop] {
+          if (m_paused || stop.stop_requested()) return;
           if (seen) {
             Q_EMIT looked(std::make_shared<const MachineLook>(*seen));
           } else {

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "app/tasks/aside.h"
 #include "core/acquisition/machine_io.h"
 #include "core/controller/profile.h"
 #include "core/controller/register_view.h"
@@ -30,6 +31,7 @@ class MachineMonitor : public QObject {
   ~MachineMonitor() override;
 
   void start(const controller::Profile& profile);
+  /// Returns at once: a look that waits for a dead machine ends beside the window, and nothing of it is told any more.
   void stop();
   void pause(bool paused) { m_paused = paused; }
   /// Reads every register of this map with each look; null: none.
@@ -49,6 +51,7 @@ class MachineMonitor : public QObject {
   mutable std::mutex m_lock;
   std::shared_ptr<const controller::RegisterMap> m_watched;
   std::jthread m_thread;
+  Aside m_ending;  // last: what ends there still looks at the rest
 };
 
 }  // namespace zerodrift::desktop

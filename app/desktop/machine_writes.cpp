@@ -42,11 +42,11 @@ json body_of(const UploadRecord& record, const compensation::Table& table) {
 
 }  // namespace
 
-Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile,
+Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile, access::Permit permit,
                               const std::function<void(const controller::UploadStep&)>& observer,
                               const TaskContext& context) {
   ZD_TRY(const auto machine_artefact, flow::need(job, "upload", "machine"));
-  ZD_TRY(auto devices, flow::Devices::open(profile, false));
+  ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
   ZD_TRY(const auto former, controller::former_table(*devices.machine));
   ZD_TRY(auto table, controller::decode_table(former.words, profile));
@@ -69,8 +69,8 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
 }
 
 Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const controller::Profile& profile,
-                                              const TaskContext& context) {
-  ZD_TRY(auto devices, flow::Devices::open(profile));
+                                              access::Permit permit, const TaskContext& context) {
+  ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
   if (!identity.accepts_host_offset) {
     return fail(ErrorCode::machine_unsupported,
@@ -97,8 +97,9 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
   return record;
 }
 
-Result<bool> switch_compensation(commissioning::Job* job, const controller::Profile& profile, bool on) {
-  ZD_TRY(auto devices, flow::Devices::open(profile, false));
+Result<bool> switch_compensation(commissioning::Job* job, const controller::Profile& profile, access::Permit permit,
+                                 bool on) {
+  ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
   const auto work = [&]() -> Status { return devices.machine->switch_compensation(on); };
   if (job == nullptr) {

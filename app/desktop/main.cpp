@@ -12,7 +12,9 @@
 #include "app/desktop/application.h"
 #include "app/desktop/quit_signals.h"
 #include "app/desktop/scratch_folder.h"
+#include "app/desktop/stall_watch.h"
 #include "app/desktop/tour.h"
+#include "app/text/error_text.h"
 #include "core/base/resources.h"
 #include "ui/shell/theme.h"
 
@@ -72,7 +74,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGPIPE, SIG_IGN);
   zerodrift::desktop::sweep_scratch_folders();
-  QApplication application(argc, argv);
+  zerodrift::desktop::WatchedApplication application(argc, argv);
   zerodrift::desktop::quit_on_signals(application);
   QApplication::setOrganizationName(QStringLiteral("Zerodrift"));
   QApplication::setApplicationName(QStringLiteral("Zerodrift"));
@@ -92,6 +94,10 @@ int main(int argc, char** argv) {
   desktop.setLanguage(arguments.language.empty()   ? zerodrift::desktop::Application::rememberedLanguage()
                       : arguments.language == "en" ? QStringLiteral("en")
                                                    : QStringLiteral("zh_CN"));
+  application.onException = [&desktop](const QString& what) {
+    const zerodrift::Error error{zerodrift::ErrorCode::internal, {{"detail", what.toStdString()}}};
+    desktop.bench().log(zerodrift::desktop::LogKind::bad, zerodrift::lineOf(error));
+  };
   const DemoOptions demo{arguments.speedup, arguments.seed, QString::fromStdString(arguments.conceal), {}};
 
   std::unique_ptr<zerodrift::desktop::Tour> tour;
@@ -101,10 +107,12 @@ int main(int argc, char** argv) {
     QTimer::singleShot(0, tour.get(), &zerodrift::desktop::Tour::start);
   } else {
     desktop.show();
-    if (arguments.sample) desktop.openSample();
-    QStringList files;
-    for (const auto& file : arguments.files) files << QString::fromStdString(file);
-    desktop.openFiles(files);
+    QTimer::singleShot(0, &desktop, [&] {
+      if (arguments.sample) desktop.openSample();
+      QStringList files;
+      for (const auto& file : arguments.files) files << QString::fromStdString(file);
+      desktop.openFiles(files);
+    });
     if (arguments.demo) desktop.startDemo(demo);
   }
   return QApplication::exec();

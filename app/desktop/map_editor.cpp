@@ -9,6 +9,7 @@
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "core/base/json.h"
+#include "core/controller/modbus_machine.h"
 #include "core/controller/register_names.h"
 
 namespace zerodrift::desktop {
@@ -96,14 +97,17 @@ MapEditor::MapEditor(Workbench& bench, ui::MachinePage* page) : QObject(page), m
 
 void MapEditor::load() {
   const auto& profile = m_bench.profile();
-  const std::string of = profile ? profile->file + "\n" + profile->controller.register_map : std::string();
+  std::string of;
+  if (profile) {
+    of = profile->file + "\n" + profile->controller.register_map;
+    if (profile->controller.own_map) of += profile->controller.own_map->dump();
+  }
   if (of == m_of && m_draft) return;
   m_of = of;
   m_draft.reset();
   m_changed = false;
   if (profile) {
-    const auto beside = std::filesystem::path(profile->file).parent_path();
-    auto map = controller::load_register_map(profile->controller.register_map, beside);
+    auto map = controller::map_of(*profile);
     if (map) {
       m_draft = std::move(*map);
     } else {

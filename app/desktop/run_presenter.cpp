@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/desktop/ask.h"
+#include "app/desktop/pin_dialog.h"
 #include "ui/pages/run_view.h"
 #include "ui/widgets/progress_strip.h"
 
@@ -22,6 +23,11 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
     if (done) done(false);
     return;
   }
+  const auto permit = permit_for(bench(), page(), name);
+  if (!permit) {
+    if (done) done(false);
+    return;
+  }
   m_running = true;
   m_again = false;
   m_feed->begin();
@@ -33,9 +39,9 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
   refresh();
   runStep(
       name,
-      [profile = *profile, job, options,
+      [profile = *profile, job, options, permit = *permit,
        step = std::move(step)](const TaskContext& context) -> Result<commissioning::NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile));
+        ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
         return step(*job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {

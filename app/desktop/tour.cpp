@@ -5,6 +5,8 @@
 #include <QPixmap>
 #include <cstdio>
 
+#include "app/desktop/stall_watch.h"
+
 namespace zerodrift::desktop {
 namespace {
 
@@ -15,6 +17,8 @@ constexpr int live_picture_ms = 30000;
 
 Tour::Tour(Application& application, QString folder, const QString& size, DemoOptions demo)
     : m_application(application), m_folder(std::move(folder)), m_demo(std::move(demo)) {
+  // It drives the machine that it starts itself, and nobody is there to type a PIN.
+  m_application.bench().useAccess(std::make_unique<access::Access>());
   const QStringList sides = size.split(QLatin1Char('x'));
   m_application.window().resize(sides.value(0).toInt(), sides.value(1).toInt());
   m_halfway.setInterval(live_picture_ms);
@@ -84,10 +88,25 @@ void Tour::stepDone(bool good) {
 }
 
 void Tour::takePicture(const QString& name) {
+  // What it costs to draw a picture for the folder is not the window's time.
+  if (auto* watch = dynamic_cast<WatchedApplication*>(qApp)) watch->count(false);
   m_application.window().grab().save(QDir(m_folder).filePath(name + QStringLiteral(".png")));
 }
 
+void Tour::tellStalls() const {
+  const auto* watch = dynamic_cast<const WatchedApplication*>(qApp);
+  if (watch == nullptr) return;
+  const Stall& longest = watch->longest();
+  std::printf("window: the longest event took %.1f ms of work, %.1f ms on the wall (%s)\n", longest.work_ms,
+              longest.wall_ms, qPrintable(longest.what));
+  for (const Stall& stall : watch->stalls()) {
+    std::printf("window: stood still %.1f ms, %.1f ms of it work (%s)\n", stall.wall_ms, stall.work_ms,
+                qPrintable(stall.what));
+  }
+}
+
 void Tour::end(int code, const QString& words) {
+  tellStalls();
   std::fprintf(code == 0 ? stdout : stderr, "%s\n", qPrintable(words));
   m_application.demo().stop();
   QApplication::exit(code);

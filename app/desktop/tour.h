@@ -22,6 +22,7 @@ class Tour : public QObject {
   void whenIdle(const std::function<void()>& then);
   void stepDone(bool good);
   void takePicture(const QString& name);
+  void tellStalls() const;
   void end(int code, const QString& words);
 
   Application& m_application;

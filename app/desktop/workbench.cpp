@@ -1,14 +1,17 @@
 #include "app/desktop/workbench.h"
 
 #include <QRegularExpression>
+#include <algorithm>
 
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "core/base/json.h"
+#include "core/base/redact.h"
 
 namespace zerodrift::desktop {
 
-Workbench::Workbench(QObject* parent) : QObject(parent) {
+Workbench::Workbench(QObject* parent)
+    : QObject(parent), m_access(std::make_unique<access::Access>(access::access_file())) {
   connect(&m_monitor, &MachineMonitor::looked, this, [this](const std::shared_ptr<const MachineLook>& look) {
     if (!m_look) log(LogKind::good, tr("Connected to %1").arg(QString::fromStdString(look->identity.name)));
     m_look = look;
@@ -34,16 +37,35 @@ Workbench::~Workbench() {
   m_monitor.stop();
 }
 
+void Workbench::dropCameras() {
+  for (auto& camera : m_cameras) m_ending.drop(std::move(camera));
+  m_cameras.clear();
+}
+
+void Workbench::useAccess(std::unique_ptr<access::Access> access) {
+  m_access = std::move(access);
+  Q_EMIT accessChanged();
+}
+
 Status Workbench::useJob(Result<commissioning::Job> job) {
   if (!job) return fail(std::move(job).error());
   m_job = std::make_unique<commissioning::Job>(std::move(*job));
   log(LogKind::note, tr("Job %1").arg(QString::fromStdString(m_job->path().string())));
   // A job brings its machine: the profile it was made with.
   if (const auto machine = body("machine"); machine.is_object() && machine.contains("profile") && !m_profile) {
-    if (auto profile = controller::profile_from_json(machine["profile"], "the job's profile")) {
+    if (auto profile = controller::profile_from_job(machine["profile"])) {
+      const bool incomplete = std::any_of(profile->cameras.begin(), profile->cameras.end(),
+                                          [](const auto& camera) { return lacks_secret(camera.url); });
+      if (incomplete) {
+        log(LogKind::warning, tr("A job keeps no password: load the connection profile for the cameras."));
+      }
       m_profileDocument = machine["profile"];
       m_profile = std::move(*profile);
+      m_reached = false;
+      dropCameras();
       Q_EMIT profileChanged();
+    } else {
+      log(LogKind::warning, lineOf(profile.error()));
     }
   }
   Q_EMIT jobChanged();
@@ -97,7 +119,8 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
   ZD_TRY(m_profileDocument, read_json_file(path));
   for (const auto& warning : warnings) log(LogKind::warning, coreText(warning));
   m_profile = std::move(profile);
-  m_cameras.clear();
+  dropCameras();
+  m_reached = false;
   m_look.reset();
   Q_EMIT profileChanged();
   return {};
@@ -107,6 +130,7 @@ Status Workbench::setRegisterMap(const std::filesystem::path& path) {
   if (!m_profile) return fail(ErrorCode::step_blocked, {{"step", "machine"}, {"needs", "a connection profile"}});
   auto document = m_profileDocument;
   document["controller"]["register_map"] = path.string();
+  document["controller"].erase("register_map_document");
   ZD_TRY(auto profile, controller::profile_from_json(document, m_profile->file));
   m_profile = std::move(profile);
   m_profileDocument = std::move(document);
@@ -118,18 +142,21 @@ Status Workbench::setRegisterMap(const std::filesystem::path& path) {
 }
 
 void Workbench::connectMachine() {
-  if (m_profile) m_monitor.start(*m_profile);
+  if (!m_profile) return;
+  m_reached = true;
+  m_monitor.start(*m_profile);
 }
 
 void Workbench::disconnectMachine() {
   m_monitor.stop();
+  m_reached = false;
   m_look.reset();
-  m_cameras.clear();
+  dropCameras();
   Q_EMIT profileChanged();
 }
 
 const std::vector<std::shared_ptr<vision::Camera>>& Workbench::cameras() {
-  if (m_cameras.empty() && m_profile && m_profile->error_source == controller::ErrorSourceKind::camera) {
+  if (m_cameras.empty() && m_reached && m_profile && m_profile->error_source == controller::ErrorSourceKind::camera) {
     for (const auto& camera : m_profile->cameras) m_cameras.push_back(std::make_shared<vision::Camera>(camera.url));
   }
   return m_cameras;
@@ -171,7 +198,7 @@ void Workbench::tellSample(const acquisition::MachineSample& sample) {
 }
 
 void Workbench::log(LogKind kind, const QString& text) {
-  Q_EMIT logged(QDateTime::currentDateTime(), kind, text);
+  Q_EMIT logged(QDateTime::currentDateTime(), kind, QString::fromStdString(without_secrets(text.toStdString())));
 }
 
 }  // namespace zerodrift::desktop

@@ -10,6 +10,7 @@
 
 #include "app/desktop/machine_monitor.h"
 #include "app/tasks/task_runner.h"
+#include "core/access/access.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
 #include "core/report/wording.h"
@@ -30,6 +31,10 @@ class Workbench : public QObject {
  public:
   explicit Workbench(QObject* parent = nullptr);
   ~Workbench() override;
+
+  /// Who may write to machines from here.
+  access::Access& access() { return *m_access; }
+  void useAccess(std::unique_ptr<access::Access> access);
 
   // The job
   Status createJob(const std::filesystem::path& path);
@@ -58,7 +63,8 @@ class Workbench : public QObject {
   bool connected() const { return m_look != nullptr; }
   const std::shared_ptr<const MachineLook>& look() const { return m_look; }
   bool compensationOn() const { return m_look && m_look->sample.compensation_on; }
-  /// Live cameras of the profile, for the pictures; opened at the first call.
+  /// Live cameras of the profile, for the pictures; opened at the first call after a person has connected. A job that
+  /// was merely opened reaches nothing.
   const std::vector<std::shared_ptr<vision::Camera>>& cameras();
   /// A step reads the machine itself: the sample it got serves the lamps.
   void tellSample(const acquisition::MachineSample& sample);
@@ -78,12 +84,16 @@ class Workbench : public QObject {
   void profileChanged();
   void machineSeen();
   void machineLost(const zerodrift::Error& error);
+  void accessChanged();
   void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);
 
  private:
   report::Labels labels() const;
+  /// Cameras that are not needed any more; they may be waiting for a picture.
+  void dropCameras();
   Status useJob(Result<commissioning::Job> job);
 
+  std::unique_ptr<access::Access> m_access;
   std::unique_ptr<commissioning::Job> m_job;
   std::optional<controller::Profile> m_profile;
   nlohmann::json m_profileDocument;
@@ -91,7 +101,9 @@ class Workbench : public QObject {
   std::vector<std::shared_ptr<vision::Camera>> m_cameras;
   MachineMonitor m_monitor;
   TaskRunner m_tasks;
+  Aside m_ending;
   QString m_lastProblem;
+  bool m_reached = false;  // a person has asked for this machine: until then nothing goes out to it or its cameras
 };
 
 }  // namespace zerodrift::desktop

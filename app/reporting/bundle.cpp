@@ -9,7 +9,7 @@
 #include "app/reporting/writers.h"
 #include "core/base/file.h"
 #include "core/base/json.h"
-#include "core/base/secrets.h"
+#include "core/base/redact.h"
 #include "core/base/time_text.h"
 #include "core/commissioning/copy.h"
 #include "core/recording/csv.h"

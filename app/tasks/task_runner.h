@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QString>
 #include <any>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -29,7 +30,16 @@ class TaskRunner : public QObject {
   bool start(const QString& name, std::function<Result<T>(const TaskContext&)> work,
              std::function<void(Result<T>)> done) {
     return launch(
-        name, [work = std::move(work)](const TaskContext& c) { return std::make_any<Result<T>>(work(c)); },
+        name,
+        [work = std::move(work)](const TaskContext& c) {
+          // What throws here - no memory, a job whose artefacts do not hold what they should - ends this work, not the
+          // program.
+          try {
+            return std::make_any<Result<T>>(work(c));
+          } catch (const std::exception& problem) {
+            return std::make_any<Result<T>>(fail(ErrorCode::internal, {{"detail", problem.what()}}));
+          }
+        },
         [done = std::move(done)](std::any result) { done(std::any_cast<Result<T>>(std::move(result))); });
   }
 

@@ -48,6 +48,7 @@ class Run {
   template <class Call>
   auto patiently(Call call) -> decltype(call());
   Status wait_for_link(const Error& error, double& waited_s, int attempt);
+  void note_sleep(double time_s, double host_s);
   void clock_restarted(double machine_time_s, double gap_s);
 
   void raise(const std::string& key, const Error& error);

@@ -12,6 +12,9 @@ constexpr double longest_pause_s = 5.0;
 constexpr int stale_readings_shown = 5;
 // A controller's clock may be read a little before another part of the same sample.
 constexpr double clock_slack_s = 0.5;
+// The machine's clock went on so much further than ours between two readings: this computer slept.
+constexpr double asleep_s = 20.0;      // machine
+constexpr double asleep_wall_s = 5.0;  // on a quick machine jitter of ours is long
 
 }  // namespace
 
@@ -94,12 +97,22 @@ Status Run::accept(const MachineSample& sample) {
     } else {
       m_stale_readings = 0;
       clear("clock");
+      note_sleep(time_s, (now - m_read_at).count());
     }
     m_time_s = std::max(m_time_s, sample.machine_time_s - m_start.origin_s);
   }
   m_read_at = now;
   if (m_options.each_sample) ZD_CHECK(m_options.each_sample(sample));
   return {};
+}
+
+// Our steady clock stands while the computer sleeps; the machine and its heat go on. The hole in the rows gets its
+// name.
+void Run::note_sleep(double time_s, double host_s) {
+  if (time_s - m_time_s - host_s < std::max(asleep_s, asleep_wall_s * m_options.time_factor)) return;
+  ++m_summary.gaps;
+  m_commanded_step.reset();  // a controller whose host is silent may have stopped by itself
+  event("gap", "asleep", nlohmann::json{{"from_s", m_time_s}, {"to_s", time_s}}.dump());
 }
 
 // The machine was switched off and on: its clock began again, and while it was off the plan stood still.

@@ -14,8 +14,9 @@ namespace {
 
 std::string shown(const json& value) {
   std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
+  if (text.size() <= 60) return text;
+  text.resize(57);
+  return text + "...";
 }
 
 /// The library's sentence without its own name and position: what was found and what was expected.
@@ -26,6 +27,28 @@ std::string words_of(const json::exception& error) {
     if (at != std::string::npos) text = text.substr(at + before.size());
   }
   return text;
+}
+
+// Far beyond any document of ours, far below where walking through one would end the stack.
+constexpr int deepest = 200;
+
+/// The line where brackets first nest deeper than that; 0 when they never do.
+std::int64_t line_too_deep(std::string_view text) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      quoted = c != '"';
+      continue;
+    }
+    quoted = c == '"';
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > deepest) return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+  }
+  return 0;
 }
 
 }  // namespace
@@ -207,6 +230,12 @@ void JsonObject::unknown_keys(std::vector<std::string>& out) const {
 
 Result<json> parse_json(std::string_view text, const std::string& file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (const auto line = line_too_deep(text); line > 0) {
+    return fail(ErrorCode::json_syntax, {{"file", file},
+                                         {"line", std::to_string(line)},
+                                         {"column", "1"},
+                                         {"detail", "brackets within brackets, more than " + std::to_string(deepest)}});
+  }
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.h"
+#include "core/base/redact.h"
 #include "core/commissioning/job_store.h"
 #include "core/commissioning/series_codec.h"
 
@@ -40,6 +41,9 @@ Result<AuditEntry> Job::audit(AuditEntry entry) {
   ZD_TRY(entry.id, database.integer("SELECT coalesce(max(id), 0) + 1 FROM audit"));
   ZD_TRY(const std::string previous, database.text("SELECT hash FROM audit ORDER BY id DESC LIMIT 1"));
   ZD_TRY(entry.engineer, m_store->header_value("engineer"));
+  for (std::string* text : {&entry.machine, &entry.subject, &entry.old_value, &entry.new_value, &entry.result}) {
+    *text = without_secrets(*text);
+  }
   entry.utc = now_text();
   entry.hash = chained_hash(entry, previous);
   ZD_TRY(Statement add, database.prepare("INSERT INTO audit (id, utc, engineer, machine, action, subject, old_value, "

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/secrets.h"
+#include "core/base/redact.h"
 #include "core/commissioning/database.h"
 
 namespace zerodrift::commissioning {

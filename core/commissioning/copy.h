@@ -7,7 +7,7 @@
 
 namespace zerodrift::commissioning {
 
-/// The job as it is on the disk now, with passwords replaced (core/base/secrets.h); a job that is open may be copied.
+/// The job as it is on the disk now, with passwords replaced (core/base/redact.h); a job that is open may be copied.
 /// Returns how many texts held one; their check sums no longer fit, which check() of the copy will say. A file that is
 /// there is replaced.
 Result<int> copy_without_secrets(const std::filesystem::path& job, const std::filesystem::path& copy);

@@ -98,6 +98,7 @@ Result<Job> Job::open_checked(const std::filesystem::path& path, bool read_only)
     // A look first, so that a foreign file gets neither a lock nor a log beside it.
     ZD_TRY(const auto database, Database::open(path, OpenMode::read_only));
     ZD_TRY(const std::int64_t version, known_version(*database, migrations()));
+    ZD_CHECK(check_schema(*database));
     if (read_only && version < static_cast<std::int64_t>(migrations().size())) {
       return fail(ErrorCode::file_not_writable,
                   {{"file", path.string()}, {"detail", "its older format needs updating"}});
@@ -118,6 +119,7 @@ Result<Job> Job::open_checked(const std::filesystem::path& path, bool read_only)
                             "audit", "header_change"}) {
     ZD_CHECK(store->database->prepare(std::string("SELECT * FROM ") + table + " LIMIT 1"));
   }
+  if (!read_only) ZD_CHECK(restore_guards(*store->database));
   return Job(std::move(store));
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <system_error>
 
 namespace zerodrift::commissioning {
@@ -56,7 +57,48 @@ Status to_version_2(Database& database) {
       "ALTER TABLE artefact ADD COLUMN body_hash TEXT NOT NULL DEFAULT ''");
 }
 
+using Objects = std::map<std::string, std::string>;  // name -> its SQL
+
+/// What acts by itself in a database: triggers, views, virtual tables.
+Result<Objects> active_objects(Database& database) {
+  ZD_TRY(Statement rows, database.prepare("SELECT name, sql FROM sqlite_master WHERE type IN ('trigger', 'view') OR "
+                                          "(type = 'table' AND sql LIKE 'CREATE VIRTUAL%')"));
+  Objects objects;
+  for (;;) {
+    ZD_TRY(const bool row, rows.step());
+    if (!row) return objects;
+    objects[rows.text(0)] = rows.text(1);
+  }
+}
+
+Result<Objects> own_objects() {
+  ZD_TRY(const auto database, Database::open(":memory:", OpenMode::create));
+  ZD_CHECK(database->execute(tables_1));
+  return active_objects(*database);
+}
+
 }  // namespace
+
+Status check_schema(Database& database) {
+  ZD_TRY(const Objects own, own_objects());
+  ZD_TRY(const Objects found, active_objects(database));
+  for (const auto& [name, sql] : found) {
+    const auto at = own.find(name);
+    if (at != own.end() && at->second == sql) continue;
+    return fail(ErrorCode::job_damaged, {{"file", database.path().string()},
+                                         {"detail", fmt::format("\"{}\" in it was not made by this program", name)}});
+  }
+  return {};
+}
+
+Status restore_guards(Database& database) {
+  ZD_TRY(const Objects own, own_objects());
+  ZD_TRY(const Objects found, active_objects(database));
+  for (const auto& [name, sql] : own) {
+    if (found.count(name) == 0) ZD_CHECK(database.execute(sql));
+  }
+  return {};
+}
 
 std::span<const Migration> migrations() {
   static const std::array<Migration, 2> steps = {to_version_1, to_version_2};

@@ -21,4 +21,10 @@ Result<std::int64_t> known_version(Database& database, std::span<const Migration
 /// is copied to "<file>.v<version>.bak"; a failure leaves the file as it was.
 Status migrate(Database& database, std::span<const Migration> steps);
 
+/// A job may come from elsewhere, and a trigger or a view is somebody's program in it: job_damaged for any that is not
+/// exactly ours. Only reads.
+Status check_schema(Database& database);
+/// Puts back what keeps the audit trail and the artefacts as they are, where it was taken away.
+Status restore_guards(Database& database);
+
 }  // namespace zerodrift::commissioning

@@ -8,6 +8,13 @@
 
 namespace zerodrift::commissioning {
 
+namespace {
+
+constexpr std::size_t largest_ratio = 1032;  // of deflate (zlib's technical notes)
+constexpr std::size_t least_bytes = 1024;
+
+}  // namespace
+
 static_assert(std::endian::native == std::endian::little, "samples are stored in little endian");
 
 std::string encode_row(std::span<const double> row) {
@@ -42,6 +49,8 @@ std::string encode_chunk(std::span<const double> rows, std::size_t width) {
 }
 
 bool decode_chunk(std::string_view bytes, std::size_t count, std::size_t width, std::vector<double>& out) {
+  // What a file claims is believed only as far as deflate can go: nothing else bounds the memory asked for here.
+  if (width == 0 || count > (bytes.size() * largest_ratio + least_bytes) / (width * sizeof(double))) return false;
   std::vector<double> columns(count * width);
   uLongf size = static_cast<uLongf>(columns.size() * sizeof(double));
   const uLongf expected = size;

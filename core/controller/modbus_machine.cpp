@@ -5,8 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/base/json.h"
+#include "core/base/resources.h"
 #include "core/compensation/interlock.h"
 
 namespace zerodrift::controller {
@@ -69,14 +72,22 @@ std::vector<std::string> present(const RegisterMap& map, const std::vector<std::
 
 }  // namespace
 
-Result<std::unique_ptr<ModbusMachine>> ModbusMachine::open(const Profile& profile) {
-  const auto beside = std::filesystem::path(profile.file).parent_path();
-  ZD_TRY(RegisterMap map, load_register_map(profile.controller.register_map, beside));
-  return std::make_unique<ModbusMachine>(profile, std::move(map));
+Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* warnings) {
+  const std::string& name = profile.controller.register_map;
+  if (profile.controller.own_map) return register_map_from_json(*profile.controller.own_map, name, warnings);
+  if (!profile.of_job) return load_register_map(name, std::filesystem::path(profile.file).parent_path(), warnings);
+  ZD_TRY(const auto path, find_resource("register_maps/" + name + ".json"));
+  ZD_TRY(const nlohmann::json document, read_json_file(path));
+  return register_map_from_json(document, path.string(), warnings);
 }
 
-ModbusMachine::ModbusMachine(Profile profile, RegisterMap map)
-    : m_profile(std::move(profile)), m_map(std::move(map)), m_link([this] {
+Result<std::unique_ptr<ModbusMachine>> ModbusMachine::open(const Profile& profile, access::Permit permit) {
+  ZD_TRY(RegisterMap map, map_of(profile));
+  return std::make_unique<ModbusMachine>(profile, std::move(map), permit);
+}
+
+ModbusMachine::ModbusMachine(Profile profile, RegisterMap map, access::Permit permit)
+    : m_profile(std::move(profile)), m_map(std::move(map)), m_permit(permit), m_link([this] {
         ControllerSettings settings = m_profile.controller;
         if (m_map.unit) settings.unit = *m_map.unit;
         return settings;
@@ -135,6 +146,7 @@ Result<double> ModbusMachine::read_value(const std::string& name) {
 }
 
 Status ModbusMachine::write_values(const std::string& name, const std::vector<double>& values, Retry retry) {
+  ZD_CHECK(m_permit.check("Writing " + name));
   ZD_TRY(const Register entry, m_map.require(name));
   std::vector<std::uint16_t> words;
   for (const double value : values) {
@@ -155,6 +167,7 @@ Result<std::vector<std::uint16_t>> ModbusMachine::read_words(const std::string& 
 }
 
 Status ModbusMachine::write_words(const std::string& name, int offset, std::span<const std::uint16_t> words) {
+  ZD_CHECK(m_permit.check("Writing " + name));
   ZD_TRY(const Register entry, m_map.require(name));
   const auto chunk = static_cast<std::size_t>(std::min(m_profile.controller.chunk_registers, m_map.max_write));
   for (std::size_t done = 0; done < words.size(); done += chunk) {

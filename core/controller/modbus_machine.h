@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/access/permit.h"
 #include "core/acquisition/machine_io.h"
 #include "core/controller/link.h"
 #include "core/controller/profile.h"
@@ -16,11 +17,16 @@ namespace zerodrift::controller {
 
 using RegisterValues = std::map<std::string, std::vector<double>>;  // register name -> its values
 
+/// The map a profile brings with it, or names. Of a profile out of a job only a map of the program is read.
+Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* warnings = nullptr);
+
 class ModbusMachine : public acquisition::MachineIo {
  public:
-  /// Loads the profile's register map; the first request connects.
-  static Result<std::unique_ptr<ModbusMachine>> open(const Profile& profile);
-  ModbusMachine(Profile profile, RegisterMap map);
+  /// Loads the profile's register map; the first request connects. Without a permit to write every write is
+  /// access_locked before a byte is sent.
+  static Result<std::unique_ptr<ModbusMachine>> open(const Profile& profile,
+                                                     access::Permit permit = access::Permit::read_only());
+  ModbusMachine(Profile profile, RegisterMap map, access::Permit permit);
 
   Result<acquisition::MachineIdentity> identify() override;
   Result<acquisition::MachineSample> read() override;
@@ -60,6 +66,7 @@ class ModbusMachine : public acquisition::MachineIo {
 
   Profile m_profile;
   RegisterMap m_map;
+  access::Permit m_permit;
   Link m_link;
   bool m_single_reads = false;  // the device refused a read across a gap
   bool m_watchdog_set = false;

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/json.h"
+#include "core/base/redact.h"
+#include "core/controller/register_map.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -27,6 +29,9 @@ ControllerSettings read_controller(JsonObject& o) {
   c.unit = o.integer_or("unit", 1, 0, 255);
   c.timeout_ms = o.integer_or("timeout_ms", 1000, 20, 60000);
   c.register_map = o.text_or("register_map", c.register_map);
+  if (const nlohmann::json* map = o.raw("register_map_document"); map != nullptr && map->is_object()) {
+    c.own_map = std::make_shared<const nlohmann::json>(*map);
+  }
   c.chunk_registers = o.integer_or("chunk_registers", c.chunk_registers, 8, 123);
   return c;
 }
@@ -93,6 +98,16 @@ Profile read_body(JsonObject& o) {
   return profile;
 }
 
+/// A stream over the network or a device; whatever else the video library understands would be a file.
+bool leads_to_a_camera(const std::string& url) {
+  const bool number = !url.empty() && url.find_first_not_of("0123456789") == std::string::npos;
+  if (number || (url.rfind("/dev/video", 0) == 0 && url.find("..") == std::string::npos)) return true;
+  for (const char* scheme : {"http://", "https://", "rtsp://"}) {
+    if (url.rfind(scheme, 0) == 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<Profile> profile_from_json(const nlohmann::json& document, const std::string& file,
@@ -110,6 +125,41 @@ Result<Profile> profile_from_json(const nlohmann::json& document, const std::str
     profile.machine = std::make_shared<const nlohmann::json>(*machine);
     profile.machine_file = file;
   }
+  return profile;
+}
+
+Result<nlohmann::json> document_for_job(const nlohmann::json& document, const Profile& profile) {
+  nlohmann::json kept = document_without_secrets(document);
+  if (const auto machine = kept.find("machine"); machine != kept.end() && machine->is_string() && profile.machine) {
+    *machine = *profile.machine;
+  }
+  const auto controller = kept.find("controller");
+  if (controller == kept.end() || profile.controller.own_map) return kept;
+  const std::string& name = profile.controller.register_map;
+  const auto path = register_map_file(name, std::filesystem::path(profile.file).parent_path());
+  if (path.empty()) return kept;
+  ZD_TRY((*controller)["register_map_document"], read_json_file(path));
+  (*controller)["register_map"] = std::filesystem::path(name).stem().string();
+  return kept;
+}
+
+Result<Profile> profile_from_job(const nlohmann::json& document) {
+  if (!document.is_object()) return profile_from_json(document, "the job's profile");
+  const auto refused = [](const char* key, const std::string& found) {
+    return fail(ErrorCode::job_reaches_out, {{"key", key}, {"found", found}});
+  };
+  if (const auto machine = document.find("machine"); machine != document.end() && machine->is_string()) {
+    return refused("machine", machine->get<std::string>());
+  }
+  ZD_TRY(Profile profile, profile_from_json(document, "the job's profile"));
+  const std::string& map = profile.controller.register_map;
+  if (!profile.controller.own_map && map.find_first_of("/\\.") != std::string::npos) {
+    return refused("controller.register_map", map);
+  }
+  for (const auto& camera : profile.cameras) {
+    if (!leads_to_a_camera(camera.url)) return refused("cameras.url", without_secrets(camera.url));
+  }
+  profile.of_job = true;
   return profile;
 }
 

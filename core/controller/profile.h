@@ -31,6 +31,7 @@ struct ControllerSettings {
   int unit = 1;
   int timeout_ms = 1000;
   std::string register_map = "zerodrift-virtual";  // name of a shipped map, or a path
+  std::shared_ptr<const nlohmann::json> own_map;   // the map itself, where a profile carries it (in a job)
   int chunk_registers = 64;                        // registers a write when a table is staged; 8 to 123
 };
 
@@ -59,6 +60,7 @@ enum class ErrorSourceKind {
 
 struct Profile {
   std::string file;
+  bool of_job = false;  // it came out of a job: files that it names are not read
   std::string name;
   double time_factor = 1.0;  // machine seconds a host second
   ControllerSettings controller;
@@ -76,6 +78,12 @@ struct Profile {
 
 Result<Profile> profile_from_json(const nlohmann::json& document, const std::string& file,
                                   std::vector<std::string>* warnings = nullptr);
+/// The profile as a job keeps it: the machine description and a register map that is a file of its own stand in it, and
+/// no password does.
+Result<nlohmann::json> document_for_job(const nlohmann::json& document, const Profile& profile);
+/// A profile out of a job, which may come from elsewhere: no file that it names is read (job_reaches_out), beside the
+/// maps that the program brings.
+Result<Profile> profile_from_job(const nlohmann::json& document);
 Result<Profile> read_profile(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 
 /// Number of a sensor in a table's words: the position in the profile, from 1; ambient_C is 0.

@@ -114,15 +114,18 @@ Result<RegisterMap> register_map_from_json(const nlohmann::json& document, const
   return map;
 }
 
-Result<RegisterMap> load_register_map(const std::string& name_or_path, const std::filesystem::path& beside,
-                                      std::vector<std::string>* warnings) {
+std::filesystem::path register_map_file(const std::string& name_or_path, const std::filesystem::path& beside) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  fs::path path;
   for (const fs::path& candidate : {beside / name_or_path, fs::path(name_or_path)}) {
-    if (fs::is_regular_file(candidate, ignored)) path = candidate;
-    if (!path.empty()) break;
+    if (fs::is_regular_file(candidate, ignored)) return candidate;
   }
+  return {};
+}
+
+Result<RegisterMap> load_register_map(const std::string& name_or_path, const std::filesystem::path& beside,
+                                      std::vector<std::string>* warnings) {
+  std::filesystem::path path = register_map_file(name_or_path, beside);
   if (path.empty()) {
     ZD_TRY(path, find_resource("register_maps/" + name_or_path + ".json"));
   }

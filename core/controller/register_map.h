@@ -78,6 +78,8 @@ Result<RegisterMap> read_register_list(const std::filesystem::path& path, std::v
 nlohmann::json to_json(const Register& entry);
 /// With base 0; reads back as the same map.
 nlohmann::json to_json(const RegisterMap& map);
+/// The file that a name means when it is a path, as load_register_map looks for it; empty: none.
+std::filesystem::path register_map_file(const std::string& name_or_path, const std::filesystem::path& beside);
 /// A path to a JSON map, or the name of a shipped one; relative paths are looked up beside `beside` first.
 Result<RegisterMap> load_register_map(const std::string& name_or_path, const std::filesystem::path& beside = {},
                                       std::vector<std::string>* warnings = nullptr);

@@ -153,7 +153,7 @@ class Transfer {
       if (sent) return {};
       ZD_TRY(const TableStatus now, read_status(m_machine));
       if (now.sequence == m_sequence || now.commit == m_sequence) return {};  // it did arrive
-      if (attempt == 2) return sent;
+      if (attempt == 2) return fail(sent.error());
     }
   }
 

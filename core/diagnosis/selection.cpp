@@ -106,7 +106,7 @@ std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const p
 
 class Selector {
  public:
-  Selector(physics::RunFacts facts, SelectionOptions options, const TaskContext& context)
+  Selector(physics::RunFacts facts, const SelectionOptions& options, const TaskContext& context)
       : m_facts(std::move(facts)), m_options(options), m_context(context) {}
 
   Result<Selection> run(const physics::Machine& machine, std::shared_ptr<const Dataset> data) {

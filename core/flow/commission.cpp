@@ -123,7 +123,7 @@ Result<bool> has_open_run(const Job& job) {
 
 Result<CommissionResult> commission(Job& job, const controller::Profile& profile, const json& profile_document,
                                     const CommissionOptions& options, const TaskContext& context) {
-  ZD_TRY(Devices devices, Devices::open(profile));
+  ZD_TRY(Devices devices, Devices::open(profile, true, options.permit));
   Commissioning work(job, devices, options, context);
   ZD_TRY(const bool resuming, has_open_run(job));
   ZD_TRY(const auto recorded, job.latest("warmup"));

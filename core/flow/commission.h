@@ -17,6 +17,7 @@ namespace zerodrift::flow {
 
 struct CommissionOptions {
   acquisition::Plan plan;
+  access::Permit permit = access::Permit::read_only();  // it writes: without one the first write is refused
   double limit_um = 5.0;
   bool keep_views = true;                                // the pictures of the calibration's positions
   std::function<bool(const UploadPreview&)> confirm;     // absent: confirmed

@@ -12,10 +12,10 @@ constexpr double fast_time_factor = 10.0;
 
 }  // namespace
 
-Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras) {
+Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras, access::Permit permit) {
   Devices devices;
   devices.profile = profile;
-  ZD_TRY(devices.machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(devices.machine, controller::ModbusMachine::open(profile, permit));
   if (!with_cameras || profile.error_source != controller::ErrorSourceKind::camera) return devices;
   for (const auto& camera : profile.cameras) {
     devices.cameras.push_back({camera, std::make_shared<vision::Camera>(camera.url)});

@@ -25,7 +25,9 @@ struct Devices {
   std::vector<CameraDevice> cameras;  // reading already; empty when the errors come from probes
 
   /// The machine connects at its first request, the cameras by themselves; `with_cameras` false opens none.
-  static Result<Devices> open(const controller::Profile& profile, bool with_cameras = true);
+  /// Without a permit to write the machine can only be read.
+  static Result<Devices> open(const controller::Profile& profile, bool with_cameras = true,
+                              access::Permit permit = access::Permit::read_only());
 };
 
 /// The error source of a run. From cameras it needs the job's calibration; from probes nothing.

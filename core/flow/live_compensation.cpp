@@ -135,7 +135,7 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
                                                        const std::function<void(const LiveTurn&)>& observer) {
   ZD_TRY(const auto model, running_model(job));
   ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
-  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, options.permit));
   ZD_TRY(const auto identity, machine->identify());
   ZD_CHECK(same_machine(job, identity));
   Watch watch(job, profile, options);

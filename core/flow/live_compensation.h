@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/access/permit.h"
 #include "core/acquisition/error_source.h"
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
@@ -16,9 +17,10 @@
 namespace zerodrift::flow {
 
 struct LiveOptions {
-  double period_s = 0.5;         // host seconds between two turns
-  double measure_every_s = 2.0;  // host seconds between two measurements
-  double there_mm = 0.01;        // from the measuring position, on each axis: near enough to measure
+  access::Permit permit = access::Permit::read_only();  // without one the first write is refused
+  double period_s = 0.5;                                // host seconds between two turns
+  double measure_every_s = 2.0;                         // host seconds between two measurements
+  double there_mm = 0.01;  // from the measuring position, on each axis: near enough to measure
 };
 
 struct LiveTurn {

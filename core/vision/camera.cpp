@@ -13,6 +13,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/base/redact.h"
 #include "core/vision/opencv_image.h"
 
 namespace zerodrift::vision {
@@ -157,14 +158,16 @@ void Camera::Work::publish(GrayImage image) {
 Result<std::shared_ptr<const CameraFrame>> Camera::Work::state(Steady::time_point now) const {
   const bool live = kind_of(source) != SourceKind::file;
   if (!frame) {
-    if (opened == 0) return fail(ErrorCode::camera_unreachable, {{"url", source}, {"detail", detail}});
-    return fail(ErrorCode::camera_silent, {{"url", source}, {"seconds", seconds_text(now - started)}});
+    if (opened == 0) return fail(ErrorCode::camera_unreachable, {{"url", without_secrets(source)}, {"detail", detail}});
+    return fail(ErrorCode::camera_silent, {{"url", without_secrets(source)}, {"seconds", seconds_text(now - started)}});
   }
   if (now - frame->arrived > options.silent_after) {
-    return fail(ErrorCode::camera_silent, {{"url", source}, {"seconds", seconds_text(now - frame->arrived)}});
+    return fail(ErrorCode::camera_silent,
+                {{"url", without_secrets(source)}, {"seconds", seconds_text(now - frame->arrived)}});
   }
   if (live && now - last_change > options.frozen_after) {
-    return fail(ErrorCode::camera_frozen, {{"url", source}, {"seconds", seconds_text(now - last_change)}});
+    return fail(ErrorCode::camera_frozen,
+                {{"url", without_secrets(source)}, {"seconds", seconds_text(now - last_change)}});
   }
   return frame;
 }
@@ -220,7 +223,8 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
       if (m_work->last_changed > first_after && waited) return frame;
       if (kind_of(m_work->source) == SourceKind::file && frame->count > first_after) return frame;
       if (const auto repeated = m_work->repeating(Steady::now())) {
-        return fail(ErrorCode::camera_frozen, {{"url", m_work->source}, {"seconds", seconds_text(*repeated)}});
+        return fail(ErrorCode::camera_frozen,
+                    {{"url", without_secrets(m_work->source)}, {"seconds", seconds_text(*repeated)}});
       }
     }
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
@@ -234,7 +238,7 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
     if (const auto state = m_work->state(now); !state) return fail(state.error());
     const bool frozen = m_work->frame && m_work->frame->count > first_after && first_after > 0;
     return fail(frozen ? ErrorCode::camera_frozen : ErrorCode::camera_silent,
-                {{"url", m_work->source}, {"seconds", seconds_text(timeout)}});
+                {{"url", without_secrets(m_work->source)}, {"seconds", seconds_text(timeout)}});
   }
 }
 

@@ -182,6 +182,24 @@ TEST_F(RecorderTest, NoticesThatTheMachineWasRestarted) {
   EXPECT_NEAR(sink.times.back(), 2000.0, 20.0);
 }
 
+// The computer slept for an hour with the lid closed: its steady clock stood, the machine's went on.
+TEST_F(RecorderTest, NamesTheHoleOfASleep) {
+  plan.steps = {{7200.0, 3000.0, true, true}};
+  at(500.0, [&] { machine.clock_zero_s -= 3600.0; });
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(sink.count("gap", "asleep"), 1);
+  EXPECT_EQ(summary->gaps, 1);
+  EXPECT_NEAR(sink.times.back(), 7200.0, 20.0);  // by the machine's clock, and so by its heat
+  int hours = 0;
+  for (std::size_t i = 1; i < sink.times.size(); ++i) {
+    ASSERT_GT(sink.times[i], sink.times[i - 1]);
+    hours += int(sink.times[i] - sink.times[i - 1] > 3500.0);
+  }
+  EXPECT_EQ(hours, 1);
+  EXPECT_LT(sink.times.size(), 500U);  // what was missed is not made up for
+}
+
 TEST_F(RecorderTest, PausesAndResumes) {
   at(300.0, [&] { control->pause(); });
   at(700.0, [&] {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "core/base/noise.h"
 
@@ -68,6 +70,79 @@ TEST(SensorWatch, FindsADeadSensorAtOnceAndItsReturn) {
 TEST(SensorWatch, SaysNothingWhereAllSensorsAreQuiet) {
   SensorWatch watch(names(3));
   for (int i = 0; i < 1000; ++i) ASSERT_TRUE(watch.add(i, {20.0, 20.0, 20.0}).empty());
+}
+
+// Each fault begins in the middle of a run; 12 sensors, one reading in 10 s.
+class SensorFault : public testing::Test {
+ protected:
+  using Values = std::vector<double>;
+  /// Readings until the fault is named; what was said before it began is a false alarm.
+  int readings_until(ErrorCode code, const std::function<void(int since, Values&)>& fault) {
+    SensorWatch watch(names(12));
+    Noise noise(8);
+    for (int i = 0; i < 600; ++i) {
+      Values values;
+      for (int s = 0; s < 12; ++s) values.push_back(reading(noise, 20.0 + s * 0.9 + 0.004 * i * s));
+      if (i >= begin) fault(i - begin, values);
+      for (const auto& change : watch.add(10.0 * i, values)) {
+        if (i < begin) return -1000;
+        if (change.failed && change.error.code == code) {
+          said = change.error.context;
+          return i - begin + 1;
+        }
+      }
+    }
+    return -1;
+  }
+  static constexpr int begin = 300;
+  std::map<std::string, std::string> said;
+};
+
+TEST_F(SensorFault, SpikingIsToldAtTheSecondSpike) {
+  const int told = readings_until(ErrorCode::sensor_spiking, [](int since, Values& v) {
+    if (since % 40 == 0) v[4] += since % 80 == 0 ? 25.0 : -60.0;
+  });
+  EXPECT_GT(told, 0);
+  EXPECT_LE(told, 42);
+}
+
+TEST_F(SensorFault, ReplugElsewhereIsAJump) {
+  const int told = readings_until(ErrorCode::sensor_jumped,
+                                  [](int since, Values& v) { v[4] = since < 6 ? std::nan("") : v[4] + 8.0; });
+  EXPECT_GT(told, 6);
+  EXPECT_LE(told, 6 + 3);
+  EXPECT_EQ(said.at("sensor"), "T5_C");
+}
+
+TEST_F(SensorFault, SwappedAreNamedBoth) {
+  const int told = readings_until(ErrorCode::sensor_swapped, [](int, Values& v) { std::swap(v[2], v[9]); });
+  EXPECT_EQ(told, 3);
+  EXPECT_EQ(said.at("sensor"), "T3_C");
+  EXPECT_EQ(said.at("other"), "T10_C");
+}
+
+TEST_F(SensorFault, DeadAndStuck) {
+  EXPECT_EQ(readings_until(ErrorCode::sensor_dead, [](int, Values& v) { v[1] = std::nan(""); }), 1);
+  double kept = 0.0;
+  const int told = readings_until(ErrorCode::sensor_stuck, [&](int since, Values& v) {
+    if (since == 0) kept = v[1];
+    v[1] = kept;
+  });
+  EXPECT_GT(told, 0);
+  EXPECT_LE(told, 60);
+}
+
+TEST(SensorWatch, CoolantThatSetsInIsNoFault) {
+  SensorWatch watch(names(6));
+  Noise noise(9);
+  for (int i = 0; i < 400; ++i) {
+    std::vector<double> values;
+    for (int s = 0; s < 6; ++s) {
+      const double fall = i > 200 ? 6.0 * (1.0 - std::exp(-(i - 200) * 10.0 / 30.0)) : 0.0;  // 30 s time constant
+      values.push_back(reading(noise, 30.0 + s - fall));
+    }
+    ASSERT_TRUE(watch.add(10.0 * i, values).empty()) << i;
+  }
 }
 
 }  // namespace

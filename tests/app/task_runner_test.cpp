@@ -2,6 +2,10 @@
 
 #include <QSignalSpy>
 #include <QTest>
+#include <atomic>
+#include <vector>
+
+#include "app/tasks/aside.h"
 
 namespace zerodrift {
 
@@ -9,6 +13,35 @@ class TaskRunnerTest : public QObject {
   Q_OBJECT
 
  private Q_SLOTS:
+  void aThrownExceptionEndsTheWorkAndNotTheProgram() {
+    TaskRunner runner;
+    std::optional<ErrorCode> code;
+    QVERIFY(runner.start<int>(
+        "thrower", [](const TaskContext&) -> Result<int> { return std::vector<int>(1).at(7); },
+        [&](const Result<int>& result) { code = result.error().code; }));
+    QTRY_VERIFY(code.has_value());
+    QCOMPARE(*code == ErrorCode::internal, true);
+    QVERIFY(!runner.running());
+  }
+
+  void whatEndsSlowlyEndsAside() {
+    struct Slow {
+      std::atomic<bool>& gone;
+      ~Slow() {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        gone = true;
+      }
+    };
+    std::atomic<bool> gone = false;
+    const auto from = std::chrono::steady_clock::now();
+    {
+      Aside aside;
+      aside.drop(std::shared_ptr<Slow>(new Slow{gone}));
+      QVERIFY(std::chrono::steady_clock::now() - from < std::chrono::milliseconds(200));
+    }
+    QVERIFY(gone);
+  }
+
   void givesTheResultOnItsOwnThread() {
     TaskRunner runner;
     std::optional<int> answer;

@@ -10,9 +10,9 @@ namespace zerodrift::architecture {
 namespace {
 
 // In the order in which data flows; a folder may include itself and those before it.
-constexpr std::array<std::string_view, 12> core_order = {"base",         "commissioning", "recording", "acquisition",
-                                                         "vision",       "analysis",      "physics",   "diagnosis",
-                                                         "compensation", "controller",    "report",    "flow"};
+constexpr std::array<std::string_view, 13> core_order = {
+    "base",    "access",    "commissioning", "recording",  "acquisition", "vision", "analysis",
+    "physics", "diagnosis", "compensation",  "controller", "report",      "flow"};
 
 bool starts(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;

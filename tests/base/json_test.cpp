@@ -50,4 +50,15 @@ TEST(Json, UnknownKeysWarnAtEveryDepth) {
   EXPECT_EQ(warnings.size(), 2U);
 }
 
+// Walking through a document that is deep enough would end the stack.
+TEST(Json, BracketsWithinBracketsHaveAnEnd) {
+  const std::string deep = "{\"a\":\n" + std::string(100000, '[') + std::string(100000, ']') + "}";
+  const auto refused = parse_json(deep, "deep.json");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::json_syntax);
+  EXPECT_EQ(refused.error().context.at("line"), "2");
+  EXPECT_TRUE(parse_json("{\"a\": \"" + std::string(1000, '[') + "\\\"\"}", "text.json"));
+  EXPECT_TRUE(parse_json(std::string(150, '[') + std::string(150, ']'), "fits.json"));
+}
+
 }  // namespace zerodrift

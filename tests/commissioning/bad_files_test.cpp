@@ -63,6 +63,34 @@ TEST(BadFiles, WithAMissingTable) {
   EXPECT_EQ(code_of(Job::open(folder / "a.zdj")), ErrorCode::job_damaged);
 }
 
+// A job from elsewhere brings no program of its own: not when it is opened, not when it is written to.
+TEST(BadFiles, WithSomebodysTriggersAndViews) {
+  const TemporaryFolder folder;
+  for (const char* sql :
+       {"CREATE TRIGGER forget AFTER INSERT ON audit BEGIN DELETE FROM open_row; END",
+        "DROP TRIGGER audit_kept; CREATE TRIGGER audit_kept BEFORE DELETE ON audit BEGIN SELECT 1; END",
+        "CREATE VIEW more AS SELECT * FROM artefact", "DROP TABLE event; CREATE VIEW event AS SELECT * FROM audit",
+        "CREATE VIRTUAL TABLE words USING fts5(a)"}) {
+    const auto file = folder / "a.zdj";
+    std::filesystem::remove(file);
+    make_job(file);
+    run_sql(file, sql);
+    EXPECT_EQ(code_of(Job::open(file)), ErrorCode::job_damaged) << sql;
+    EXPECT_EQ(code_of(Job::open_read_only(file)), ErrorCode::job_damaged) << sql;
+  }
+}
+
+TEST(BadFiles, GuardsThatWereTakenAwayAreBack) {
+  const TemporaryFolder folder;
+  make_job(folder / "a.zdj");
+  run_sql(folder / "a.zdj", "DROP TRIGGER audit_kept");
+  { ASSERT_OK(Job::open(folder / "a.zdj")); }
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "a.zdj").c_str(), &handle), SQLITE_OK);
+  EXPECT_NE(sqlite3_exec(handle, "DELETE FROM audit", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(handle);
+}
+
 TEST(BadFiles, CutShort) {
   const TemporaryFolder folder;
   make_job(folder / "a.zdj");

@@ -13,6 +13,8 @@
 namespace zerodrift::controller {
 namespace {
 
+constexpr long alone = 24;  // bytes: an envelope and a good part of what is in it
+
 sockaddr_in local(int port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -93,10 +95,18 @@ bool BadCable::pass(int from, int to) {
       std::this_thread::sleep_for(m_delay);
     }
     if (hit && m_fault == Fault::corrupt) byte ^= 0x5A;
-    if (m_stalled) continue;
+    if (m_stalled || (hit && m_fault == Fault::drop)) continue;
     cut = hit && m_fault == Fault::cut;
     if (!cut) bytes.push_back(byte);
     if (hit && m_fault == Fault::duplicate) bytes.push_back(byte);
+    if (m_passed - 2 == m_strike_at && m_fault == Fault::reorder && bytes.size() > 1) {
+      std::swap(bytes[bytes.size() - 1], bytes[bytes.size() - 2]);
+    }
+    if (m_fault == Fault::split && m_strike_at >= 0 && m_passed > m_strike_at && m_passed <= m_strike_at + alone) {
+      if (!bytes.empty() && ::send(to, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) return false;
+      bytes.clear();
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
   }
   if (!bytes.empty() && ::send(to, bytes.data(), bytes.size(), MSG_NOSIGNAL) < 0) return false;
   return !cut;

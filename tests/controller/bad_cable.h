@@ -1,7 +1,7 @@
 #pragma once
 // A TCP relay between host and device that spoils the stream at one chosen byte: cuts the connection, turns a byte
-// over, sends a byte twice, holds everything back for a while or stops passing anything on. What the upload is tried
-// against, byte by byte.
+// over, loses one, sends one twice or two in the wrong order, holds everything back for a while, lets each travel alone
+// or stops passing anything on. What the upload is tried against, byte by byte.
 
 #include <atomic>
 #include <chrono>
@@ -18,6 +18,9 @@ class BadCable {
     duplicate,  // a byte comes twice
     delay,      // this byte and what follows come later than the host waits
     stall,      // nothing passes any more on this connection
+    drop,       // a byte is missing
+    reorder,    // a byte comes after the one behind it
+    split,      // the next bytes travel alone, each a while after the one before
   };
 
   explicit BadCable(int device_port);

@@ -26,7 +26,7 @@ compensation::Table model() {
 }
 
 std::unique_ptr<ModbusMachine> open(const Profile& profile) {
-  auto machine = ModbusMachine::open(profile);
+  auto machine = ModbusMachine::open(profile, engineer());
   EXPECT_TRUE(machine) << describe(machine.error());
   return std::move(*machine);
 }

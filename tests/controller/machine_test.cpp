@@ -9,6 +9,7 @@
 
 #include "core/controller/modbus_machine.h"
 #include "core/controller/modbus_server.h"
+#include "device.h"
 #include "peer.h"
 
 namespace zerodrift::controller {
@@ -72,7 +73,7 @@ TEST(ModbusMachine, SamplesAPymodbusPeer) {
   if (!peer.running()) GTEST_SKIP() << "python3-pymodbus is not installed";
   const auto profile = read_profile(peer.profile_file());
   ASSERT_TRUE(profile) << describe(profile.error());
-  auto machine = ModbusMachine::open(*profile);
+  auto machine = ModbusMachine::open(*profile, engineer());
   ASSERT_TRUE(machine) << describe(machine.error());
   const auto identity = (*machine)->identify();
   ASSERT_TRUE(identity) << describe(identity.error());
@@ -114,7 +115,7 @@ TEST(ModbusMachine, SplitsReadsForADeviceThatRefusesGaps) {
 TEST(ModbusMachine, SampleTakesTwoRequests) {
   Bank bank;
   bank.start();
-  auto machine = ModbusMachine::open(bank.profile());
+  auto machine = ModbusMachine::open(bank.profile(), engineer());
   ASSERT_TRUE(machine);
   const auto sample = (*machine)->read();
   ASSERT_TRUE(sample) << describe(sample.error());
@@ -130,7 +131,7 @@ TEST_P(SporadicFault, IsOvercomeAndCounted) {
   bank.fault = {GetParam().first, std::chrono::milliseconds(GetParam().first == Kind::late ? 250 : 0)};
   bank.start();
   bank.every = 4;
-  auto machine = ModbusMachine::open(bank.profile());
+  auto machine = ModbusMachine::open(bank.profile(), engineer());
   ASSERT_TRUE(machine);
   for (int i = 0; i < 12; ++i) {
     const auto sample = (*machine)->read();
@@ -153,7 +154,7 @@ TEST_P(SporadicFault, WithoutEndIsNamed) {
   bank.fault = {GetParam().first, std::chrono::milliseconds(GetParam().first == Kind::late ? 250 : 20)};
   bank.start();
   bank.every = 1;
-  auto machine = ModbusMachine::open(bank.profile());
+  auto machine = ModbusMachine::open(bank.profile(), engineer());
   ASSERT_TRUE(machine);
   const auto start = std::chrono::steady_clock::now();
   const auto sample = (*machine)->read();
@@ -172,20 +173,20 @@ INSTANTIATE_TEST_SUITE_P(Device, SporadicFault,
 TEST(ModbusMachine, UnreachableAndForeignDevicesAreNamed) {
   Profile nobody;
   nobody.controller.port = 1;
-  auto machine = ModbusMachine::open(nobody);
+  auto machine = ModbusMachine::open(nobody, engineer());
   ASSERT_TRUE(machine);
   EXPECT_EQ((*machine)->identify().error().code, ErrorCode::machine_unreachable);
   Bank bank;
   bank.start();
   bank.words[0] = 1234;
-  auto foreign = ModbusMachine::open(bank.profile());
+  auto foreign = ModbusMachine::open(bank.profile(), engineer());
   EXPECT_EQ((*foreign)->identify().error().code, ErrorCode::machine_unsupported);
   bank.words[0] = 0x5A44;
   bank.words[6] = 1;
   EXPECT_EQ((*foreign)->identify().error().code, ErrorCode::machine_unsupported);
   Profile unknown_map = bank.profile();
   unknown_map.controller.register_map = "no-such-map";
-  EXPECT_EQ(ModbusMachine::open(unknown_map).error().code, ErrorCode::file_not_found);
+  EXPECT_EQ(ModbusMachine::open(unknown_map, engineer()).error().code, ErrorCode::file_not_found);
 }
 
 }  // namespace zerodrift::controller

@@ -13,6 +13,7 @@
 #include "core/controller/table_words.h"
 #include "device.h"
 #include "peer.h"
+#include "tests/support/amount.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -31,7 +32,7 @@ Table sample(double coefficient = 2.0) {
 }
 
 std::unique_ptr<ModbusMachine> open(const Profile& profile) {
-  auto machine = ModbusMachine::open(profile);
+  auto machine = ModbusMachine::open(profile, engineer());
   EXPECT_TRUE(machine) << describe(machine.error());
   return std::move(*machine);
 }
@@ -225,11 +226,11 @@ INSTANTIATE_TEST_SUITE_P(Device, UploadFault,
 
 class BadCableUpload : public testing::TestWithParam<BadCable::Fault> {};
 
-/// Bytes between two faults: 13 for a quick run (some 1000 uploads over the five faults), or as
+/// Bytes between two faults: 31 for a quick run (some 700 uploads over the eight faults), or as
 /// ZERODRIFT_CABLE_STRIDE says; 1 tries every byte.
 long cable_stride() {
   const char* text = std::getenv("ZERODRIFT_CABLE_STRIDE");
-  return text == nullptr ? 13 : std::max(1L, std::strtol(text, nullptr, 10));
+  return text == nullptr ? amount(31, 1) : std::max(1L, std::strtol(text, nullptr, 10));
 }
 
 // A fault at any byte of the whole exchange: afterwards the old or the new table is active, whole, and the record tells
@@ -251,7 +252,7 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
   // A connection that ends or lags changes nothing in what is written: one such fault is always overcome. A byte turned
   // over or doubled can change a value on its way, and a wrong value must stop the upload.
   const bool harmless = GetParam() == BadCable::Fault::cut || GetParam() == BadCable::Fault::delay ||
-                        GetParam() == BadCable::Fault::stall;
+                        GetParam() == BadCable::Fault::stall || GetParam() == BadCable::Fault::split;
   int failed = 0;
   int tried = 0;
   int struck = 0;
@@ -286,7 +287,8 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
 
 INSTANTIATE_TEST_SUITE_P(Cable, BadCableUpload,
                          testing::Values(BadCable::Fault::cut, BadCable::Fault::corrupt, BadCable::Fault::duplicate,
-                                         BadCable::Fault::delay, BadCable::Fault::stall));
+                                         BadCable::Fault::delay, BadCable::Fault::stall, BadCable::Fault::drop,
+                                         BadCable::Fault::reorder, BadCable::Fault::split));
 
 // The largest table there can be, written and taken back: the old one is active, compared and known well within 5 s.
 TEST(Upload, RollbackOfAFullTableIsQuick) {

@@ -75,4 +75,5 @@ def test(folder):
         assert words(machine.profile, folder) == second
 
 
-run_in_folder(test)
+if __name__ == "__main__":
+    run_in_folder(test)

@@ -26,7 +26,7 @@ HeatMap::HeatMap(QWidget* parent) : PlotWidget(parent) {
   m_region = new QCPItemRect(plot());
   m_region->setVisible(false);
   m_region->setLayer("overlay");
-  restyle();
+  HeatMap::restyle();
   connect(plot(), &QCustomPlot::afterReplot, this, &HeatMap::layoutChanged);
 }
 

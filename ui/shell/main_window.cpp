@@ -88,7 +88,7 @@ QWidget* MainWindow::makeFoot() {
   auto* all = new QHBoxLayout(foot);
   all->setContentsMargins(24, 8, 24, 8);
   all->setSpacing(20);
-  const QStringList names = {"controller", "recording", "camera", "compensation"};
+  const QStringList names = {"controller", "recording", "camera", "compensation", "access"};
   for (int i = 0; i < names.size(); ++i) {
     auto* lamp = new Lamp(names[i], foot);
     m_lamps.append(lamp);

@@ -29,6 +29,7 @@ enum class LampId {
   recording,
   camera,
   compensation,
+  access,
 };
 
 class MainWindow : public QMainWindow {

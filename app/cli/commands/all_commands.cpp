@@ -3,6 +3,7 @@
 namespace zerodrift::cli {
 
 // void add_<command>(Cli& cli);
+void add_access(Cli& cli);
 void add_axis_table(Cli& cli);
 void add_compensate(Cli& cli);
 void add_export(Cli& cli);
@@ -26,6 +27,7 @@ void add_prove(Cli& cli);
 void add_simulate(Cli& cli);
 
 void add_all_commands(Cli& cli) {
+  add_access(cli);
   add_axis_table(cli);
   add_compensate(cli);
   add_export(cli);

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "app/cli/command.h"
+#include "app/cli/access.h"
 #include "app/cli/report_files.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
@@ -73,7 +73,7 @@ std::string text_of(const nlohmann::json& answer) {
   return text + "verdict: " + answer.at("verdict").get<std::string>();
 }
 
-Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+Result<CommandOutput> run(const Options& options, const PinOption& pin, const TaskContext& context) {
   CommandOutput output;
   ZD_CHECK(check_report_name(options.report));
   ZD_TRY(const auto language, report::language_from(options.language));
@@ -83,6 +83,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   ZD_TRY(commission_options.plan, acquisition::read_plan(options.plan, &output.warnings));
   commission_options.limit_um = options.limit_um;
   commission_options.keep_views = !options.small;
+  ZD_TRY(commission_options.permit, engineer(pin, "A commissioning"));
   if (!options.yes) commission_options.confirm = confirmed;
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
   ZD_CHECK(name_people(job, options));
@@ -100,8 +101,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
 void add_commission(Cli& cli) {
   using namespace commission_command;
   auto options = std::make_shared<Options>();
+  auto pin = std::make_shared<std::shared_ptr<PinOption>>();
   auto* command = cli.add("commission", "Everything, start to end: calibrate, record, fit, upload, verify, report",
-                          [options](const TaskContext& context) { return run(*options, context); });
+                          [options, pin](const TaskContext& context) { return run(*options, **pin, context); });
+  *pin = add_pin_option(*command);
   command->add_option("--profile", options->profile, "Connection profile of the machine")->required();
   command->add_option("--plan", options->plan, "Warm-up plan")->required();
   command->add_option("--job", options->job, "Job file; a commissioning that was broken off goes on")->required();

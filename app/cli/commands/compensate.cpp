@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "app/cli/command.h"
+#include "app/cli/access.h"
 #include "app/cli/service_notice.h"
 #include "core/analysis/model.h"
 #include "core/base/real_time.h"
@@ -102,7 +102,7 @@ class Service {
   bool m_ready = false;
 };
 
-Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+Result<CommandOutput> run(const Options& options, const PinOption& pin, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
@@ -114,7 +114,8 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
   Log log;
   ZD_CHECK(log.open(options.log));
-  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto permit, engineer(pin, "Compensating"));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
   if (options.switch_on) ZD_CHECK(machine->switch_compensation(true));
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;
@@ -152,9 +153,11 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
 void add_compensate(Cli& cli) {
   using namespace compensate_command;
   auto options = std::make_shared<Options>();
+  auto pin = std::make_shared<std::shared_ptr<PinOption>>();
   CLI::App* command =
       cli.add("compensate", "Compensate from this computer: read temperatures, predict, write the offset",
-              [options](const TaskContext& context) { return run(*options, context); });
+              [options, pin](const TaskContext& context) { return run(*options, **pin, context); });
+  *pin = add_pin_option(*command);
   command->add_option("--profile", options->profile, "Connection profile")->required();
   command->add_option("--model", options->model, "Model file of the fit")->required();
   command->add_option("--for", options->seconds, "Seconds to run; without it until stopped")

@@ -7,6 +7,7 @@
 #include "app/cli/command.h"
 #include "app/cli/commands/machine_map.h"
 #include "app/text/error_text.h"
+#include "core/base/redact.h"
 #include "core/controller/modbus_machine.h"
 #include "core/vision/camera.h"
 
@@ -72,7 +73,7 @@ Status look_at_cameras(const controller::Profile& profile, const TaskContext& co
   for (const auto& entry : profile.cameras) {
     const vision::Camera camera(entry.url);
     const auto frame = camera.fresh_frame(vision::Camera::Time::clock::now(), camera_timeout, context.stop);
-    json row = {{"id", entry.id}, {"url", entry.url}, {"ok", frame.has_value()}};
+    json row = {{"id", entry.id}, {"url", without_secrets(entry.url)}, {"ok", frame.has_value()}};
     if (frame) {
       row["width_px"] = (*frame)->image.width;
       row["height_px"] = (*frame)->image.height;

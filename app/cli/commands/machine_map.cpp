@@ -7,6 +7,7 @@
 
 #include "app/text/error_text.h"
 #include "core/base/json.h"
+#include "core/controller/modbus_machine.h"
 #include "core/controller/register_names.h"
 #include "core/controller/register_view.h"
 
@@ -35,10 +36,8 @@ Result<CommandOutput> make_map(const MapOptions& options) {
 Result<CommandOutput> list_registers(const MapOptions& options) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
-  const std::string& name = options.list.empty() ? profile.controller.register_map : options.list;
-  const auto beside = std::filesystem::path(profile.file).parent_path();
-  ZD_TRY(const RegisterMap map, options.list.empty() ? controller::load_register_map(name, beside, &output.warnings)
-                                                     : controller::read_register_list(name, &output.warnings));
+  ZD_TRY(const RegisterMap map, options.list.empty() ? controller::map_of(profile, &output.warnings)
+                                                     : controller::read_register_list(options.list, &output.warnings));
   controller::ControllerSettings settings = profile.controller;
   if (map.unit) settings.unit = *map.unit;
   controller::Link link(settings);

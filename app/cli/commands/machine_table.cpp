@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "app/cli/command.h"
+#include "app/cli/access.h"
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
 
@@ -17,6 +17,8 @@ using controller::UploadOptions;
 using controller::UploadRecord;
 
 struct Options {
+  std::shared_ptr<PinOption> push_pin;
+  std::shared_ptr<PinOption> rollback_pin;
   std::string profile;
   std::string table;
   std::string out;
@@ -50,6 +52,12 @@ Status confirm(const std::string& operation, const UploadRecord& preview) {
     if (std::getline(std::cin, answer) && answer == "yes") return {};
   }
   return fail(ErrorCode::not_confirmed, {{"operation", operation}});
+}
+
+/// A dry run only reads.
+Result<access::Permit> permit_for(const Options& options, const PinOption& pin, const std::string& operation) {
+  if (options.dry_run) return access::Permit::read_only();
+  return engineer(pin, operation);
 }
 
 using Transaction = std::function<UploadRecord(const UploadOptions&)>;
@@ -86,7 +94,8 @@ Result<CommandOutput> push(const Options& options, const TaskContext& context) {
   std::vector<std::string> warnings;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
   ZD_TRY(const compensation::Table table, compensation::read_table_file(options.table, &warnings));
-  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto permit, permit_for(options, *options.push_pin, "Writing the table into the controller"));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
   const auto record = confirmed("Writing the table into the controller", options, {}, [&](const UploadOptions& how) {
     return controller::push_table(*machine, table, how, context);
   });
@@ -119,7 +128,8 @@ Result<CommandOutput> read_back(const Options& options, const TaskContext&) {
 Result<CommandOutput> rollback(const Options& options, const TaskContext& context) {
   std::vector<std::string> warnings;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
-  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto permit, permit_for(options, *options.rollback_pin, "Going back to the former table"));
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
   ZD_TRY(const auto former, controller::former_table(*machine));
   ZD_TRY(const UploadRecord record,
          confirmed(fmt::format("Going back to the table of {}", former.time), options, {},
@@ -138,6 +148,7 @@ void add_machine_table(Cli& cli) {
   CLI::App* command = cli.add("push", "Write a table into the controller, as a transaction",
                               [options](const TaskContext& context) { return push(*options, context); });
   with_profile(command);
+  options->push_pin = add_pin_option(*command);
   command->add_option("--table", options->table, "Table to write")->required();
   command->add_flag("--dry-run", options->dry_run, "Check and compare only; write nothing");
   command->add_flag("--yes", options->yes, "Do not ask");
@@ -150,6 +161,7 @@ void add_machine_table(Cli& cli) {
   command = cli.add("rollback", "Bring the table before the last push back",
                     [options](const TaskContext& context) { return rollback(*options, context); });
   with_profile(command);
+  options->rollback_pin = add_pin_option(*command);
   command->add_flag("--dry-run", options->dry_run, "Check and compare only; write nothing");
   command->add_flag("--yes", options->yes, "Do not ask");
 }

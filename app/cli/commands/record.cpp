@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/command.h"
+#include "app/cli/access.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
@@ -36,7 +36,7 @@ Status ensure(Job& job, const std::string& id, const TaskContext& context,
   return {};
 }
 
-Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+Result<CommandOutput> run(const Options& options, const PinOption& pin, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const json profile_document, read_json_file(options.profile));
   ZD_TRY(const auto profile, controller::profile_from_json(profile_document, options.profile, &output.warnings));
@@ -44,7 +44,8 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   ZD_TRY(run_options.plan, acquisition::read_plan(options.plan, &output.warnings));
   if (run_options.plan.measure_position_mm.empty()) run_options.plan.measure_position_mm = profile.measure_position_mm;
   ZD_TRY(Job job, Job::open_or_create(options.job));
-  ZD_TRY(flow::Devices devices, flow::Devices::open(profile));
+  ZD_TRY(const auto permit, engineer(pin, "A recorded run"));
+  ZD_TRY(flow::Devices devices, flow::Devices::open(profile, true, permit));
   ZD_CHECK(ensure(job, "machine", context,
                   [&](const TaskContext& inner) { return flow::check_machine(devices, profile_document, inner); }));
   ZD_CHECK(ensure(job, "calibrate", context,
@@ -70,8 +71,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
 void add_record(Cli& cli) {
   using namespace record_command;
   auto options = std::make_shared<Options>();
+  auto pin = std::make_shared<std::shared_ptr<PinOption>>();
   CLI::App* app = cli.add("record", "Record the warm-up run into a job, or go on with one that was broken off",
-                          [options](const TaskContext& context) { return run(*options, context); });
+                          [options, pin](const TaskContext& context) { return run(*options, **pin, context); });
+  *pin = add_pin_option(*app);
   app->add_option("--profile", options->profile, "Connection profile of the machine")->required();
   app->add_option("--plan", options->plan, "Warm-up plan; an interrupted run keeps the plan it was begun with")
       ->required();

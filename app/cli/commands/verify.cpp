@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/command.h"
+#include "app/cli/access.h"
 #include "core/acquisition/plan.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
@@ -33,7 +33,7 @@ Status apply_correction(commissioning::Job& job, flow::Devices& devices, const c
   return job.put(made).map([](auto) {});
 }
 
-Result<CommandOutput> run(const Options& options, const TaskContext& context) {
+Result<CommandOutput> run(const Options& options, const PinOption& pin, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const auto profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(auto job, commissioning::Job::open(options.job));
@@ -42,7 +42,8 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   if (!options.plan.empty()) {
     ZD_TRY(verify_options.run.plan, acquisition::read_plan(options.plan, &output.warnings));
   }
-  ZD_TRY(auto devices, flow::Devices::open(profile));
+  ZD_TRY(const auto permit, engineer(pin, "A verification"));
+  ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
   ZD_TRY(const auto made, flow::verify(job, devices, verify_options, context));
   ZD_TRY(const auto artefact, job.put(made));
   ZD_TRY(output.json, artefact.document());
@@ -66,8 +67,10 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
 void add_verify(Cli& cli) {
   using namespace verify_command;
   auto options = std::make_shared<Options>();
+  auto pin = std::make_shared<std::shared_ptr<PinOption>>();
   auto* command = cli.add("verify", "Run with the compensation on and measure what is left",
-                          [options](const TaskContext& context) { return run(*options, context); });
+                          [options, pin](const TaskContext& context) { return run(*options, **pin, context); });
+  *pin = add_pin_option(*command);
   command->add_option("--profile", options->profile, "Connection profile of the machine")->required();
   command->add_option("--job", options->job, "Job file")->required();
   command->add_option("--plan", options->plan, "Plan of the run; else the warm-up's speeds in another order");

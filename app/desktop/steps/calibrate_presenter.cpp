@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/desktop/pin_dialog.h"
 #include "app/text/error_text.h"
 #include "core/report/limits.h"
 #include "core/vision/calibration.h"
@@ -143,6 +144,11 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
   const auto profile = bench().profile();
   const auto* job = bench().job();
   if (!profile || job == nullptr || m_running) return;
+  const auto permit = permit_for(bench(), m_page, tr("Calibrating"));
+  if (!permit) {
+    if (done) done(false);
+    return;
+  }
   m_running = true;
   m_shownFor.clear();
   {
@@ -155,9 +161,9 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
   refresh();
   runStep(
       tr("Calibrating"),
-      [profile = *profile, job, live = m_live, regions = m_regions, asking = m_asking,
+      [profile = *profile, job, permit = *permit, live = m_live, regions = m_regions, asking = m_asking,
        span_mm = m_page->state().span_mm](const TaskContext& context) -> Result<commissioning::NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile));
+        ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
         flow::CalibrateOptions options;
         options.regions = regions;
         options.span_mm = span_mm;

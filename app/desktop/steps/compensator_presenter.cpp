@@ -5,6 +5,7 @@
 
 #include "app/desktop/ask.h"
 #include "app/desktop/machine_writes.h"
+#include "app/desktop/pin_dialog.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
@@ -83,6 +84,8 @@ void CompensatorPresenter::start() {
   if (!profile || job == nullptr || m_running) return;
   const bool seen = signsSeen();
   if (!agreed(seen)) return;
+  const auto permit = permit_for(bench(), page(), tr("Compensating"));
+  if (!permit) return;
   m_running = true;
   m_state = {};
   m_state.phase = ui::CompensatorPhase::running;
@@ -94,13 +97,15 @@ void CompensatorPresenter::start() {
   refresh();
   runTask<controller::CompensatorSummary>(
       tr("Host compensator"),
-      [job, profile = *profile, seen,
+      [job, profile = *profile, permit = *permit, seen,
        shared = m_shared](const TaskContext& context) -> Result<controller::CompensatorSummary> {
         if (!seen) {
-          ZD_TRY(const auto signs, try_signs(*job, profile, context));
+          ZD_TRY(const auto signs, try_signs(*job, profile, permit, context));
           ZD_CHECK(signs.result);
         }
-        return flow::compensate_live(*job, profile, {}, context, [&](const flow::LiveTurn& live) {
+        flow::LiveOptions options;
+        options.permit = permit;
+        return flow::compensate_live(*job, profile, options, context, [&](const flow::LiveTurn& live) {
           const std::scoped_lock lock(shared->mutex);
           const std::chrono::duration<double> since = std::chrono::steady_clock::now() - shared->begun;
           shared->turns.push_back({since.count(), live});

@@ -268,7 +268,7 @@ void PhysicsPresenter::refresh() {
     return;
   }
   const json document = bench().body("machine").value("profile", json());
-  const auto profile = controller::profile_from_json(document, "the job's profile");
+  const auto profile = controller::profile_from_job(document);
   if (!profile || profile->machine == nullptr) {
     state.blocked = tr("The profile holds no machine description, so there is nothing to simulate.");
     m_page->setState(state);

@@ -6,6 +6,7 @@
 
 #include "app/desktop/ask.h"
 #include "app/desktop/machine_writes.h"
+#include "app/desktop/pin_dialog.h"
 #include "app/desktop/table_export.h"
 #include "app/desktop/upload_view.h"
 #include "core/base/time_text.h"
@@ -207,6 +208,11 @@ void UploadPresenter::write(Done done) {
   const auto profile = bench().profile();
   auto* job = bench().job();
   if (!profile || job == nullptr || !m_preview) return;
+  const auto permit = permit_for(bench(), m_page, tr("Writing the table"));
+  if (!permit) {
+    if (done) done(false);
+    return;
+  }
   m_writing = true;
   m_failed = false;
   m_steps.clear();
@@ -233,8 +239,8 @@ void UploadPresenter::write(Done done) {
   };
   runStep(
       tr("Writing the table"),
-      [profile = *profile, job, options](const TaskContext& context) -> Result<NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile));
+      [profile = *profile, job, options, permit = *permit](const TaskContext& context) -> Result<NewArtefact> {
+        ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
         return flow::upload(*job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {
@@ -265,14 +271,16 @@ void UploadPresenter::rollBack(int version) {
                  tr("The table that was active before is written again, under a new version number."), tr("Go back"))) {
     return;
   }
+  const auto permit = permit_for(bench(), m_page, tr("Going back to version %1").arg(version));
+  if (!permit) return;
   m_writing = true;
   m_failed = false;
   m_steps.clear();
   m_dryRunAt = {};
   runStep(
       tr("Going back to version %1").arg(version),
-      [profile = *profile, job, watch = observer()](const TaskContext& context) {
-        return roll_back(*job, profile, watch, context);
+      [profile = *profile, job, permit = *permit, watch = observer()](const TaskContext& context) {
+        return roll_back(*job, profile, permit, watch, context);
       },
       [this](bool good) {
         m_writing = false;
@@ -292,9 +300,13 @@ void UploadPresenter::checkSign() {
                  tr("Move"))) {
     return;
   }
+  const auto permit = permit_for(bench(), m_page, tr("Checking the sign"));
+  if (!permit) return;
   runTask<controller::SignCheckRecord>(
       tr("Checking the sign"),
-      [profile = *profile, job](const TaskContext& context) { return try_signs(*job, profile, context); },
+      [profile = *profile, job, permit = *permit](const TaskContext& context) {
+        return try_signs(*job, profile, permit, context);
+      },
       [this](Result<controller::SignCheckRecord> record) {
         if (record) {
           noteSign(*record);

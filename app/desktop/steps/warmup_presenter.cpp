@@ -32,8 +32,7 @@ QVector<ui::PlanStepRow> rows_of(const acquisition::Plan& plan) {
 }  // namespace
 
 WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
-    : RunPresenter(bench, page, page->run()), m_page(page) {
-  m_presets = acquisition::preset_plans();
+    : RunPresenter(bench, page, page->run()), m_page(page), m_presets(acquisition::preset_plans()) {
   if (!m_presets.empty()) m_plan = m_presets.front();
   connect(page, &ui::WarmupPage::presetChosen, this, [this](int index) {
     if (index < 0 || index >= static_cast<int>(m_presets.size())) return;

@@ -4,6 +4,7 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
+#include "core/base/redact.h"
 #include "core/compensation/interlock.h"
 #include "core/vision/image_codec.h"
 
@@ -71,10 +72,10 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   const auto& profile = device.profile;
   const auto drawn = options.regions.find(profile.id);
   const std::array<int, 4> roi = drawn != options.regions.end() ? drawn->second : profile.target_roi_px;
-  ZD_TRY(const auto target, vision::Target::create(image, region_of(roi), std::nullopt, profile.url));
+  ZD_TRY(const auto target, vision::Target::create(image, region_of(roi), std::nullopt, without_secrets(profile.url)));
   if (profile.reference_roi_px) {  // refuse now what could not be measured later
-    ZD_TRY([[maybe_unused]] const auto reference,
-           vision::Target::create(image, region_of(*profile.reference_roi_px), std::nullopt, profile.url));
+    ZD_TRY([[maybe_unused]] const auto reference, vision::Target::create(image, region_of(*profile.reference_roi_px),
+                                                                         std::nullopt, without_secrets(profile.url)));
   }
   vision::CalibrationPlan plan;
   plan.axes = profile.axes;

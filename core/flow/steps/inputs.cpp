@@ -17,7 +17,7 @@ Result<recording::Recording> run_of(const commissioning::Job& job, const Input& 
 
 Result<controller::Profile> profile_of(const commissioning::Job& job, const std::string& step) {
   ZD_TRY(const Input machine, need(job, step, "machine"));
-  return controller::profile_from_json(machine.body.at("profile"), "the job's profile");
+  return controller::profile_from_job(machine.body.at("profile"));
 }
 
 std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {

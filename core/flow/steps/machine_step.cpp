@@ -42,7 +42,8 @@ Result<commissioning::NewArtefact> check_machine(Devices& devices, const json& p
   for (const auto& [name, count] : devices.machine->health().faults) {
     problems.push_back(fmt::format("link: {} {} times, overcome", name, count));
   }
-  const json body = {{"profile", profile},
+  ZD_TRY(const json kept, controller::document_for_job(profile, devices.profile));
+  const json body = {{"profile", kept},
                      {"identity",
                       {{"name", found.identity.name},
                        {"serial", found.identity.serial},

@@ -2,6 +2,8 @@
 
 #include "core/report/provenance.h"
 
+#include <fmt/format.h>
+
 #include "core/report/build.h"
 #include "core/report/pieces.h"
 

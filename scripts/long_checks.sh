@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# What `./check --long` does after the everyday tests: each part by name, so that one can be run alone.
+#   scripts/long_checks.sh [kills|disk|cable|days|fuzz|asan|tsan|static|tour ...]
+set -euo pipefail
+source "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/prepare.sh"
+bin="$build_dir/bin"
+export ZERODRIFT_LONG=1 ZERODRIFT_BIN_DIR="$bin"
+
+kills() { # kill -9, 200 times each
+  "$bin/acquisition_tests" --gtest_filter='Kill.*'
+  "$bin/commissioning_tests" --gtest_filter='PowerCut.Killed*'
+  /usr/bin/python3 "$root/tests/end_to_end/crash_test.py" 200
+  /usr/bin/python3 "$root/tests/end_to_end/kill_test.py" 200
+}
+disk() { # power cuts with torn pages, a full disk and a pulled stick from any write on
+  "$bin/commissioning_tests" --gtest_filter='PowerCut.AtAnyWrite:PowerCut.DiskFull*'
+}
+cable() { # every byte of every operation, eight faults
+  "$bin/controller_tests" --gtest_filter='*BadCable*'
+}
+days() { # three days with a row each second, an hour of 200 channels
+  "$bin/acquisition_tests" --gtest_filter='Endurance.*'
+}
+fuzz() { # a minute for each reader
+  "$root/tests/fuzz/run.sh" "${ZERODRIFT_FUZZ_SECONDS:-60}"
+}
+sanitized() { # sanitized NAME PRESET TARGET ...: the unit tests under a sanitizer, with the everyday amounts
+  local preset=$1
+  shift
+  cmake -S "$root" -B "$root/build/$preset" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DZERODRIFT_SANITIZE="$([ "$preset" = tsan ] && echo thread || echo address,undefined)" >/dev/null
+  cmake --build "$root/build/$preset" --target "$@"
+  local test
+  for test in "$@"; do
+    say "$preset $test"
+    env -u ZERODRIFT_LONG ZERODRIFT_BIN_DIR="$root/build/$preset/bin" \
+      ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
+      TSAN_OPTIONS=halt_on_error=1:suppressions="$root/tests/support/tsan.supp" \
+      QT_QPA_PLATFORM=offscreen "$root/build/$preset/bin/$test"
+  done
+}
+asan() {
+  sanitized asan access_tests base_tests commissioning_tests recording_tests acquisition_tests analysis_tests \
+    physics_tests compensation_tests controller_tests vision_tests report_tests flow_tests
+}
+tsan() {
+  sanitized tsan access_tests base_tests commissioning_tests acquisition_tests controller_tests vision_tests
+}
+static() {
+  cppcheck --enable=warning,performance,portability --inline-suppr --std=c++20 --language=c++ -q -I "$root" \
+    --suppress=unknownMacro --suppress=missingInclude --suppress=passedByValue \
+    --suppress=syntaxError:"$root/app/machine/register_bank.cpp" --error-exitcode=1 "$root/core" "$root/app" "$root/ui"
+  # Each source by itself, without the batches and the precompiled headers of a build.
+  cmake -S "$root" -B "$root/build/tidy" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++ \
+    -DZERODRIFT_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DBUILD_TESTING=OFF >/dev/null
+  find "$root/core" "$root/app" "$root/ui" -name '*.cpp' -print0 \
+    | xargs -0 -n 4 -P 2 clang-tidy --quiet -p "$root/build/tidy"
+}
+tour() { # the window's event loop, in the whole wizard
+  local folder
+  folder=$(mktemp -d)
+  QT_QPA_PLATFORM=offscreen "$bin/zerodrift" --tour "$folder"
+}
+
+[ $# -gt 0 ] || set -- kills disk cable days tour fuzz asan tsan static
+for part in "$@"; do
+  say "$part"
+  "$part"
+done
