@@ -3844,6 +3844,70 @@
         <source>Nothing was written; check the axis direction and the calibration.</source>
         <translation>未写入任何内容；请检查轴的方向和标定。</translation>
     </message>
+    <message>
+        <source>The temperature sensor {sensor} shows spikes ({count} lately).</source>
+        <translation>温度传感器 {sensor} 出现尖峰（近期 {count} 次）。</translation>
+    </message>
+    <message>
+        <source>Check its plug and the shield of its cable; the spikes are left out of the fit.</source>
+        <translation>请检查其插头和电缆屏蔽；拟合时不采用这些尖峰。</translation>
+    </message>
+    <message>
+        <source>The temperature sensor {sensor} jumped by {kelvin} K from one reading to the next.</source>
+        <translation>温度传感器 {sensor} 的相邻两次读数跳变 {kelvin} K。</translation>
+    </message>
+    <message>
+        <source>Check whether it came loose or was plugged in elsewhere, or leave it out of the model.</source>
+        <translation>请检查它是否松脱或插到了别处，或不将其用于模型。</translation>
+    </message>
+    <message>
+        <source>The temperature sensors {sensor} and {other} have changed places.</source>
+        <translation>温度传感器 {sensor} 与 {other} 的位置互换了。</translation>
+    </message>
+    <message>
+        <source>Plug them back; what was recorded since belongs to the other one.</source>
+        <translation>请将插头换回；此后记录的数据属于另一个传感器。</translation>
+    </message>
+    <message>
+        <source>{operation} needs the engineer: this computer is locked and may only read from machines.</source>
+        <translation>{operation} 需要工程师权限：本机已锁定，只能读取机床数据。</translation>
+    </message>
+    <message>
+        <source>Unlock it with the engineer&apos;s PIN (the lock at the bottom of the window, or --pin-file).</source>
+        <translation>请用工程师 PIN 解锁（窗口底部的锁形按钮，或 --pin-file）。</translation>
+    </message>
+    <message>
+        <source>The PIN is not right.</source>
+        <translation>PIN 不正确。</translation>
+    </message>
+    <message>
+        <source>Try again; it is the one that was set on this computer.</source>
+        <translation>请重试；应输入在本机上设置的 PIN。</translation>
+    </message>
+    <message>
+        <source>Too many wrong PINs: the next try counts in {seconds} s.</source>
+        <translation>PIN 错误次数过多：{seconds} s 后才能再试。</translation>
+    </message>
+    <message>
+        <source>Wait, then try again.</source>
+        <translation>请稍候再试。</translation>
+    </message>
+    <message>
+        <source>The PIN must have {least} to {most} characters.</source>
+        <translation>PIN 应为 {least} 至 {most} 个字符。</translation>
+    </message>
+    <message>
+        <source>Choose another one.</source>
+        <translation>请另选一个。</translation>
+    </message>
+    <message>
+        <source>The job names a file of another computer: {key} is &quot;{found}&quot;. It was not read.</source>
+        <translation>作业引用了另一台计算机上的文件：{key} 为“{found}”。未读取该文件。</translation>
+    </message>
+    <message>
+        <source>Load the machine&apos;s connection profile again; the job then holds what it needs.</source>
+        <translation>请重新载入机床的连接配置；之后作业即包含所需内容。</translation>
+    </message>
 </context>
 <context>
     <name>happenings</name>
@@ -4126,6 +4190,38 @@
         <source>Undo the last choice</source>
         <translation>撤销上一次选择</translation>
     </message>
+    <message>
+        <source>Everybody may look. Writing to a machine needs the engineer.</source>
+        <translation>任何人都可以查看。写入机床需要工程师权限。</translation>
+    </message>
+    <message>
+        <source>Whoever comes next may look and not write. To change the PIN choose &quot;Change&quot;.</source>
+        <translation>之后的使用者只能查看，不能写入。要更改 PIN，请选择“更改”。</translation>
+    </message>
+    <message>
+        <source>Lock this computer?</source>
+        <translation>锁定本机？</translation>
+    </message>
+    <message>
+        <source>Lock</source>
+        <translation>锁定</translation>
+    </message>
+    <message>
+        <source>Change</source>
+        <translation>更改</translation>
+    </message>
+    <message>
+        <source>Locked</source>
+        <translation>已锁定</translation>
+    </message>
+    <message>
+        <source>No PIN</source>
+        <translation>无 PIN</translation>
+    </message>
+    <message>
+        <source>Engineer</source>
+        <translation>工程师</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::AxisErrorsPresenter</name>
@@ -4314,6 +4410,10 @@
     <message>
         <source>Connect the machine first.</source>
         <translation>请先连接机床。</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>正在补偿</translation>
     </message>
 </context>
 <context>
@@ -4594,6 +4694,65 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::desktop::PinDialog</name>
+    <message>
+        <source>The engineer&apos;s PIN</source>
+        <translation>工程师 PIN</translation>
+    </message>
+    <message>
+        <source>PIN</source>
+        <translation>PIN</translation>
+    </message>
+    <message>
+        <source>Unlock</source>
+        <translation>解锁</translation>
+    </message>
+    <message>
+        <source>Unlocked: the engineer may write to the machine</source>
+        <translation>已解锁：工程师可以写入机床</translation>
+    </message>
+    <message>
+        <source>PIN until now</source>
+        <translation>当前 PIN</translation>
+    </message>
+    <message>
+        <source>New PIN (empty: none any more)</source>
+        <translation>新 PIN（留空：不再使用）</translation>
+    </message>
+    <message>
+        <source>New PIN</source>
+        <translation>新 PIN</translation>
+    </message>
+    <message>
+        <source>New PIN again</source>
+        <translation>再次输入新 PIN</translation>
+    </message>
+    <message>
+        <source>PIN of this computer</source>
+        <translation>本机 PIN</translation>
+    </message>
+    <message>
+        <source>With a PIN everybody may look, and only who knows it may write to a machine. After a while without a touch it is asked for again.</source>
+        <translation>设置 PIN 后，任何人都可以查看，只有知道 PIN 的人才能写入机床。一段时间无操作后会再次要求输入。</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>设置</translation>
+    </message>
+    <message>
+        <source>A PIN is set</source>
+        <translation>已设置 PIN</translation>
+    </message>
+    <message>
+        <source>No PIN any more</source>
+        <translation>已取消 PIN</translation>
+    </message>
+    <message>
+        <source>Locked: nobody has touched the window</source>
+        <translation>已锁定：窗口长时间无操作</translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::desktop::Presenter</name>
     <message>
         <source>%1 is still running</source>
@@ -4621,14 +4780,6 @@
     <message>
         <source>Report saved: %1</source>
         <translation>报告已保存：%1</translation>
-    </message>
-    <message>
-        <source>Where to put the folder of the technical bundle</source>
-        <translation>技术数据包文件夹的位置</translation>
-    </message>
-    <message>
-        <source>-bundle</source>
-        <translation>-技术数据包</translation>
     </message>
     <message>
         <source>Technical bundle: %1</source>
@@ -4983,6 +5134,10 @@
     <message>
         <source>Kept %1 #%2</source>
         <translation>已保存%1 #%2</translation>
+    </message>
+    <message>
+        <source>A job keeps no password: load the connection profile for the cameras.</source>
+        <translation>作业不保存密码：请为相机载入连接配置。</translation>
     </message>
 </context>
 <context>

@@ -116,16 +116,20 @@ const sqlite3_io_methods methods = {2,      close,   read,     write,   truncate
                                     take,   release, reserved, control, sector,   promises, map,
                                     shared, barrier, unmap,    nullptr, nullptr};
 
+/// The file's name on the disk. A job is made under another name and then gets its own: it is one file.
+std::string name_of(const char* path) {
+  std::string name = std::filesystem::path(path).filename().string();
+  if (const auto made = name.find(".new"); made != std::string::npos) name.erase(made, 4);
+  return name;
+}
+
 int open(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, int* out) {
   File* mine = self(file);
   mine->base.pMethods = nullptr;
   mine->kept = name != nullptr && (flags & (SQLITE_OPEN_MAIN_DB | SQLITE_OPEN_WAL)) != 0;
   mine->name[0] = '\0';
   if (mine->kept) {
-    std::string last = std::filesystem::path(name).filename().string();
-    // A job is made under another name and then gets its own: it is one file.
-    if (const auto made = last.find(".new"); made != std::string::npos) last.erase(made, 4);
-    std::strncpy(mine->name, last.c_str(), sizeof mine->name - 1);
+    std::strncpy(mine->name, name_of(name).c_str(), sizeof mine->name - 1);
     mine->name[sizeof mine->name - 1] = '\0';
   }
   const int code = real->xOpen(real, name, mine->inner(), flags, out);
@@ -136,7 +140,7 @@ int open(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, int* out
 int remove(sqlite3_vfs*, const char* name, int sync_folder) {
   {
     const std::scoped_lock lock(state->mutex);
-    state->deeds.push_back({Deed::Kind::remove, std::filesystem::path(name).filename().string(), 0, {}});
+    state->deeds.push_back({Deed::Kind::remove, name_of(name), 0, {}});
   }
   return real->xDelete(real, name, sync_folder);
 }

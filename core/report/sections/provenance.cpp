@@ -78,6 +78,12 @@ std::optional<Section> provenance_section(const Source& source) {
   }
   section.blocks.emplace_back(artefacts_of(source));
   if (auto writes = writes_of(source); !writes.rows.empty()) section.blocks.emplace_back(std::move(writes));
+  if (source.audit_is_whole() && !source.audit().empty()) {
+    // Printed, the last hash binds the whole trail to this paper: whoever rewrites the job changes it.
+    section.blocks.emplace_back(Text{source.tell("Record of writes verified: {} entries, the last with SHA-256 {}.",
+                                                 source.audit().size(), source.audit().back().hash.substr(0, 16)),
+                                     false});
+  }
   if (auto changes = changes_of(source); !changes.rows.empty()) section.blocks.emplace_back(std::move(changes));
   return section;
 }

@@ -135,6 +135,8 @@ std::vector<TextEntry> texts_of_figures() {
       {"Provenance", "数据来源"},
       {"Job begun {} UTC; SHA-256 over all its results and writes: {}. Report by Zerodrift {}.",
        "作业始于 {} UTC；其全部结果与写入操作的 SHA-256：{}。报告由 Zerodrift {} 生成。"},
+      {"Record of writes verified: {} entries, the last with SHA-256 {}.",
+       "写入记录已核验：共 {} 条，末条的 SHA-256 为 {}。"},
       {"Artefacts", "作业数据"},
       {"artefact", "数据项"},
       {"by", "程序"},
