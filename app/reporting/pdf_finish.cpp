@@ -1,5 +1,8 @@
 #include "app/reporting/pdf_finish.h"
 
+#include <QFont>
+#include <QHash>
+#include <QRawFont>
 #include <algorithm>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFPageDocumentHelper.hh>
@@ -72,6 +75,58 @@ void add_outline(QPDF& pdf, const std::vector<QPDFPageObjectHelper>& pages, cons
   pdf.getRoot().replaceKey("/PageMode", QPDFObjectHandle::newName("/UseOutlines"));
 }
 
+/// Radicals that look like a character share its glyph, and the writer takes the first name a glyph has: 2F6C, a
+/// radical, for 76EE. Whoever searches or copies the text needs the characters.
+QHash<uint, uint> characters_of_radicals() {
+  constexpr uint first_radical = 0x2E80;
+  constexpr uint last_radical = 0x2FD5;
+  constexpr uint first_character = 0x4E00;
+  constexpr uint last_character = 0x9FFF;
+  const QRawFont font = QRawFont::fromFont(QFont(QStringLiteral("Noto Sans CJK SC")), QFontDatabase::SimplifiedChinese);
+  const auto glyphs = [&](uint from, uint to) {
+    QString text;
+    for (uint code = from; code <= to; ++code) text += QChar(static_cast<char16_t>(code));
+    return font.glyphIndexesForString(text);
+  };
+  const auto characters = glyphs(first_character, last_character);
+  QHash<quint32, uint> character_of;
+  for (qsizetype i = 0; i < characters.size(); ++i) {
+    if (characters[i] != 0) character_of.insert(characters[i], first_character + static_cast<uint>(i));
+  }
+  const auto radicals = glyphs(first_radical, last_radical);
+  QHash<uint, uint> out;
+  for (qsizetype i = 0; i < radicals.size(); ++i) {
+    const auto character = character_of.constFind(radicals[i]);
+    if (character != character_of.constEnd()) out.insert(first_radical + static_cast<uint>(i), *character);
+  }
+  return out;
+}
+
+/// The names of the glyphs ("<2F6C>" in a font's /ToUnicode) as characters.
+void name_characters(QPDF& pdf) {
+  QHash<uint, uint> characters;
+  for (auto& object : pdf.getAllObjects()) {
+    if (!object.isDictionary() || !object.hasKey("/ToUnicode")) continue;
+    auto stream = object.getKey("/ToUnicode");
+    if (!stream.isStream()) continue;
+    const auto data = stream.getStreamData();
+    std::string names(reinterpret_cast<const char*>(data->getBuffer()), data->getSize());
+    bool changed = false;
+    for (auto at = names.find("<2"); at != std::string::npos; at = names.find("<2", at + 1)) {
+      if (at + 5 >= names.size() || names[at + 5] != '>') continue;
+      bool good = false;
+      const uint code = QString::fromStdString(names.substr(at + 1, 4)).toUInt(&good, 16);
+      if (!good || code < 0x2E80 || code > 0x2FD5) continue;
+      if (characters.isEmpty()) characters = characters_of_radicals();
+      const auto character = characters.constFind(code);
+      if (character == characters.constEnd()) continue;
+      names.replace(at + 1, 4, QString::number(*character, 16).toUpper().toStdString());
+      changed = true;
+    }
+    if (changed) stream.replaceStreamData(names, QPDFObjectHandle::newNull(), QPDFObjectHandle::newNull());
+  }
+}
+
 /// "D:20261121093312Z" of "2026-11-21T09:33:12.437Z".
 std::string pdf_date(const std::string& utc) {
   std::string digits;
@@ -88,6 +143,7 @@ std::string finish(std::string_view bytes, const PdfMarks& marks) {
   const auto pages = QPDFPageDocumentHelper(pdf).getAllPages();
   add_links(pdf, pages, marks.links);
   add_outline(pdf, pages, marks.outline);
+  name_characters(pdf);
   pdf.getRoot().replaceKey("/Lang", QPDFObjectHandle::newUnicodeString(marks.language));
   pdf.getRoot().replaceKey("/ViewerPreferences", QPDFObjectHandle::parse("<< /DisplayDocTitle true >>"));
   auto info = pdf.getTrailer().getKey("/Info");

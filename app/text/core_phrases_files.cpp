@@ -1,4 +1,4 @@
-// Phrases of base and commissioning.
+// Phrases of base, access and commissioning.
 
 #include <QCoreApplication>
 #include <array>
@@ -8,7 +8,14 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 36> files = {{
+constexpr std::array<const char*, 43> files = {{
+    QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
+    QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
+    QT_TRANSLATE_NOOP("core", "no random numbers"),
+    QT_TRANSLATE_NOOP("core", "a power of two"),
+    QT_TRANSLATE_NOOP("core", "the idle time"),
+    QT_TRANSLATE_NOOP("core", "brackets within brackets, more than %1"),
+    QT_TRANSLATE_NOOP("core", "\"%1\" in it was not made by this program"),
     QT_TRANSLATE_NOOP("core", "is a folder"),
     QT_TRANSLATE_NOOP("core", "more than %1"),
     QT_TRANSLATE_NOOP("core", "SHA-256 is not available"),

@@ -138,7 +138,7 @@ std::string clean_keys(std::string_view text) {
     if (value >= text.size() || text[value] != ':') continue;  // a value, no key
     ++value;
     while (value < text.size() && std::isspace(static_cast<unsigned char>(text[value])) != 0) ++value;
-    if (value >= text.size() || !names_a_secret(text.substr(key + 1, key_end - key - 2))) continue;
+    if (value >= text.size() || !is_secret(text.substr(key + 1, key_end - key - 2))) continue;
     const std::size_t end = value_end(text, value);
     if (text.substr(value, 4) == "null") continue;
     if (end == std::string_view::npos) break;

@@ -151,7 +151,7 @@ cv::Mat seen_behind(const Sheet& sheet, const Region& area, const cv::Mat& dista
     for (int x = 0; x < area.width; ++x) {
       values.clear();
       for (std::size_t k = 0; k < frames.size(); ++k) {
-        if (!Sheet::usable(*frames[k].image, area.x + x, area.y + y)) continue;
+        if (!usable(*frames[k].image, area.x + x, area.y + y)) continue;
         const Eigen::Vector2d on = sheet.on_sheet(area.x + x, area.y + y, frames[k], back[k]);
         const int column = std::clamp(static_cast<int>(std::lround(on.x())), 0, sheet.width() - 1);
         const int row = std::clamp(static_cast<int>(std::lround(on.y())), 0, sheet.height() - 1);

@@ -17,11 +17,6 @@ constexpr std::size_t least_light_pixels = 500;
 constexpr double light_prior = 30.0;  // pixels' worth, that the light is as it was: an even backdrop cannot tell
 constexpr double same_light = 3.0;    // of the noise, that the still parts may differ by: else they moved
 
-bool usable(const GrayImage& image, int x, int y) {
-  if (x < 0 || y < 0 || x + 1 >= image.width || y + 1 >= image.height) return false;
-  return std::max({image.at(x, y), image.at(x + 1, y), image.at(x, y + 1), image.at(x + 1, y + 1)}) < clipped_level;
-}
-
 // Noise of a picture at its own levels.
 double noise_in(const GrayImage& image) {
   cv::Mat levels;
@@ -30,6 +25,11 @@ double noise_in(const GrayImage& image) {
 }
 
 }  // namespace
+
+bool usable(const GrayImage& image, int x, int y) {
+  if (x < 0 || y < 0 || x + 1 >= image.width || y + 1 >= image.height) return false;
+  return std::max({image.at(x, y), image.at(x + 1, y), image.at(x, y + 1), image.at(x + 1, y + 1)}) < clipped_level;
+}
 
 float FrameLight::undone(double level, double x, double y) const {
   const Eigen::Vector2d w = (Eigen::Vector2d(x, y) - middle) / light_length_px;

@@ -68,6 +68,9 @@ class Sheet {
   Eigen::Vector2d m_point;
 };
 
+/// The pixel and its neighbours to the right and below lie in the picture and are not saturated.
+bool usable(const GrayImage& image, int x, int y);
+
 float middle_of(std::vector<float>& values);
 /// Standard deviation of the noise in an image of differences.
 float noise_of(const cv::Mat& difference);

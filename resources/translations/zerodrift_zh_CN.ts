@@ -3385,6 +3385,34 @@
         <source>the controller applies %1 um in %2 where %3 um was written: something else compensates</source>
         <translation>控制器在 %2 方向施加了 %1 um，而写入的是 %3 um：另有补偿在起作用</translation>
     </message>
+    <message>
+        <source>the PIN could not be hashed</source>
+        <translation>PIN 无法加密保存</translation>
+    </message>
+    <message>
+        <source>%1 hexadecimal digits</source>
+        <translation>%1 位十六进制数字</translation>
+    </message>
+    <message>
+        <source>no random numbers</source>
+        <translation>无法取得随机数</translation>
+    </message>
+    <message>
+        <source>a power of two</source>
+        <translation>2 的幂</translation>
+    </message>
+    <message>
+        <source>the idle time</source>
+        <translation>空闲时间</translation>
+    </message>
+    <message>
+        <source>brackets within brackets, more than %1</source>
+        <translation>括号嵌套超过 %1 层</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; in it was not made by this program</source>
+        <translation>其中的“%1”不是由本程序创建的</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

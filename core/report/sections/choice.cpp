@@ -76,7 +76,14 @@ std::optional<Section> choice_section(const Source& source) {
   if (sensors == nullptr) return std::nullopt;
   Section section{"choice", source.say("Why these sensors"), {}};
   const std::string by = text_of(sensors->body, "chosen_by");
-  if (by == "hand") section.blocks.emplace_back(Text{source.say("The sensors were chosen by hand."), false});
+  if (by == "hand")
+    section.blocks.emplace_back(Text{source.say("The sensors were chosen by hand."), false});
+  else if (text_of(object_of(sensors->body, "choice"), "reason").find("one cycle") != std::string::npos)
+    section.blocks.emplace_back(
+        Text{source.say("One cycle cannot rank the sets (a second speed would): fits on the first "
+                        "few are averaged, and what the run leaves open is filled by how "
+                        "machines are built."),
+             false});
   if (auto figures = price_of(source, sensors->body); !figures.figures.empty()) {
     section.blocks.emplace_back(std::move(figures));
   }

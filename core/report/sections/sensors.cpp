@@ -8,17 +8,6 @@
 namespace zerodrift::report {
 namespace {
 
-/// The sensitive points are only one of the sets that were compared: the sentence says which set it was, and why.
-std::string how_chosen(const Source& source, const nlohmann::json& body) {
-  std::string text = source.say(
-      "Sensors that behave alike form a cluster (k-means++ on their series); in each, the one that follows the errors "
-      "best is its sensitive point.");
-  if (text_of(body, "chosen_by") == "hand") return text + " " + source.say("The sensors kept were chosen by hand.");
-  const std::string reason = text_of(body.value("choice", nlohmann::json::object()), "reason");
-  if (reason == "-") return text;  // a job of an older version
-  return text + " " + source.say("These points were compared with other sets:") + " " + source.in_words(reason) + ".";
-}
-
 /// A row a sensor: its cluster, how it goes with each error, how much the others say already (VIF), and whether it is
 /// kept.
 Table clusters_of(const Source& source, const nlohmann::json& body) {
@@ -58,8 +47,11 @@ std::optional<Section> sensors_section(const Source& source) {
   for (const auto& one : sensors->body.value("chosen", nlohmann::json::array())) {
     chosen += (chosen.empty() ? "" : ", ") + source.channel_in_words(one.get<std::string>());
   }
-  section.blocks.emplace_back(
-      Text{source.say("Kept for the model:") + " " + chosen + ". " + how_chosen(source, sensors->body), false});
+  section.blocks.emplace_back(Text{
+      source.say("Kept for the model:") + " " + chosen + ". " +
+          source.say("Sensors that behave alike form a cluster (k-means++ on their series); in each, the one that "
+                     "follows the errors best is its sensitive point. How the set was chosen is in the next part."),
+      false});
   section.blocks.emplace_back(clusters_of(source, sensors->body));
   return section;
 }

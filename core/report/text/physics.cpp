@@ -40,6 +40,12 @@ std::vector<TextEntry> texts_of_physics() {
        "没有缺失：在容差和传感器噪声范围内，仿真与记录一致。"},
       {"Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W.",
        "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，约 {watts} W。"},
+      {"Something is missing that the library does not explain: {channel} is off the best simulation by {um} µm (rms), "
+       "{@regime}.",
+       "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {um} µm（均方根），{@regime}。"},
+      {"This run at one speed would hardly show {@name}{@where}: it cannot be excluded.",
+       "本次单一转速的运行几乎不会显示{@name}{@where}：不能排除。"},
+      {"To see whether there is {@rival}: {@run}.", "判断是否存在{@rival}的试验：{@run}。"},
       {"The simulation left out {+effects}.", "仿真遗漏了：{+effects}。"},
       {"{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
        "({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}.",

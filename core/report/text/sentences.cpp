@@ -93,9 +93,14 @@ std::vector<TextEntry> texts_of_sentences() {
       {"Room", "室温"},
       {"Coolant", "冷却液"},
       {"Spindle load", "主轴负载"},
-      {"In each cluster of sensors that behave alike (k-means++ on their series) the one that follows the errors best "
-       "is kept.",
-       "在每一类变化相似的传感器中（对其时间序列作 k-means++ 聚类），保留与误差最一致的一个。"},
+      {"Sensors that behave alike form a cluster (k-means++ on their series); in each, the one that follows the errors "
+       "best is its sensitive point. How the set was chosen is in the next part.",
+       "变化相似的传感器归为一类（对其时间序列作 k-means++ "
+       "聚类）；每一类中与误差最一致的传感器为其热敏感点。该组合的选择依据见下一部分。"},
+      {"One cycle cannot rank the sets (a second speed would): fits on the first few are averaged, and what the run "
+       "leaves open is filled by how machines are built.",
+       "仅一个循环无法比较各组合的优劣（需再有一种转速）：对靠前的几个组合的拟合取平均，本次运行未能确定的部分按机床的"
+       "一般结构补足。"},
   };
 }
 
