@@ -16,6 +16,17 @@ bool has_log(const std::filesystem::path& path) {
   return !ignored && size > 0;
 }
 
+/// A reader makes the log's files but must not remove them. The last connection that may write does.
+void sweep_empty_log(const std::filesystem::path& path) {
+  std::error_code failed;
+  if (std::filesystem::file_size(path.string() + "-wal", failed) > 0 || failed) return;
+  sqlite3* handle = nullptr;
+  if (sqlite3_open_v2(path.string().c_str(), &handle, SQLITE_OPEN_READWRITE, nullptr) == SQLITE_OK) {
+    sqlite3_exec(handle, "PRAGMA schema_version", nullptr, nullptr, nullptr);
+  }
+  sqlite3_close_v2(handle);
+}
+
 // A path as a URI; everything but plain characters is escaped.
 std::string uri_of(const std::filesystem::path& path) {
   static constexpr char digits[] = "0123456789ABCDEF";
@@ -108,6 +119,7 @@ Result<std::unique_ptr<Database>> Database::open(const std::filesystem::path& pa
 }
 
 Status Database::connect(OpenMode mode) {
+  m_mode = mode;
   const auto open_with = [&](const std::string& name, int flags) {
     sqlite3_close_v2(m_handle);
     m_handle = nullptr;
@@ -137,6 +149,7 @@ Status Database::connect(OpenMode mode) {
 
 Database::~Database() {
   sqlite3_close_v2(m_handle);
+  if (m_mode == OpenMode::read_only) sweep_empty_log(m_path);
 }
 
 Error Database::error(int code) const {

@@ -69,6 +69,7 @@ class Database {
   Status connect(OpenMode mode);
 
   std::filesystem::path m_path;
+  OpenMode m_mode = OpenMode::read_only;
   sqlite3* m_handle = nullptr;
 };
 

@@ -93,6 +93,19 @@ TEST(Job, IsReadBesideItsWriter) {
   EXPECT_EQ(code_of(reader->set_header({})), ErrorCode::file_not_writable);
 }
 
+TEST(Job, ReadingLeavesNothingBeside) {
+  const TemporaryFolder folder;
+  const auto file = folder / "a.zdj";
+  ASSERT_OK(Job::create(file));
+  {
+    const auto job = Job::open_read_only(file);
+    ASSERT_OK(job);
+    EXPECT_OK(job->header());
+  }
+  const auto entries = std::distance(std::filesystem::directory_iterator(folder.path()), {});
+  EXPECT_EQ(entries, 1);
+}
+
 TEST(Job, IsReadFromAReadOnlyFolder) {
   const TemporaryFolder folder;
   {

@@ -62,6 +62,14 @@ Card* ReportPage::makeHeadCard() {
       Q_EMIT headEdited(head);
     });
   }
+  m_languageName = new QLabel(m_headCard);
+  m_languageName->setProperty("role", "muted");
+  m_language = new QComboBox(m_headCard);
+  m_language->setObjectName("reportLanguage");
+  m_languageName->setBuddy(m_language);
+  grid->addWidget(m_languageName, static_cast<int>(names.size()), 0);
+  grid->addWidget(m_language, static_cast<int>(names.size()), 1);
+  connect(m_language, &QComboBox::activated, this, &ReportPage::languageChosen);
   grid->setColumnStretch(1, 1);
   m_headCard->body()->addLayout(grid);
   return m_headCard;
@@ -71,8 +79,6 @@ Card* ReportPage::makeSectionCard() {
   m_sectionCard = new Card(this);
   m_sectionCard->setFixedWidth(360);
   m_view = new ToggleSegment(m_sectionCard);
-  m_language = new QComboBox(m_sectionCard);
-  m_language->setObjectName("reportLanguage");
   m_sectionCard->tools()->addWidget(m_view);
   m_doubtful = new QListWidget(m_sectionCard);
   m_doubtful->setObjectName("doubtful");
@@ -86,14 +92,12 @@ Card* ReportPage::makeSectionCard() {
   auto* contentLayout = new QVBoxLayout(content);
   contentLayout->setContentsMargins(0, 0, 0, 0);
   contentLayout->addWidget(m_sections, 1);
-  contentLayout->addWidget(m_language);
   contentLayout->addWidget(m_signature);
   m_views = new QStackedWidget(m_sectionCard);
   m_views->addWidget(m_doubtful);
   m_views->addWidget(content);
   m_sectionCard->body()->addWidget(m_views, 1);
   connect(m_view, &ToggleSegment::currentChanged, m_views, &QStackedWidget::setCurrentIndex);
-  connect(m_language, &QComboBox::activated, this, &ReportPage::languageChosen);
   connect(m_signature, &SignaturePad::drawn, this, &ReportPage::signatureDrawn);
   connect(m_sections, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
     if (!m_filling) Q_EMIT sectionToggled(item->data(Qt::UserRole).toString(), item->checkState() == Qt::Checked);
@@ -185,6 +189,7 @@ void ReportPage::renderSections() {
     item->setData(Qt::UserRole, section.id);
     item->setSizeHint({100, 28});
   }
+  m_languageName->setText(tr("Language"));
   m_language->clear();
   m_language->addItems(m_state.languages);
   m_language->setCurrentIndex(m_state.language);

@@ -95,6 +95,7 @@ class ReportPage : public Page {
   Card* m_previewCard;
   QVector<QLabel*> m_fieldNames;
   QVector<QLineEdit*> m_fields;
+  QLabel* m_languageName;
   QComboBox* m_language;
   QListWidget* m_sections;
   QListWidget* m_doubtful;

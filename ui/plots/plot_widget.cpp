@@ -33,6 +33,7 @@ PlotWidget::PlotWidget(QWidget* parent) : QWidget(parent) {
   setFocusPolicy(Qt::StrongFocus);
   m_plot->setFocusPolicy(Qt::NoFocus);
   m_plot->setNoAntialiasingOnDrag(true);
+  m_plot->setPlottingHint(QCP::phFastPolylines, true);
   m_plot->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   m_plot->setContextMenuPolicy(Qt::CustomContextMenu);
   m_plot->setMouseTracking(true);

@@ -91,6 +91,7 @@ QWidget* MainWindow::makeFoot() {
   const QStringList names = {"controller", "recording", "camera", "compensation", "access"};
   for (int i = 0; i < names.size(); ++i) {
     auto* lamp = new Lamp(names[i], foot);
+    lamp->setVisible(static_cast<LampId>(i) != LampId::access);  // a window without anybody's rights has none
     m_lamps.append(lamp);
     all->addWidget(lamp);
     connect(lamp, &Lamp::clicked, this, [this, i] { Q_EMIT lampClicked(static_cast<LampId>(i)); });
@@ -245,6 +246,7 @@ void MainWindow::setBackEnabled(bool enabled) {
 void MainWindow::setLamp(LampId lamp, const QString& text, Judgement judgement, bool strong) {
   Lamp* shown = m_lamps[static_cast<int>(lamp)];
   shown->setState(text, judgement, strong);
+  if (lamp == LampId::access) shown->setVisible(!text.isEmpty());
   // The interlock's state is never cut.
   if (lamp == LampId::compensation) shown->setMinimumWidth(shown->sizeHint().width());
 }

@@ -6,6 +6,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLocale>
 #include <algorithm>
 #include <array>
 
@@ -147,7 +148,16 @@ void ReportPresenter::drawPreview() {
 void ReportPresenter::setLanguage(int index) {
   if (index < 0 || index >= static_cast<int>(offered.size())) return;
   m_language = offered.at(static_cast<std::size_t>(index));
+  m_languageChosen = true;
   m_redraw.start();
+}
+
+void ReportPresenter::languageChanged() {
+  if (!m_languageChosen) {
+    m_language = QLocale().language() == QLocale::Chinese ? report::Language::chinese : report::Language::english;
+    if (!m_pages.isEmpty()) m_redraw.start();
+  }
+  Presenter::languageChanged();
 }
 
 void ReportPresenter::setHead(const ui::ReportHead& head) {

@@ -25,6 +25,7 @@ class ReportPresenter : public Presenter {
   void refresh() override;
   void enter() override;
   void leave() override;
+  void languageChanged() override;
   void tour(std::function<void(bool good)> done) override;
 
  private:
@@ -52,6 +53,7 @@ class ReportPresenter : public Presenter {
   QString m_of;   // what the preview was drawn of
   QString m_log;  // of the window since it was opened, for the bundle
   report::Language m_language = report::Language::english;
+  bool m_languageChosen = false;  // by a person; until then the window's
 };
 
 }  // namespace zerodrift::desktop
