@@ -4,12 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/time_text.h"
-#include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
 #include "core/flow/steps/audited.h"
 #include "core/flow/steps/inputs.h"
-#include "core/flow/steps/upload_step.h"
 
 namespace zerodrift::desktop {
 
@@ -17,55 +14,45 @@ using commissioning::NewArtefact;
 using controller::UploadRecord;
 using nlohmann::json;
 
-namespace {
-
-json body_of(const UploadRecord& record, const compensation::Table& table) {
-  json states = json::array();
-  for (const auto& step : record.steps) {
-    const auto since = std::chrono::duration<double>(step.time - record.started).count();
-    states.push_back({{"state", controller::name_of(step.state)}, {"at_s", since}, {"detail", step.detail}});
-  }
-  double largest_um = 0.0;
-  for (const auto& axis : record.difference) largest_um = std::max(largest_um, axis.largest_um);
-  return {{"table", compensation::to_json(table)},
-          {"version", record.sequence},
-          {"crc32", fmt::format("{:08x}", record.crc)},
-          {"registers", record.new_words.size()},
-          {"largest_change_um", largest_um},
-          {"difference", flow::table_difference(record.old_table, table)},
-          {"states", states},
-          {"sign_check", nullptr},
-          {"record", controller::to_json(record)},
-          {"rolled_back", true},
-          {"problems", record.warnings}};
+Result<RollbackPreview> preview_roll_back(const controller::Profile& profile, const std::string& id,
+                                          const TaskContext& context) {
+  ZD_TRY(auto devices, flow::Devices::open(profile, false));
+  RollbackPreview preview;
+  ZD_TRY(preview.target, controller::rollback_target(*devices.machine, {std::nullopt, id}));
+  controller::UploadOptions options;
+  options.dry_run = true;
+  preview.difference.record = controller::roll_back(*devices.machine, preview.target, options, context);
+  ZD_CHECK(preview.difference.record.result);
+  ZD_TRY(preview.difference.table, controller::decode_table(preview.difference.record.new_words, profile));
+  preview.difference.note_largest();
+  return preview;
 }
 
-}  // namespace
-
 Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile, access::Permit permit,
+                              const controller::RollbackTarget& target,
                               const std::function<void(const controller::UploadStep&)>& observer,
                               const TaskContext& context) {
   ZD_TRY(const auto machine_artefact, flow::need(job, "upload", "machine"));
   ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
-  ZD_TRY(const auto former, controller::former_table(*devices.machine));
-  ZD_TRY(auto table, controller::decode_table(former.words, profile));
+  ZD_TRY(auto table, controller::decode_table(target.table.words.value_or(std::vector<std::uint16_t>{}), profile));
   commissioning::AuditEntry entry;
   entry.machine = flow::machine_text(identity.name, identity.serial);
   entry.action = "roll back table";
-  entry.subject = "compensation table";
-  ZD_TRY(const auto active, controller::read_active(*devices.machine));
-  entry.old_value = fmt::format("version {}, {} registers", active.sequence, active.words.size());
+  entry.subject = fmt::format("compensation table, to version {}", target.table.version);
+  entry.old_value = fmt::format("version {}, {} registers", target.active.sequence, target.active.words.size());
   entry.new_value = compensation::to_json(table).dump();
   controller::UploadOptions options;
   options.observer = observer;
   UploadRecord record;
   ZD_CHECK(flow::audited(job, entry, [&]() -> Status {
-    record = controller::roll_back(*devices.machine, former, options, context);
+    record = controller::roll_back(*devices.machine, target, options, context);
     return record.result;
   }));
   table.version = record.sequence;
-  return NewArtefact::of("upload", body_of(record, table), {machine_artefact.id});
+  json body = flow::upload_body(record, table, controller::TableOrigin::rollback);
+  body["rolled_back_to"] = target.table.version;
+  return NewArtefact::of("upload", body, {machine_artefact.id});
 }
 
 Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const controller::Profile& profile,

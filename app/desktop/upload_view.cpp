@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/text/core_text.h"
+#include "core/base/time_text.h"
 #include "core/compensation/sign.h"
 #include "core/controller/table_words.h"
 #include "ui/widgets/number_text.h"
@@ -156,6 +157,41 @@ QString stage_text(UploadState state) {
   return {};
 }
 
+QString local_time(const std::string& utc) {
+  if (utc.empty()) return {};
+  const auto time = QDateTime::fromString(QString::fromStdString(utc), Qt::ISODateWithMs);
+  return QLocale().toString(time.toLocalTime(), UploadView::tr("d MMM HH:mm", "date and time, as QLocale writes it"));
+}
+
+QString content_of(const controller::TableEntry& entry, const controller::Profile& profile) {
+  if (!entry.words) return UploadView::tr("content not kept");
+  const auto table = controller::decode_table(*entry.words, profile);
+  if (!table) return UploadView::tr("%1 registers, not readable").arg(entry.words->size());
+  if (table->axes.empty()) return UploadView::tr("no compensation");
+  QStringList axes;
+  for (const auto& [name, axis] : table->axes) axes << QString::fromStdString(name);
+  return UploadView::tr("%1, %2 registers").arg(axes.join(QLatin1Char(' '))).arg(entry.words->size());
+}
+
+/// How a table came to be active.
+QString how_active(const controller::TableEntry& entry, const controller::TableLog& log) {
+  const auto* of = entry.of.empty() ? nullptr : log.find(entry.of);
+  switch (entry.origin) {
+    case controller::TableOrigin::found:
+      return entry.words && entry.words->size() <= 2 ? UploadView::tr("empty at the start")
+                                                     : UploadView::tr("found in the machine");
+    case controller::TableOrigin::upload:
+      return UploadView::tr("upload");
+    case controller::TableOrigin::correction:
+      return UploadView::tr("correction");
+    case controller::TableOrigin::rollback:
+      return of == nullptr ? UploadView::tr("rollback") : UploadView::tr("rollback to %1").arg(of->version);
+    case controller::TableOrigin::restored:
+      return UploadView::tr("restored after a failed upload");
+  }
+  return {};
+}
+
 }  // namespace
 
 QVector<ui::AxisTable> axes_of(const compensation::Table& old_table, const compensation::Table& new_table,
@@ -246,37 +282,32 @@ ui::SignCheckResult sign_of(const json& sign_check) {
   return result;
 }
 
-QVector<ui::TableVersion> history_of(const std::vector<controller::FormerTable>& tables,
-                                     const controller::ActiveTable& active, const controller::Profile& profile) {
-  const auto words_of = [&](const std::vector<std::uint16_t>& words) {
-    const auto table = controller::decode_table(words, profile);
-    if (!table || table->axes.empty()) return UploadView::tr("no compensation");
-    QStringList axes;
-    for (const auto& [name, axis] : table->axes) axes << QString::fromStdString(name);
-    return UploadView::tr("%1, %2 registers").arg(axes.join(QLatin1Char(' '))).arg(words.size());
-  };
+QVector<ui::TableVersion> history_of(const controller::TableLog& kept,
+                                     const std::optional<controller::ActiveTable>& active,
+                                     const controller::Profile& profile) {
+  controller::TableLog log = kept;
+  if (active) log = controller::with_active(kept, *active, to_text(SystemClock().utc()));
+  const auto* proposed = active ? controller::before_last(log) : nullptr;
   QVector<ui::TableVersion> rows;
-  // The history says when and by whom a table was replaced: that is when, and by whom, the next one was written.
-  const auto written = [](const controller::FormerTable* before, ui::TableVersion& row) {
-    if (before == nullptr) return;
-    const auto time = QDateTime::fromString(QString::fromStdString(before->time), Qt::ISODate);
-    row.when =
-        QLocale().toString(time.toLocalTime(), UploadView::tr("d MMM HH:mm", "date and time, as QLocale writes it"));
-    row.who = QString::fromStdString(before->who);
-  };
-  ui::TableVersion now;
-  now.version = active.sequence;
-  now.what = words_of(active.words);
-  now.active = true;
-  const bool from_here = !tables.empty() && tables.back().replaced_by_crc == controller::crc_of_words(active.words);
-  if (from_here) written(&tables.back(), now);
-  rows.append(now);
-  for (std::size_t i = tables.size(); i-- > 0;) {
+  for (std::size_t i = log.entries.size(); i-- > 0;) {
+    const controller::TableEntry& entry = log.entries[i];
     ui::TableVersion row;
-    row.version = tables[i].sequence;
-    row.what = words_of(tables[i].words);
-    written(i > 0 ? &tables[i - 1] : nullptr, row);
-    row.restorable = i + 1 == tables.size() && from_here;  // one goes back step by step
+    row.id = QString::fromStdString(entry.id);
+    row.version = entry.version;
+    row.when = local_time(entry.time);
+    row.who = QString::fromStdString(entry.who);
+    row.how = how_active(entry, log);
+    row.what = content_of(entry, profile);
+    row.note = coreText(entry.note);
+    row.active = active && i + 1 == log.entries.size();
+    row.proposed = proposed == &entry;
+    if (row.active) {
+      row.blocked = UploadView::tr("Version %1 is active; choose a former one.").arg(entry.version);
+    } else if (!entry.words) {
+      row.blocked = UploadView::tr("An older program kept only the check sum of version %1.").arg(entry.version);
+    } else if (active && controller::holds(entry, *active)) {
+      row.blocked = UploadView::tr("Version %1 is the same table as the active one.").arg(entry.version);
+    }
     rows.append(row);
   }
   return rows;

@@ -4,7 +4,7 @@
 #include "core/compensation/table.h"
 #include "core/controller/profile.h"
 #include "core/controller/sign_check.h"
-#include "core/controller/table_history.h"
+#include "core/controller/table_log.h"
 #include "core/controller/upload.h"
 #include "core/recording/recording.h"
 #include "ui/pages/upload_page.h"
@@ -22,7 +22,9 @@ QVector<ui::Stage> stages_of(const std::vector<controller::UploadStep>& steps, b
 ui::SignCheckResult sign_of(const controller::SignCheckRecord& record);
 /// The same from the artefact's JSON.
 ui::SignCheckResult sign_of(const nlohmann::json& sign_check);
-QVector<ui::TableVersion> history_of(const std::vector<controller::FormerTable>& tables,
-                                     const controller::ActiveTable& active, const controller::Profile& profile);
+/// The log, newest first. `active` is what the machine holds; nothing while that is not known: then no entry is marked.
+QVector<ui::TableVersion> history_of(const controller::TableLog& log,
+                                     const std::optional<controller::ActiveTable>& active,
+                                     const controller::Profile& profile);
 
 }  // namespace zerodrift::desktop

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 302> machines = {{
+constexpr std::array<const char*, 311> machines = {{
     QT_TRANSLATE_NOOP("core", "segments or points of the axis"),
     QT_TRANSLATE_NOOP("core", "the axis table near %1 mm"),
     QT_TRANSLATE_NOOP("core", "positions or images that fall"),
@@ -190,7 +190,15 @@ constexpr std::array<const char*, 302> machines = {{
     QT_TRANSLATE_NOOP("core", "former tables of machine %1"),
     QT_TRANSLATE_NOOP("core", "the active table"),
     QT_TRANSLATE_NOOP("core", "version %1, not written from here"),
-    QT_TRANSLATE_NOOP("core", "the table that was pushed last"),
+    QT_TRANSLATE_NOOP("core", "version %1, written meanwhile"),
+    QT_TRANSLATE_NOOP("core", "version %1: %2"),
+    QT_TRANSLATE_NOOP("core", "the table that was written last, or a version chosen to go back to"),
+    QT_TRANSLATE_NOOP("core", "tables before the active one on machine %1"),
+    QT_TRANSLATE_NOOP("core", "the version to go back to"),
+    QT_TRANSLATE_NOOP("core", "a former one (%1)"),
+    QT_TRANSLATE_NOOP("core", "no format"),
+    QT_TRANSLATE_NOOP("core", "a check sum"),
+    QT_TRANSLATE_NOOP("core", "the history could not be written: %1"),
     QT_TRANSLATE_NOOP("core", "too few measurements were accepted"),
     QT_TRANSLATE_NOOP("core", "one, for the sign check"),
     QT_TRANSLATE_NOOP("core", "it moves %1 too"),
@@ -273,7 +281,9 @@ constexpr std::array<const char*, 302> machines = {{
     QT_TRANSLATE_NOOP("core", "two rows or more"),
     QT_TRANSLATE_NOOP("core", "axis %1: %2 points are resampled to %3"),
     QT_TRANSLATE_NOOP("core", "axis %1: values and positions are rounded to 0.0001 mm"),
-    QT_TRANSLATE_NOOP("core", "the BACKLASH column or the machine parameter"),
+    QT_TRANSLATE_NOOP("core",
+                      "the control's backlash parameter (BACKLASH is written 0: its sign and share are not published)"),
+    QT_TRANSLATE_NOOP("core", "BACKLASH 0: its sign and share are not published"),
     QT_TRANSLATE_NOOP("core", "the sign (+error), and the form of the .CMA file on this control"),
     QT_TRANSLATE_NOOP("core", "lines of three numbers"),
     QT_TRANSLATE_NOOP("core", "type 0: actual position = nominal + error; type 1: trim = -error"),

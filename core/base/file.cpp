@@ -84,4 +84,18 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   return write_failure(path, error_number);
 }
 
+Status append_file(const std::filesystem::path& path, std::string_view lines) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) return write_failure(path, errno);
+  std::string bytes;
+  char last = '\n';
+  const off_t size = ::lseek(descriptor, 0, SEEK_END);
+  if (size > 0 && ::pread(descriptor, &last, 1, size - 1) == 1 && last != '\n') bytes += '\n';
+  bytes += lines;
+  const int error_number = write_all(descriptor, bytes);
+  ::close(descriptor);
+  if (error_number != 0) return write_failure(path, error_number);
+  return {};
+}
+
 }  // namespace zerodrift

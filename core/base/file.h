@@ -15,5 +15,8 @@ inline constexpr std::size_t default_file_limit_bytes = std::size_t{2} << 30;
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit_bytes = default_file_limit_bytes);
 Status write_file(const std::filesystem::path& path, std::string_view bytes);
+/// Adds whole lines at the end, flushed to the disk; makes the file. Several programs may add to one file. A line that
+/// a power cut tore off is ended first, so that it does not spoil the next one.
+Status append_file(const std::filesystem::path& path, std::string_view lines);
 
 }  // namespace zerodrift

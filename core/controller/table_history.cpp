@@ -4,27 +4,30 @@
 #include <pwd.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "core/base/file.h"
 #include "core/base/json.h"
+#include "core/base/time_text.h"
 
 namespace zerodrift::controller {
 namespace {
 
-constexpr std::size_t most_tables = 50;
+std::string now_utc() {
+  return to_text(SystemClock().utc());
+}
 
-FormerTable read_one(JsonObject& o) {
-  FormerTable table;
-  table.time = o.text_or("time", "");
-  table.who = o.text_or("who", "");
-  table.sequence = o.integer_or("sequence", 0, 0, 65535);
-  table.replaced_by_crc = static_cast<std::uint32_t>(o.number_or("replaced_by_crc", 0.0, not_negative));
-  for (const double word : o.numbers("words")) {
-    if (word < 0.0 || word > 65535.0) o.reject("words", fmt::format("{}", word), "register words, 0 to 65535");
-    table.words.push_back(static_cast<std::uint16_t>(word));
-  }
-  return table;
+/// Two programs may add at the same time: the time alone is not enough.
+std::string new_id() {
+  static std::atomic<int> count = 0;
+  return fmt::format("{}-{}-{}", now_utc(), ::getpid(), ++count);
+}
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
 }
 
 }  // namespace
@@ -43,52 +46,85 @@ std::string TableHistory::user() {
   return entry == nullptr ? std::to_string(::getuid()) : entry->pw_name;
 }
 
-std::filesystem::path TableHistory::file_of(std::uint32_t serial) const {
+std::filesystem::path TableHistory::log_file(std::uint32_t serial) const {
+  return m_folder / fmt::format("tables-{}.jsonl", serial);
+}
+
+std::filesystem::path TableHistory::stack_file(std::uint32_t serial) const {
   return m_folder / fmt::format("tables-{}.json", serial);
 }
 
-Result<std::vector<FormerTable>> TableHistory::read(std::uint32_t serial) const {
-  const auto path = file_of(serial);
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return std::vector<FormerTable>{};
+Result<TableLog> TableHistory::read(std::uint32_t serial) const {
+  if (const auto path = log_file(serial); is_there(path)) {
+    ZD_TRY(const std::string text, read_file(path));
+    return log_from_lines(text, path.string());
+  }
+  const auto path = stack_file(serial);
+  if (!is_there(path)) return TableLog{};
   ZD_TRY(const nlohmann::json document, read_json_file(path));
-  return from_json<std::vector<FormerTable>>(document, path.string(), nullptr, [](JsonObject& o) {
-    std::vector<FormerTable> tables;
-    o.word("format", {"zerodrift-table-history/1"});
-    for (JsonObject& one : o.objects("tables")) tables.push_back(read_one(one));
-    return tables;
-  });
+  return log_from_stack(document, path.string());
 }
 
-Status TableHistory::write(std::uint32_t serial, const std::vector<FormerTable>& tables) const {
+/// The head, and what the first format held. Its file stays where it is.
+Status TableHistory::start_log(std::uint32_t serial) const {
+  if (is_there(log_file(serial))) return {};
   std::error_code failed;
   std::filesystem::create_directories(m_folder, failed);
   if (failed) {
     return fail(ErrorCode::file_not_writable, {{"file", m_folder.string()}, {"detail", failed.message()}});
   }
-  nlohmann::json list = nlohmann::json::array();
-  for (const auto& table : tables) {
-    list.push_back({{"time", table.time},
-                    {"who", table.who},
-                    {"sequence", table.sequence},
-                    {"words", table.words},
-                    {"replaced_by_crc", table.replaced_by_crc}});
+  ZD_TRY(const TableLog before, read(serial));
+  std::string text = line_of_head(serial) + '\n';
+  for (const TableEntry& entry : before.entries) text += line_of_entry(entry) + '\n';
+  return write_file(log_file(serial), text);
+}
+
+Status TableHistory::append(std::uint32_t serial, const std::vector<std::string>& lines) const {
+  if (lines.empty()) return {};
+  ZD_CHECK(start_log(serial));
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return append_file(log_file(serial), text);
+}
+
+Result<TableLog> TableHistory::note_active(std::uint32_t serial, const ActiveTable& active) const {
+  ZD_TRY(const TableLog before, read(serial));
+  const std::string now = now_utc();
+  TableLog after = with_active(before, active, now);
+  std::vector<std::string> lines;
+  for (const TableEntry& entry : before.entries) {
+    const TableEntry* kept = after.find(entry.id);
+    if (entry.unsettled) lines.push_back(line_of_end(entry.id, kept != nullptr, kept == nullptr ? now : entry.time));
   }
-  return write_json_file(file_of(serial),
-                         {{"format", "zerodrift-table-history/1"}, {"serial", serial}, {"tables", list}});
+  const TableEntry& last = after.entries.back();
+  const TableEntry* known = before.find(last.id);
+  const bool fuller = known != nullptr && !known->words;  // its words were not kept, and the machine has them
+  if (known == nullptr || fuller) lines.push_back(line_of_entry(last));
+  ZD_CHECK(append(serial, lines));
+  return after;
 }
 
-Status TableHistory::push(std::uint32_t serial, FormerTable table) const {
-  ZD_TRY(std::vector<FormerTable> tables, read(serial));
-  tables.push_back(std::move(table));
-  if (tables.size() > most_tables) tables.erase(tables.begin());
-  return write(serial, tables);
+Status TableHistory::begin(std::uint32_t serial, TableEntry& entry) const {
+  entry.id = new_id();
+  entry.time = now_utc();
+  return append(serial, {line_of_begin(entry)});
 }
 
-Status TableHistory::pop(std::uint32_t serial) const {
-  ZD_TRY(std::vector<FormerTable> tables, read(serial));
-  if (!tables.empty()) tables.pop_back();
-  return write(serial, tables);
+Status TableHistory::end(std::uint32_t serial, const std::string& id, bool active) const {
+  return append(serial, {line_of_end(id, active, now_utc())});
+}
+
+Status TableHistory::add(std::uint32_t serial, TableEntry entry) const {
+  entry.id = new_id();
+  entry.time = now_utc();
+  return append(serial, {line_of_entry(entry)});
+}
+
+Status TableHistory::adopt(std::uint32_t serial, const std::vector<TableEntry>& entries) const {
+  ZD_TRY(const TableLog log, read(serial));
+  std::vector<std::string> lines;
+  for (const TableEntry& entry : missing_in(log, entries)) lines.push_back(line_of_entry(entry, true));
+  return append(serial, lines);
 }
 
 }  // namespace zerodrift::controller

@@ -1,24 +1,16 @@
 #pragma once
-// The tables a machine had before, newest last: what the one-key rollback goes back to. One small JSON file for each
-// machine (by serial number) in the user's state folder, written before the machine is.
+// Where the log of a machine's tables (table_log.h) is kept: one file for each machine, by serial number, in the user's
+// state folder. It is added to before the machine is written, so that a table that is active is never unknown here.
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/controller/table_log.h"
 
 namespace zerodrift::controller {
-
-struct FormerTable {
-  std::string time;  // when it was replaced, UTC
-  std::string who;   // by whom: the name of the user of the computer
-  int sequence = 0;
-  std::vector<std::uint16_t> words;
-  std::uint32_t replaced_by_crc = 0;  // of the table that took its place: only from there does one go back to it
-};
 
 class TableHistory {
  public:
@@ -29,14 +21,23 @@ class TableHistory {
   /// Who works at this computer.
   static std::string user();
 
-  Result<std::vector<FormerTable>> read(std::uint32_t serial) const;
-  Status push(std::uint32_t serial, FormerTable table) const;
-  /// Forgets the newest one.
-  Status pop(std::uint32_t serial) const;
+  /// Empty where nothing was ever written. A stack of the first format is read as the log it tells of.
+  Result<TableLog> read(std::uint32_t serial) const;
+  /// Brings the file in line with the machine and returns the log; its last entry is the active table.
+  Result<TableLog> note_active(std::uint32_t serial, const ActiveTable& active) const;
+  /// A table is about to be written; gives the entry its id.
+  Status begin(std::uint32_t serial, TableEntry& entry) const;
+  /// How that ended.
+  Status end(std::uint32_t serial, const std::string& id, bool active) const;
+  Status add(std::uint32_t serial, TableEntry entry) const;
+  /// Entries that another keeper has, a job file from another computer for example, take their place by their time.
+  Status adopt(std::uint32_t serial, const std::vector<TableEntry>& entries) const;
 
  private:
-  std::filesystem::path file_of(std::uint32_t serial) const;
-  Status write(std::uint32_t serial, const std::vector<FormerTable>& tables) const;
+  std::filesystem::path log_file(std::uint32_t serial) const;
+  std::filesystem::path stack_file(std::uint32_t serial) const;
+  Status append(std::uint32_t serial, const std::vector<std::string>& lines) const;
+  Status start_log(std::uint32_t serial) const;
 
   std::filesystem::path m_folder;
 };

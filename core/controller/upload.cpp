@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <thread>
+#include <algorithm>
 
-#include "core/base/hash.h"
-#include "core/base/time_text.h"
 #include "core/compensation/interlock.h"
+#include "core/controller/table_transfer.h"
 #include "core/controller/table_words.h"
 
 namespace zerodrift::controller {
@@ -18,166 +14,9 @@ namespace {
 using compensation::Table;
 using Words = std::vector<std::uint16_t>;
 
-constexpr double table_scale_nm = 1000.0;  // values are in um
-constexpr double check_timeout_machine_s = 30.0;
-constexpr int status_active = 3;
-constexpr int status_rejected = 4;
-
-std::string reason_text(int reason) {
-  switch (reason) {
-    case 1:
-      return "the check sum does not fit";
-    case 2:
-      return "the number of registers is wrong";
-    case 3:
-      return "the words are not a table";
-    case 4:
-      return "a limit of the machine is exceeded";
-    case 5:
-      return "the compensation switch is on";
-    case 6:
-      return "the axes move";
-    case 7:
-      return "the scale is wrong";
-    case 8:
-      return "the sequence number is wrong";
-    default:
-      return fmt::format("reason {}", reason);
-  }
-}
-
 Error not_ready(const std::string& reason) {
   return Error{ErrorCode::machine_not_ready, {{"what", "an upload"}, {"reason", reason}}};
 }
-
-struct TableStatus {
-  int commit = 0;
-  int status = 0;
-  int sequence = 0;
-  int reason = 0;
-};
-
-Result<TableStatus> read_status(ModbusMachine& machine) {
-  std::vector<std::string> names = {"table_commit", "table_status", "table_status_sequence"};
-  const bool tells_reason = machine.map().find("table_reject_reason") != nullptr;
-  if (tells_reason) names.emplace_back("table_reject_reason");
-  ZD_TRY(const RegisterValues values, machine.read_values(names));
-  const auto number = [&](const char* name) { return static_cast<int>(values.at(name).front()); };
-  return TableStatus{number("table_commit"), number("table_status"), number("table_status_sequence"),
-                     tells_reason ? number("table_reject_reason") : 0};
-}
-
-/// Waits with a deadline in machine seconds.
-class Deadline {
- public:
-  Deadline(const ModbusMachine& machine, double machine_s)
-      : m_end(std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                     std::chrono::duration<double>(machine.host_seconds(machine_s)))) {}
-  /// False when the time is over; pauses a little otherwise.
-  bool wait() const {
-    if (std::chrono::steady_clock::now() > m_end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return true;
-  }
-
- private:
-  std::chrono::steady_clock::time_point m_end;
-};
-
-/// One table into the controller, from staging to the comparison of the active copy; used for the new table and,
-/// when something fails, for the old one.
-class Transfer {
- public:
-  Transfer(ModbusMachine& machine, const Words& words, int sequence,
-           std::function<void(UploadState, std::string)> enter)
-      : m_machine(machine), m_words(words), m_sequence(sequence), m_enter(std::move(enter)) {}
-
-  bool committed() const { return m_committed; }
-
-  Status run(const TaskContext& context) {
-    m_enter(UploadState::staging, fmt::format("{} registers", m_words.size()));
-    ZD_CHECK(m_machine.write_words("table_staging", 0, m_words));
-    m_enter(UploadState::reading_back, "");
-    ZD_CHECK(compare("table_staging"));
-    m_enter(UploadState::announcing, fmt::format("version {}", m_sequence));
-    ZD_CHECK(announce());
-    if (context.cancelled()) return fail(ErrorCode::cancelled);
-    m_enter(UploadState::committing, "");
-    ZD_CHECK(commit());
-    m_enter(UploadState::waiting, "");
-    ZD_CHECK(wait_for_check());
-    m_enter(UploadState::comparing, "");
-    ZD_TRY(const ActiveTable active, read_active(m_machine));
-    if (active.sequence != m_sequence || active.words != m_words) {
-      return fail(ErrorCode::upload_read_back, {{"register", "active table"},
-                                                {"written", fmt::format("sequence {}", m_sequence)},
-                                                {"read", fmt::format("sequence {}", active.sequence)}});
-    }
-    return {};
-  }
-
- private:
-  Status compare(const std::string& area) {
-    ZD_TRY(const Words read, m_machine.read_words(area, static_cast<int>(m_words.size())));
-    ZD_TRY(const Register entry, m_machine.map().require(area));
-    for (std::size_t i = 0; i < read.size(); ++i) {
-      if (read[i] == m_words[i]) continue;
-      return fail(ErrorCode::upload_read_back, {{"register", std::to_string(entry.address + static_cast<int>(i))},
-                                                {"written", std::to_string(m_words[i])},
-                                                {"read", std::to_string(read[i])}});
-    }
-    return {};
-  }
-
-  Status announce() {
-    const std::vector<std::pair<const char*, double>> facts = {
-        {"table_count", static_cast<double>(m_words.size())},
-        {"table_scale", table_scale_nm},
-        {"table_crc", static_cast<double>(crc_of_words(m_words))},
-        {"table_sequence", static_cast<double>(m_sequence)}};
-    for (const auto& [name, value] : facts) {
-      ZD_CHECK(m_machine.write_values(name, {value}));
-      ZD_TRY(const double read, m_machine.read_value(name));
-      if (read == value) continue;
-      return fail(
-          ErrorCode::upload_read_back,
-          {{"register", name}, {"written", fmt::format("{:.0f}", value)}, {"read", fmt::format("{:.0f}", read)}});
-    }
-    return {};
-  }
-
-  Status commit() {
-    for (int attempt = 0;; ++attempt) {
-      m_committed = true;  // from here on the controller may have taken it, whatever the link says
-      const Status sent = m_machine.write_values("table_commit", {static_cast<double>(m_sequence)}, Retry::no);
-      if (sent) return {};
-      ZD_TRY(const TableStatus now, read_status(m_machine));
-      if (now.sequence == m_sequence || now.commit == m_sequence) return {};  // it did arrive
-      if (attempt == 2) return fail(sent.error());
-    }
-  }
-
-  Status wait_for_check() {
-    const Deadline deadline(m_machine, check_timeout_machine_s);
-    for (;;) {
-      ZD_TRY(const TableStatus now, read_status(m_machine));
-      if (now.sequence == m_sequence && now.status == status_active) return {};
-      if (now.sequence == m_sequence && now.status == status_rejected) {
-        return fail(ErrorCode::upload_rejected, {{"reason", reason_text(now.reason)}});
-      }
-      if (!deadline.wait()) {
-        return fail(ErrorCode::machine_not_ready,
-                    {{"what", "the check of the table"}, {"reason", fmt::format("status stays {}", now.status)}});
-      }
-    }
-  }
-
-  ModbusMachine& m_machine;
-  const Words& m_words;
-  int m_sequence;
-  std::function<void(UploadState, std::string)> m_enter;
-  bool m_committed = false;
-};
 
 class Upload {
  public:
@@ -254,7 +93,7 @@ class Upload {
     ZD_TRY(ActiveTable old, read_active(m_machine));
     m_record.old_words = std::move(old.words);
     m_record.old_sequence = old.sequence;
-    ZD_TRY(const TableStatus status, read_status(m_machine));
+    ZD_TRY(const TableStatus status, read_table_status(m_machine));
     m_record.sequence = next_sequence(std::max(old.sequence, status.sequence));
     return {};
   }
@@ -290,7 +129,7 @@ class Upload {
     enter(UploadState::switching_off, "");
     if (auto off = switch_off(); !off) return undo(off.error(), false);
     const auto notify = [this](UploadState state, std::string detail) { enter(state, std::move(detail)); };
-    Transfer transfer(m_machine, m_record.new_words, m_record.sequence, notify);
+    TableTransfer transfer(m_machine, m_record.new_words, m_record.sequence, notify);
     if (auto moved = transfer.run(m_context); !moved) return undo(moved.error(), transfer.committed());
     const bool on =
         m_options.activation == Activation::on || (m_options.activation == Activation::as_before && m_was_on);
@@ -338,8 +177,11 @@ class Upload {
     ZD_CHECK(m_machine.switch_compensation(false));
     bool rewritten = false;
     for (int attempt = 0;; ++attempt) {
-      auto active = committed ? settled_active() : read_active(m_machine);
-      if (active && active->words == m_record.old_words) break;
+      auto active = committed ? settled_active(m_machine) : read_active(m_machine);
+      if (active && same_table(active->words, m_record.old_words)) {
+        if (active->sequence != m_record.old_sequence) m_record.restored_sequence = active->sequence;
+        break;
+      }
       if (!active && !committed) return fail(active.error());
       if (attempt == 3) {
         return active ? fail(ErrorCode::upload_read_back,
@@ -347,27 +189,18 @@ class Upload {
                       : fail(active.error());
       }
       const auto silent = [](UploadState, const std::string&) {};
-      ZD_TRY(const TableStatus status, read_status(m_machine));
+      ZD_TRY(const TableStatus status, read_table_status(m_machine));
       const Words old_words = m_record.old_words.empty() ? Words{1, 0} : m_record.old_words;
-      Transfer back(m_machine, old_words, next_sequence(std::max(status.sequence, m_record.sequence)), silent);
+      const int sequence = next_sequence(std::max(status.sequence, m_record.sequence));
+      TableTransfer back(m_machine, old_words, sequence, silent);
       if (back.run({})) {
+        m_record.restored_sequence = sequence;
         rewritten = true;
         break;
       }
     }
     if (m_was_on && m_options.activation != Activation::off) ZD_CHECK(m_machine.switch_compensation(true));
     return rewritten;
-  }
-
-  /// After a commit that ended in doubt: waits until the controller has finished its check before judging.
-  Result<ActiveTable> settled_active() {
-    const Deadline deadline(m_machine, check_timeout_machine_s);
-    for (;;) {
-      ZD_TRY(const TableStatus now, read_status(m_machine));
-      if (now.commit == 0 && now.status != 2) break;
-      if (!deadline.wait()) break;
-    }
-    return read_active(m_machine);
   }
 
   ModbusMachine& m_machine;
@@ -380,28 +213,6 @@ class Upload {
 
 }  // namespace
 
-std::string_view name_of(UploadState state) {
-  constexpr std::array<std::string_view, 15> names = {
-      "checking",  "saving_old",   "switching_off", "staging", "reading_back", "announcing", "committing",    "waiting",
-      "comparing", "switching_on", "ramping",       "done",    "restoring",    "restored",   "restore_failed"};
-  return names.at(static_cast<std::size_t>(state));
-}
-
-Result<ActiveTable> read_active(ModbusMachine& machine) {
-  ZD_TRY(const RegisterValues values,
-         machine.read_values({"table_active_crc", "table_active_count", "table_active_sequence"}));
-  ActiveTable active;
-  active.crc = static_cast<std::uint32_t>(values.at("table_active_crc").front());
-  active.sequence = static_cast<int>(values.at("table_active_sequence").front());
-  const int count = static_cast<int>(values.at("table_active_count").front());
-  if (count == 0) return active;
-  ZD_TRY(active.words, machine.read_words("table_active", count));
-  if (crc_of_words(active.words) != active.crc) {
-    return fail(ErrorCode::machine_bad_reply, {{"what", "active table"}, {"detail", "its check sum does not fit"}});
-  }
-  return active;
-}
-
 UploadRecord upload_table(ModbusMachine& machine, const Table& table, const UploadOptions& options,
                           const TaskContext& context) {
   Upload upload(machine, options, context);
@@ -413,43 +224,6 @@ UploadRecord upload_words(ModbusMachine& machine, std::vector<std::uint16_t> wor
   Upload upload(machine, options, context);
   if (words.empty()) words = {1, 0};  // the empty table
   return upload.run([&](int) -> Result<Words> { return words; }, nullptr);
-}
-
-nlohmann::json to_json(const UploadRecord& record) {
-  nlohmann::json steps = nlohmann::json::array();
-  for (const auto& step : record.steps) {
-    steps.push_back({{"state", name_of(step.state)}, {"time", to_text(step.time)}, {"detail", step.detail}});
-  }
-  nlohmann::json axes = nlohmann::json::array();
-  for (const auto& axis : record.difference) {
-    nlohmann::json curve = nlohmann::json::array();
-    for (const auto& row : axis.curve) {
-      curve.push_back({{"position_mm", row.position_mm},
-                       {"old_up_um", row.old_up_um},
-                       {"old_down_um", row.old_down_um},
-                       {"new_up_um", row.new_up_um},
-                       {"new_down_um", row.new_down_um}});
-    }
-    axes.push_back({{"axis", axis.axis},
-                    {"largest_um", axis.largest_um},
-                    {"largest_at_mm", axis.largest_at_mm},
-                    {"compensation", curve}});
-  }
-  nlohmann::json out = {{"started", to_text(record.started)},
-                        {"machine", record.machine},
-                        {"serial", record.serial},
-                        {"dry_run", record.dry_run},
-                        {"state", name_of(record.reached)},
-                        {"old_sequence", record.old_sequence},
-                        {"sequence", record.sequence},
-                        {"crc32", fmt::format("{:08x}", record.crc)},
-                        {"old_words", record.old_words},
-                        {"new_words", record.new_words},
-                        {"difference", axes},
-                        {"warnings", record.warnings},
-                        {"steps", steps}};
-  if (!record.result) out["error"] = describe(record.result.error());
-  return out;
 }
 
 }  // namespace zerodrift::controller

@@ -14,6 +14,7 @@
 #include "core/base/result.h"
 #include "core/base/task_context.h"
 #include "core/compensation/table.h"
+#include "core/controller/active_table.h"
 #include "core/controller/modbus_machine.h"
 
 namespace zerodrift::controller {
@@ -71,6 +72,7 @@ struct UploadRecord {
   int old_sequence = 0;
   int sequence = 0;  // of the new table; the version the controller shows
   std::uint32_t crc = 0;
+  std::optional<int> restored_sequence;  // the old table had to be written again: the version it has since
   compensation::Table old_table;
   std::vector<compensation::AxisDifference> difference;  // compensations at the present temperatures
   std::vector<std::string> warnings;
@@ -86,13 +88,5 @@ UploadRecord upload_table(ModbusMachine& machine, const compensation::Table& tab
 /// The same with words saved before: rollback.
 UploadRecord upload_words(ModbusMachine& machine, std::vector<std::uint16_t> words, const UploadOptions& options,
                           const TaskContext& context);
-
-struct ActiveTable {
-  std::vector<std::uint16_t> words;
-  int sequence = 0;
-  std::uint32_t crc = 0;
-};
-/// The controller's active table, checked against its CRC.
-Result<ActiveTable> read_active(ModbusMachine& machine);
 
 }  // namespace zerodrift::controller

@@ -219,6 +219,54 @@
         <comment>date and time, as QLocale writes it</comment>
         <translation>M月d日 HH:mm</translation>
     </message>
+    <message>
+        <source>content not kept</source>
+        <translation>内容未保留</translation>
+    </message>
+    <message>
+        <source>%1 registers, not readable</source>
+        <translation>%1 个寄存器，无法解读</translation>
+    </message>
+    <message>
+        <source>empty at the start</source>
+        <translation>最初为空</translation>
+    </message>
+    <message>
+        <source>found in the machine</source>
+        <translation>在机床中发现</translation>
+    </message>
+    <message>
+        <source>upload</source>
+        <translation>上传</translation>
+    </message>
+    <message>
+        <source>correction</source>
+        <translation>修正</translation>
+    </message>
+    <message>
+        <source>rollback</source>
+        <translation>回滚</translation>
+    </message>
+    <message>
+        <source>rollback to %1</source>
+        <translation>回滚到 %1</translation>
+    </message>
+    <message>
+        <source>restored after a failed upload</source>
+        <translation>上传失败后恢复</translation>
+    </message>
+    <message>
+        <source>Version %1 is active; choose a former one.</source>
+        <translation>版本 %1 当前生效；请选择以前的版本。</translation>
+    </message>
+    <message>
+        <source>An older program kept only the check sum of version %1.</source>
+        <translation>旧版程序只保留了版本 %1 的校验和。</translation>
+    </message>
+    <message>
+        <source>Version %1 is the same table as the active one.</source>
+        <translation>版本 %1 与当前生效的补偿表相同。</translation>
+    </message>
 </context>
 <context>
     <name>ask</name>
@@ -1078,10 +1126,6 @@
         <translation>版本 %1，不是由此处写入</translation>
     </message>
     <message>
-        <source>the table that was pushed last</source>
-        <translation>最近一次写入的补偿表</translation>
-    </message>
-    <message>
         <source>too few measurements were accepted</source>
         <translation>被接受的测量太少</translation>
     </message>
@@ -1388,10 +1432,6 @@
     <message>
         <source>axis %1: values and positions are rounded to 0.0001 mm</source>
         <translation>轴 %1：数值和位置圆整到 0.0001 mm</translation>
-    </message>
-    <message>
-        <source>the BACKLASH column or the machine parameter</source>
-        <translation>BACKLASH 列或机床参数</translation>
     </message>
     <message>
         <source>the sign (+error), and the form of the .CMA file on this control</source>
@@ -3413,6 +3453,50 @@
         <source>&quot;%1&quot; in it was not made by this program</source>
         <translation>其中的“%1”不是由本程序创建的</translation>
     </message>
+    <message>
+        <source>version %1, written meanwhile</source>
+        <translation>版本 %1，其间被写入</translation>
+    </message>
+    <message>
+        <source>version %1: %2</source>
+        <translation>版本 %1：%2</translation>
+    </message>
+    <message>
+        <source>the table that was written last, or a version chosen to go back to</source>
+        <translation>最近一次写入的补偿表，或选定的回滚版本</translation>
+    </message>
+    <message>
+        <source>tables before the active one on machine %1</source>
+        <translation>机床 %1 上当前补偿表之前的补偿表</translation>
+    </message>
+    <message>
+        <source>the version to go back to</source>
+        <translation>回滚的目标版本</translation>
+    </message>
+    <message>
+        <source>a former one (%1)</source>
+        <translation>以前的版本之一（%1）</translation>
+    </message>
+    <message>
+        <source>no format</source>
+        <translation>无格式</translation>
+    </message>
+    <message>
+        <source>a check sum</source>
+        <translation>校验和</translation>
+    </message>
+    <message>
+        <source>the history could not be written: %1</source>
+        <translation>历史记录无法写入：%1</translation>
+    </message>
+    <message>
+        <source>the control&apos;s backlash parameter (BACKLASH is written 0: its sign and share are not published)</source>
+        <translation>控制系统的反向间隙参数（BACKLASH 写为 0：其符号和所占份额未公开）</translation>
+    </message>
+    <message>
+        <source>BACKLASH 0: its sign and share are not published</source>
+        <translation>BACKLASH 为 0：其符号和所占份额未公开</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -5008,10 +5092,6 @@
         <source>The machine holds version %1, which is not the table of this job.</source>
         <translation>机床中为版本 %1，不是本作业的补偿表。</translation>
     </message>
-    <message>
-        <source>It was written from elsewhere. Compare before you write; it cannot be rolled back from here.</source>
-        <translation>它由别处写入。写入前请先比较；无法由此处回滚到该表。</translation>
-    </message>
     <message numerus="yes">
         <source>%n register(s)</source>
         <translation>
@@ -5063,10 +5143,6 @@
         <translation>在 %2 中回滚到版本 %1？</translation>
     </message>
     <message>
-        <source>The table that was active before is written again, under a new version number.</source>
-        <translation>之前有效的补偿表将以新的版本号重新写入。</translation>
-    </message>
-    <message>
         <source>Go back</source>
         <translation>回滚</translation>
     </message>
@@ -5089,6 +5165,26 @@
     <message>
         <source>Checking the sign</source>
         <translation>正在检查符号</translation>
+    </message>
+    <message>
+        <source>It was written from elsewhere. Compare before you write; it is kept in the history then.</source>
+        <translation>它由其他程序写入。写入前请先比较；写入时它会保留在历史中。</translation>
+    </message>
+    <message>
+        <source>Nothing changes at the temperatures of this moment.</source>
+        <translation>在此刻的温度下没有变化。</translation>
+    </message>
+    <message>
+        <source>The largest change now is %1 µm in %2.</source>
+        <translation>此刻最大变化为 %2 轴 %1 µm。</translation>
+    </message>
+    <message>
+        <source>The table of version %1 is written again, as version %2, in place of version %3. %4 The switch is left as it is; nothing is taken out of the history.</source>
+        <translation>版本 %1 的补偿表将作为版本 %2 重新写入，取代版本 %3。%4 开关保持原状；历史中不会删除任何内容。</translation>
+    </message>
+    <message>
+        <source>No machine is connected: connect it on the Machine page.</source>
+        <translation>未连接机床：请在“机床”页面连接。</translation>
     </message>
 </context>
 <context>
@@ -7894,10 +7990,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>写入</translation>
     </message>
     <message>
-        <source>History</source>
-        <translation>历史</translation>
-    </message>
-    <message>
         <source>Sign check</source>
         <translation>符号检查</translation>
     </message>
@@ -7950,10 +8042,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>写入人</translation>
     </message>
     <message>
-        <source>What</source>
-        <translation>内容</translation>
-    </message>
-    <message>
         <source>active: %1</source>
         <translation>有效：%1</translation>
     </message>
@@ -7966,16 +8054,32 @@ The sum of absolute values does not have this fault.</source>
         <translation>回滚</translation>
     </message>
     <message>
-        <source>Select an earlier version</source>
-        <translation>请选择较早的版本</translation>
-    </message>
-    <message>
         <source>Largest change now</source>
         <translation>此刻最大变化</translation>
     </message>
     <message>
         <source>Between the old and the new table at the temperatures of this moment: so far the axes would move. While the machine warms it grows; the curve shows it over the whole warm-up run.</source>
         <translation>在此刻的温度下新旧补偿表之差，即各轴将移动的量。机床升温时该值会增大；曲线显示整个暖机运行中的变化。</translation>
+    </message>
+    <message>
+        <source>History, roll back</source>
+        <translation>历史与回滚</translation>
+    </message>
+    <message>
+        <source>How</source>
+        <translation>来历</translation>
+    </message>
+    <message>
+        <source>Nothing was written into this machine yet.</source>
+        <translation>尚未向这台机床写入过任何内容。</translation>
+    </message>
+    <message>
+        <source>Select the version to go back to.</source>
+        <translation>请选择要回滚到的版本。</translation>
+    </message>
+    <message>
+        <source>Writes version %1 (%2) again, as a new version. The difference is shown and you are asked.</source>
+        <translation>将版本 %1（%2）作为新版本重新写入。先显示差异并询问。</translation>
     </message>
 </context>
 <context>

@@ -147,23 +147,43 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(!page->problem().sentence.isEmpty());
   }
 
-  /// When and by whom each version was written, and one that can be gone back to.
+  /// Everything that was active, newest first, the active one marked; what cannot be brought back says why.
   void tableHistory() {
     using namespace zerodrift;
     controller::Profile profile;
-    const std::vector<std::uint16_t> empty = {1, 0};
-    const std::vector<std::uint16_t> now = {1, 0, 0};
-    const std::vector<controller::FormerTable> former = {
-        {"2026-11-20T08:00:00Z", "anna", 0, empty, 1},
-        {"2026-11-21T09:00:00Z", "ben", 1, empty, controller::crc_of_words(now)}};
-    const auto rows = desktop::history_of(former, {now, 2, 0}, profile);
-    QCOMPARE(rows.size(), 3);
-    QVERIFY(rows[0].active && rows[0].who == QStringLiteral("ben"));
-    QVERIFY(rows[1].restorable && rows[1].version == 1 && rows[1].who == QStringLiteral("anna"));
-    QVERIFY(!rows[2].restorable && rows[2].when.isEmpty());
-    const auto foreign = desktop::history_of(former, {empty, 7, 0}, profile);
-    QVERIFY(!foreign[1].restorable);
-    QVERIFY(foreign[0].who.isEmpty());
+    const auto entry = [](const char* id, int version, int content, controller::TableOrigin origin, const char* who) {
+      controller::TableEntry one;
+      one.id = id;
+      one.time = "2026-11-20T08:00:00.000Z";
+      one.who = who;
+      one.origin = origin;
+      one.version = version;
+      one.words = std::vector<std::uint16_t>{1, 0, static_cast<std::uint16_t>(content)};
+      one.crc = controller::crc_of_words(*one.words);
+      return one;
+    };
+    controller::TableLog log;
+    log.entries = {entry("a", 1, 7, controller::TableOrigin::upload, "anna"),
+                   entry("b", 2, 8, controller::TableOrigin::correction, "ben"),
+                   entry("c", 3, 9, controller::TableOrigin::upload, "ben"),
+                   entry("d", 4, 8, controller::TableOrigin::rollback, "anna")};
+    log.entries[3].of = "b";
+    const auto rows = desktop::history_of(log, controller::ActiveTable{{1, 0, 8}, 4, 0}, profile);
+    QCOMPARE(rows.size(), 4);
+    QVERIFY(rows[0].active && rows[0].who == QStringLiteral("anna") && !rows[0].blocked.isEmpty());
+    QVERIFY(rows[0].how.contains(QLatin1Char('2')));
+    QVERIFY(rows[1].blocked.isEmpty() && !rows[1].proposed);
+    QVERIFY(!rows[2].blocked.isEmpty());                     // the same table as the active one
+    QVERIFY(rows[3].proposed && rows[3].blocked.isEmpty());  // what was active before the table that is
+    QVERIFY(!rows[3].when.isEmpty());
+    const auto foreign = desktop::history_of(log, controller::ActiveTable{{1, 0, 5}, 9, 0}, profile);
+    QCOMPARE(foreign.size(), 5);
+    QVERIFY(foreign[0].active && foreign[0].who.isEmpty());
+    for (const auto& row : foreign) QVERIFY(!row.proposed);
+    QVERIFY(foreign[1].blocked.isEmpty());
+    const auto unknown = desktop::history_of(log, std::nullopt, profile);
+    QCOMPARE(unknown.size(), 4);
+    QVERIFY(!unknown[0].active);
   }
 
   void damagedJob_data() {

@@ -178,6 +178,26 @@ TEST(Exports, HeidenhainExpansion) {
       << out->files.front().text;
 }
 
+// What its BACKLASH column means to the control is known from no source: it is written 0 and told as a loss, and a file
+// that has something there is refused instead of being read as if it had not.
+TEST(Exports, HeidenhainBacklashIsDeclared) {
+  const auto& format = **export_format("heidenhain");
+  const auto out = format.write(one_axis({{0, 2, 0, 0}, {300, 9, 5, 0}}), {});
+  ASSERT_TRUE(out) << describe(out.error());
+  EXPECT_NEAR(out->loss_um, 2.0, 1e-9);  // half of the largest difference
+  const auto told = std::any_of(out->losses.begin(), out->losses.end(), [](const std::string& loss) {
+    return loss.find("4.00 um") != std::string::npos && loss.find("BACKLASH is written 0") != std::string::npos;
+  });
+  EXPECT_TRUE(told);
+  std::string text = out->files.front().text;
+  ASSERT_TRUE(format.read(text, {}));
+  const std::size_t second = text.find("\n1 +300.0000 ") + std::string("\n1 +300.0000 ").size();
+  text.replace(second, 7, "+0.0040");
+  const auto back = format.read(text, {});
+  ASSERT_FALSE(back);
+  EXPECT_EQ(back.error().code, ErrorCode::wrong_format);
+}
+
 TEST(Exports, SiemensLeadscrewForm) {
   const auto out = (*export_format("sinumerik-leadscrew"))->write(one_axis({{0, 3, 3, 0}, {100, 10, 10, 0}}), {});
   ASSERT_TRUE(out) << describe(out.error());

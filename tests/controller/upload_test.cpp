@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bad_cable.h"
-#include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
 #include "device.h"
+#include "fixtures.h"
 #include "peer.h"
 #include "tests/support/amount.h"
 
@@ -21,31 +21,11 @@ namespace {
 using compensation::Table;
 using Kind = ReplyFault::Kind;
 
-Table sample(double coefficient = 2.0) {
-  Table table;
-  compensation::AxisTable& z = table.axes["Z"];
-  z.offset_um = -3.0;
-  z.terms = {{"T1_C", coefficient, 20.0, 0.5}, {"ambient_C", -1.0, 20.0, 0.0}};
-  for (int i = 0; i < 20; ++i) z.points.push_back({10.0 * i, 0.5 * i, 0.5 * i + 1.0, 0.25});
-  table.axes["X"].offset_um = 4.0;
-  return table;
-}
-
-std::unique_ptr<ModbusMachine> open(const Profile& profile) {
-  auto machine = ModbusMachine::open(profile, engineer());
-  EXPECT_TRUE(machine) << describe(machine.error());
-  return std::move(*machine);
-}
-
-std::string text_of(const Status& status) {
-  return status ? "done" : describe(status.error());
-}
-
 }  // namespace
 
 TEST(TableWords, RoundTripIsExactInSinglePrecision) {
   const Device device;
-  const Table table = sample();
+  const Table table = sample_table();
   const auto words = encode_table(table, device.profile());
   ASSERT_TRUE(words) << describe(words.error());
   EXPECT_EQ(words->size(), 2U + 12U + 12U + 2U * 7U + 20U * 8U);
@@ -60,11 +40,11 @@ TEST(TableWords, RoundTripIsExactInSinglePrecision) {
 
 TEST(TableWords, RefusesWhatDoesNotFit) {
   const Device device;
-  Table table = sample();
+  Table table = sample_table();
   EXPECT_EQ(encode_table(table, device.profile(), 100).error().code, ErrorCode::limit_exceeded);
   table.axes["Z"].terms[0].sensor = "T99_C";
   EXPECT_EQ(encode_table(table, device.profile()).error().code, ErrorCode::channel_missing);
-  auto words = encode_table(sample(), device.profile()).value();
+  auto words = encode_table(sample_table(), device.profile()).value();
   words.pop_back();
   EXPECT_EQ(decode_table(words, device.profile()).error().code, ErrorCode::wrong_format);
   words[0] = 9;
@@ -77,13 +57,13 @@ TEST(Upload, PushReadBackRollback) {
   std::vector<std::string> states;
   UploadOptions options;
   options.observer = [&](const UploadStep& step) { states.emplace_back(name_of(step.state)); };
-  const auto first = upload_table(*machine, sample(), options, {});
+  const auto first = upload_table(*machine, sample_table(), options, {});
   ASSERT_TRUE(first.result) << text_of(first.result);
   EXPECT_EQ(states.back(), "done");
   EXPECT_EQ(device.active(), first.new_words);
   EXPECT_EQ(device.word(17), 1);  // on
   EXPECT_TRUE(first.old_words.empty());
-  const auto second = upload_table(*machine, sample(3.0), {}, {});
+  const auto second = upload_table(*machine, sample_table(3.0), {}, {});
   ASSERT_TRUE(second.result) << text_of(second.result);
   EXPECT_EQ(second.old_words, first.new_words);
   EXPECT_EQ(second.sequence, first.sequence + 1);
@@ -107,7 +87,7 @@ TEST(Upload, DryRunWritesNothing) {
   auto machine = open(device.profile());
   UploadOptions options;
   options.dry_run = true;
-  const auto record = upload_table(*machine, sample(), options, {});
+  const auto record = upload_table(*machine, sample_table(), options, {});
   EXPECT_TRUE(record.result) << text_of(record.result);
   EXPECT_FALSE(written);
   EXPECT_FALSE(record.difference.empty());
@@ -121,32 +101,32 @@ TEST(Upload, RefusesBeforeWriting) {
     EXPECT_EQ(device.commits(), 0);
     return record.result ? ErrorCode::internal : record.result.error().code;
   };
-  Table other = sample();
+  Table other = sample_table();
   other.machine = "Another machine";
   EXPECT_EQ(refusal(other), ErrorCode::data_does_not_fit);
-  Table far = sample();
+  Table far = sample_table();
   far.axes["X"].offset_um = 150.0;
   far.axes["X"].max_um = 500.0;
   far.axes["X"].points = {{0.0, 100.0, 0.0, 0.0}};
   EXPECT_EQ(refusal(far), ErrorCode::limit_exceeded);
-  EXPECT_EQ(refusal(sample(60.0)), ErrorCode::limit_exceeded);
+  EXPECT_EQ(refusal(sample_table(60.0)), ErrorCode::limit_exceeded);
   for (const int state : {4 | 2, 4 | 8, 0, 4 | 1}) {
     device.set(16, static_cast<std::uint16_t>(state));
-    EXPECT_EQ(refusal(sample()), ErrorCode::machine_not_ready) << state;
+    EXPECT_EQ(refusal(sample_table()), ErrorCode::machine_not_ready) << state;
   }
 }
 
 TEST(Upload, RejectionLeavesTheOldTableActive) {
   Device device;
   auto machine = open(device.profile());
-  ASSERT_TRUE(upload_table(*machine, sample(), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(), {}, {}).result);
   const auto old_words = device.active();
   // A controller that rejects: it finds its switch on at the commit.
   device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
     if (address == 205) device.set_unlocked(17, 1);
     return std::nullopt;
   };
-  const auto record = upload_table(*machine, sample(5.0), {}, {});
+  const auto record = upload_table(*machine, sample_table(5.0), {}, {});
   ASSERT_FALSE(record.result);
   EXPECT_EQ(record.result.error().code, ErrorCode::upload_rejected) << text_of(record.result);
   EXPECT_EQ(device.active(), old_words);
@@ -162,7 +142,7 @@ TEST(Upload, CorruptStagingIsFoundBeforeTheCommit) {
     return std::nullopt;
   };
   auto machine = open(device.profile());
-  const auto record = upload_table(*machine, sample(), {}, {});
+  const auto record = upload_table(*machine, sample_table(), {}, {});
   ASSERT_FALSE(record.result);
   EXPECT_EQ(record.result.error().code, ErrorCode::upload_read_back) << text_of(record.result);
   EXPECT_EQ(device.commits(), 0);
@@ -174,18 +154,18 @@ class UploadFault : public testing::TestWithParam<Kind> {};
 TEST_P(UploadFault, AtEveryRequest) {
   Device device;
   auto machine = open(device.profile());
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   device.spoil(-1, {});
-  ASSERT_TRUE(upload_table(*machine, sample(2.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(2.0), {}, {}).result);
   const int all = device.requests();
   const auto at_two = device.active();
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto at_one = device.active();
   int failed = 0;
   for (int n = 0; n < all + 2; ++n) {
     const bool to_two = device.active() == at_one;
     device.spoil(n, {GetParam(), std::chrono::milliseconds(GetParam() == Kind::late ? 90 : 0)});
-    const auto record = upload_table(*machine, sample(to_two ? 2.0 : 1.0), {}, {});
+    const auto record = upload_table(*machine, sample_table(to_two ? 2.0 : 1.0), {}, {});
     const auto now = device.active();
     ASSERT_TRUE(now == at_one || now == at_two) << "request " << n;
     ASSERT_EQ(now == (to_two ? at_two : at_one), record.result.has_value()) << n << ": " << text_of(record.result);
@@ -199,16 +179,16 @@ TEST_P(UploadFault, AtEveryRequest) {
 TEST_P(UploadFault, ForGoodFromEachRequest) {
   Device device;
   auto machine = open(device.profile());
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto old_words = device.active();
-  const auto new_words = encode_table(sample(2.0), device.profile()).value();
+  const auto new_words = encode_table(sample_table(2.0), device.profile()).value();
   device.spoil(-1, {});
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const int all = device.requests();
   machine->link().set_attempts(2);
   for (int n = 0; n < all; n += 2) {
     device.spoil(n, {GetParam(), std::chrono::milliseconds(GetParam() == Kind::late ? 90 : 0)}, true);
-    const auto record = upload_table(*machine, sample(2.0), {}, {});
+    const auto record = upload_table(*machine, sample_table(2.0), {}, {});
     device.spoil(-1, {});
     const auto now = device.active();
     ASSERT_TRUE(now == old_words || now == new_words) << "request " << n;
@@ -243,10 +223,10 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
   profile.controller.timeout_ms = 80;
   cable.set_delay(std::chrono::milliseconds(120));
   auto machine = open(profile);
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto one = device.active();
   cable.strike(GetParam(), -1);
-  ASSERT_TRUE(upload_table(*machine, sample(2.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(2.0), {}, {}).result);
   const long all = cable.passed();
   const auto two = device.active();
   // A connection that ends or lags changes nothing in what is written: one such fault is always overcome. A byte turned
@@ -260,7 +240,7 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
   for (long n = 0; n < all; n += cable_stride(), ++tried) {
     const bool to_two = device.active() == one;
     cable.strike(GetParam(), n);
-    const auto record = upload_table(*machine, sample(to_two ? 2.0 : 1.0), {}, {});
+    const auto record = upload_table(*machine, sample_table(to_two ? 2.0 : 1.0), {}, {});
     const auto now = device.active();
     ASSERT_TRUE(now == one || now == two) << "byte " << n << ": " << text_of(record.result);
     if (record.result) {
@@ -294,9 +274,9 @@ INSTANTIATE_TEST_SUITE_P(Cable, BadCableUpload,
 TEST(Upload, RollbackOfAFullTableIsQuick) {
   Device device;
   auto machine = open(device.profile());
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto before = device.active();
-  Table full = sample(2.0);
+  Table full = sample_table(2.0);
   for (int i = 20; i < 235; ++i) full.axes["Z"].points.push_back({10.0 * i, 10.0, 11.0, 0.25});
   const auto written = upload_table(*machine, full, {}, {});
   ASSERT_TRUE(written.result) << text_of(written.result);
@@ -315,17 +295,17 @@ TEST(Upload, RollbackOfAFullTableIsQuick) {
 TEST(Upload, CommitIsNeverSentTwiceBlindly) {
   Device device;
   auto machine = open(device.profile());
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   int commit_at = -1;
   device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
     if (address == 205) commit_at = device.requests() - 1;
     return std::nullopt;
   };
   device.spoil(-1, {});
-  ASSERT_TRUE(upload_table(*machine, sample(1.0), {}, {}).result);
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const int before = device.commits();
   device.spoil(commit_at, {Kind::truncated, {}});  // the commit is carried out, its reply is lost
-  const auto record = upload_table(*machine, sample(2.0), {}, {});
+  const auto record = upload_table(*machine, sample_table(2.0), {}, {});
   EXPECT_TRUE(record.result) << text_of(record.result);
   EXPECT_EQ(device.commits(), before + 1);
 }
@@ -334,7 +314,7 @@ TEST(Upload, APymodbusPeerTakesTheTable) {
   const Peer peer({"--speedup", "60"});
   if (!peer.running()) GTEST_SKIP() << "python3-pymodbus is not installed";
   auto machine = open(*read_profile(peer.profile_file()));
-  const auto record = upload_table(*machine, sample(), {}, {});
+  const auto record = upload_table(*machine, sample_table(), {}, {});
   ASSERT_TRUE(record.result) << text_of(record.result);
   EXPECT_EQ(read_active(*machine)->words, record.new_words);
   const auto back = upload_words(*machine, record.old_words, {}, {});
@@ -349,7 +329,7 @@ TEST(Upload, NpmPeersTakeTheTable) {
     if (!peer.running()) continue;
     ++tried;
     auto machine = open(*read_profile(peer.profile_file()));
-    const auto record = upload_table(*machine, sample(), {}, {});
+    const auto record = upload_table(*machine, sample_table(), {}, {});
     ASSERT_TRUE(record.result) << package << ": " << text_of(record.result);
     EXPECT_EQ(read_active(*machine)->words, record.new_words) << package;
   }
@@ -364,23 +344,9 @@ TEST(Upload, OverASerialLine) {
   auto machine = open(*read_profile(peer.profile_file()));
   const auto sample_read = machine->read();
   ASSERT_TRUE(sample_read) << describe(sample_read.error());
-  const auto record = upload_table(*machine, sample(), {}, {});
+  const auto record = upload_table(*machine, sample_table(), {}, {});
   ASSERT_TRUE(record.result) << text_of(record.result);
   EXPECT_EQ(read_active(*machine)->words, record.new_words);
-}
-
-TEST(TableHistory, KeepsAndForgets) {
-  const TableHistory history(std::filesystem::path(testing::TempDir()) / "zd_table_history");
-  std::filesystem::remove_all(std::filesystem::path(testing::TempDir()) / "zd_table_history");
-  EXPECT_TRUE(history.read(5)->empty());
-  ASSERT_TRUE(history.push(5, {"2026-01-01T00:00:00.000Z", "ann", 3, {1, 0}, 11}));
-  ASSERT_TRUE(history.push(5, {"2026-01-02T00:00:00.000Z", "ben", 4, {1, 1, 65535}, 4294967295U}));
-  EXPECT_EQ(history.read(5)->back().words, (std::vector<std::uint16_t>{1, 1, 65535}));
-  EXPECT_EQ(history.read(5)->back().replaced_by_crc, 4294967295U);
-  EXPECT_TRUE(history.read(6)->empty());
-  ASSERT_TRUE(history.pop(5));
-  EXPECT_EQ(history.read(5)->back().sequence, 3);
-  EXPECT_EQ(history.read(5)->back().who, "ann");
 }
 
 }  // namespace zerodrift::controller

@@ -1,6 +1,6 @@
 """An upload taken back from the command line, on the virtual machine at the speed of a real one: the table before is
-active, whole and known within 5 s, for a small and for a full table; twice taken back is two tables back; and what was
-not written from here is not taken back.
+active, whole and known within 5 s, for a small and for a full table; twice taken back is two tables back; any version can
+be chosen; everything that was active stays in the list; and what was not written from here is not guessed at.
 
 Usage: rollback_test.py"""
 
@@ -25,9 +25,18 @@ def words(profile, folder):
     return json.loads(out)["words"]
 
 
-def rolled_back(profile):
+def listed(profile):
+    _, out, _ = cli("rollback", "--profile", profile, "--list", "--json")
+    entries = json.loads(out)
+    assert [entry["active"] for entry in entries] == [False] * (len(entries) - 1) + [True], "the last one is active"
+    times = [entry["time"] for entry in entries]
+    assert times == sorted(times) and all(len(text) == 24 and text.endswith("Z") for text in times), times
+    return [(entry["version"], entry["kind"], entry["of_version"]) for entry in entries]
+
+
+def rolled_back(profile, *more):
     start = time.monotonic()
-    _, out, _ = cli("rollback", "--profile", profile, "--yes", "--json")
+    _, out, _ = cli("rollback", "--profile", profile, "--yes", "--json", *more)
     whole_s = time.monotonic() - start
     record = json.loads(out)
     assert record["state"] == "done", record["state"]
@@ -60,6 +69,14 @@ def test(folder):
             assert seconds < 5.0, f"{seconds:.2f} s"
         code, _, _ = cli("rollback", "--profile", machine.profile, "--yes", check=False)
         assert code == 1, "nothing is left to go back to"
+        chain = [(0, "found", None), (1, "upload", None), (2, "upload", None), (3, "rollback", 1), (4, "rollback", 0)]
+        assert listed(machine.profile) == chain, listed(machine.profile)
+        # Any version at once, forward as well as back.
+        seconds, record, _ = rolled_back(machine.profile, "--to", "2")
+        assert words(machine.profile, folder) == second and record["rolled_back_to"] == 2 and seconds < 5.0
+        assert listed(machine.profile) == chain + [(5, "rollback", 2)]
+        code, _, err = cli("rollback", "--profile", machine.profile, "--to", "77", "--yes", check=False)
+        assert code == 1 and "77" in err, err
         # A table that came from elsewhere in between: the history of this computer does not fit it.
         cli("push", "--profile", machine.profile, "--table", small, "--yes")
         own = os.environ["ZERODRIFT_STATE_DIR"]
@@ -73,6 +90,9 @@ def test(folder):
         code, _, err = cli("rollback", "--profile", machine.profile, "--yes", check=False)
         assert code == 1 and "not written from here" in err, err
         assert words(machine.profile, folder) == second
+        rolled_back(machine.profile, "--to", "1")  # chosen by a person: done, and the stranger's is kept as well
+        assert words(machine.profile, folder) == first
+        assert [kind for _, kind, _ in listed(machine.profile)[-3:]] == ["upload", "found", "rollback"]
 
 
 if __name__ == "__main__":

@@ -30,11 +30,11 @@ UploadPage::UploadPage(QWidget* parent) : Page("upload", parent) {
   content()->addLayout(row, 1);
   connect(m_axis, &ToggleSegment::currentChanged, this, [this] { renderAxis(); });
   connect(m_side, &ToggleSegment::currentChanged, m_sides, &QStackedWidget::setCurrentIndex);
-  connect(m_history, &DataTable::rowSelected, this, [this] { renderHistory(); });
-  connect(m_rollback, &QPushButton::clicked, this, [this] {
-    const int chosen = m_history->currentRow();
-    if (chosen >= 0 && chosen < m_state.history.size()) Q_EMIT rollbackRequested(m_state.history[chosen].version);
+  connect(m_history, &DataTable::rowSelected, this, [this](int index) {
+    m_chosen = m_state.history.value(index).id;
+    renderRollback();
   });
+  connect(m_rollback, &QPushButton::clicked, this, [this] { Q_EMIT rollbackRequested(m_chosen); });
   refresh();
 }
 
@@ -76,7 +76,10 @@ Card* UploadPage::makeWriting() {
   m_rollback = new QPushButton(lineIcon(Icon::undo), {}, historyPanel);
   m_rollback->setObjectName("rollback");
   historyLayout->addWidget(m_history, 1);
+  m_rollbackHint = new WrapLabel(historyPanel);
+  m_rollbackHint->setProperty("role", "caption");
   historyLayout->addWidget(m_rollback, 0, Qt::AlignLeft);
+  historyLayout->addWidget(m_rollbackHint);
   m_sides = new QStackedWidget(m_writeCard);
   m_sides->addWidget(stagePanel);
   m_sides->addWidget(historyPanel);
@@ -182,7 +185,7 @@ void UploadPage::render() {
                                      : tr("Lost: %1.").arg(m_state.lost.join("; ")));
   m_loss->setText(loss.join(' '));
   m_writeCard->setTitle(tr("Transaction"));
-  m_side->setItems({tr("Write"), tr("History")});
+  m_side->setItems({tr("Write"), tr("History, roll back")});
   m_signCard->setTitle(tr("Sign check"));
   m_sign->setResult(m_state.sign);
   renderAxis();
@@ -256,31 +259,55 @@ void UploadPage::renderTransaction() {
                                                             : tr("ramp %1 %").arg(m_state.ramp_percent, 0, 'f', 0));
 }
 
+int UploadPage::proposedRow() const {
+  for (int row = 0; row < m_state.history.size(); ++row) {
+    if (m_state.history[row].proposed) return row;
+  }
+  return -1;
+}
+
 void UploadPage::renderHistory() {
   m_history->setColumns({{tr("Version"), 58, true, {}},
-                         {tr("Written"), 96, false, {}},
-                         {tr("By"), 64, false, {}},
-                         {tr("What"), 0, false, {}}});
+                         {tr("Written"), 92, false, {}},
+                         {tr("By"), 62, false, {}},
+                         {tr("How"), 0, false, {}}});
   QVector<QVector<DataCell>> rows;
+  int chosen = -1;
+  const QString unknown = QStringLiteral("–");
   for (const TableVersion& version : m_state.history) {
+    if (version.id == m_chosen && !version.active) chosen = static_cast<int>(rows.size());
     DataCell number{QString::number(version.version)};
     number.strong = version.active;
-    DataCell what{version.what};
-    what.judged = version.active;
-    what.judgement = version.active ? Judgement::ok : Judgement::none;
-    what.tip = version.active ? tr("active: %1").arg(version.what) : version.what;
-    DataCell who{version.who};
+    DataCell how{version.active ? tr("active: %1").arg(version.how) : version.how};
+    how.judged = version.active;
+    how.judgement = version.active ? Judgement::ok : Judgement::none;
+    how.tip = QStringList{version.how, version.what, version.note}.join(QLatin1Char('\n')).trimmed();
+    DataCell who{version.who.isEmpty() ? unknown : version.who};
     who.tip = version.who;
-    const QString unknown = QStringLiteral("–");
-    if (who.text.isEmpty()) who.text = unknown;
-    rows.append({number, DataCell{version.when.isEmpty() ? unknown : version.when}, who, what});
+    rows.append({number, DataCell{version.when.isEmpty() ? unknown : version.when}, who, how});
   }
+  const QSignalBlocker quiet(m_history);
   m_history->setRows(rows);
+  if (chosen < 0) chosen = proposedRow();
+  m_chosen = m_state.history.value(chosen).id;
+  m_history->selectRow(chosen);
+  renderRollback();
+}
+
+void UploadPage::renderRollback() {
   const int row = m_history->currentRow();
-  const bool some = row >= 0 && row < m_state.history.size() && m_state.history[row].restorable && !m_state.writing;
-  m_rollback->setText(some ? tr("Roll back to version %1").arg(m_state.history[row].version) : tr("Roll back"));
-  m_rollback->setEnabled(some);
-  m_rollback->setToolTip(some ? QString() : tr("Select an earlier version"));
+  const TableVersion chosen = m_state.history.value(row);
+  QString why = m_state.writing ? tr("The table is being written.") : m_state.rollbackBlocked;
+  if (why.isEmpty() && m_state.history.isEmpty()) why = tr("Nothing was written into this machine yet.");
+  if (why.isEmpty() && chosen.id.isEmpty()) why = tr("Select the version to go back to.");
+  if (why.isEmpty()) why = chosen.blocked;
+  m_rollback->setText(chosen.id.isEmpty() ? tr("Roll back") : tr("Roll back to version %1").arg(chosen.version));
+  m_rollback->setEnabled(why.isEmpty());
+  const QString deed = tr("Writes version %1 (%2) again, as a new version. The difference is shown and you are asked.")
+                           .arg(chosen.version)
+                           .arg(chosen.what);
+  m_rollback->setToolTip(why.isEmpty() ? deed : why);
+  m_rollbackHint->setText(why.isEmpty() ? deed : why);
 }
 
 }  // namespace zerodrift::ui

@@ -41,13 +41,18 @@ struct AxisTable {
   double limit_um = 200.0;
 };
 
+/// One table that was active in the machine at some time.
 struct TableVersion {
+  QString id{};
   int version = 0;
   QString when{};
   QString who{};
-  QString what{};
+  QString how{};   // "upload", "rollback to 2"
+  QString what{};  // "X Y Z, 48 registers"
+  QString note{};  // more to know about it
   bool active = false;
-  bool restorable = false;
+  bool proposed = false;  // what one goes back to when nothing else is chosen
+  QString blocked{};      // why it cannot be brought back; empty: it can
 };
 
 struct UploadState {
@@ -68,7 +73,8 @@ struct UploadState {
   QVector<Stage> stages{};
   QString stagesNote{};  // "dry run 10:32"
   SignCheckResult sign{};
-  QVector<TableVersion> history{};
+  QVector<TableVersion> history{};  // newest first
+  QString rollbackBlocked{};        // why nothing can be brought back now
   bool compensationOn = false;
   bool writing = false;
   bool written = false;
@@ -89,7 +95,7 @@ class UploadPage : public Page {
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
-  void rollbackRequested(int version);
+  void rollbackRequested(const QString& id);
 
  protected:
   void render() override;
@@ -101,6 +107,8 @@ class UploadPage : public Page {
   void renderAxis();
   void renderTransaction();
   void renderHistory();
+  void renderRollback();
+  int proposedRow() const;
   QVector<Figure> figures() const;
 
   UploadState m_state;
@@ -117,6 +125,8 @@ class UploadPage : public Page {
   StepList* m_stages;
   DataTable* m_history;
   QPushButton* m_rollback;
+  QLabel* m_rollbackHint;
+  QString m_chosen{};  // id in the history
   SignCheck* m_sign;
 };
 

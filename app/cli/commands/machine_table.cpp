@@ -7,12 +7,14 @@
 #include <iostream>
 
 #include "app/cli/access.h"
+#include "core/base/time_text.h"
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
 
 namespace zerodrift::cli {
 namespace machine_table_command {
 
+using controller::TableOrigin;
 using controller::UploadOptions;
 using controller::UploadRecord;
 
@@ -22,6 +24,8 @@ struct Options {
   std::string profile;
   std::string table;
   std::string out;
+  std::optional<int> to;
+  bool list = false;
   bool dry_run = false;
   bool yes = false;
 };
@@ -97,7 +101,7 @@ Result<CommandOutput> push(const Options& options, const TaskContext& context) {
   ZD_TRY(const auto permit, permit_for(options, *options.push_pin, "Writing the table into the controller"));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
   const auto record = confirmed("Writing the table into the controller", options, {}, [&](const UploadOptions& how) {
-    return controller::push_table(*machine, table, how, context);
+    return controller::push_table(*machine, table, controller::TableOrigin::upload, how, context);
   });
   if (!record) return fail(record.error());
   return output_of(*record, std::move(warnings));
@@ -125,16 +129,63 @@ Result<CommandOutput> read_back(const Options& options, const TaskContext&) {
   return output;
 }
 
+/// One line of the log: "* 3  2026-11-21T13:00:12.250Z  ann  rollback to version 1, 48 registers".
+std::string line_of(const controller::TableEntry& entry, const controller::TableLog& log, bool active) {
+  std::string how(name_of(entry.origin));
+  const controller::TableEntry* of = entry.of.empty() ? nullptr : log.find(entry.of);
+  if (of != nullptr)
+    how += fmt::format(" {} version {}", entry.origin == TableOrigin::rollback ? "to" : "of", of->version);
+  if (entry.words) how += fmt::format(", {} registers", entry.words->size());
+  if (!entry.words) how += ", only its check sum is known";
+  return fmt::format("{} {:>5}  {:24}  {:12}  {}", active ? '*' : ' ', entry.version,
+                     entry.time.empty() ? "-" : entry.time, entry.who.empty() ? "-" : entry.who, how);
+}
+
+/// Everything that was ever active, the active one last and marked; nothing is written.
+Result<CommandOutput> list_tables(controller::ModbusMachine& machine, std::vector<std::string> warnings) {
+  ZD_TRY(const auto identity, machine.identify());
+  ZD_TRY(const auto before, controller::TableHistory().read(identity.serial));
+  ZD_TRY(const auto active, controller::read_active(machine));
+  const controller::TableLog log = with_active(before, active, to_text(SystemClock().utc()));
+  CommandOutput output;
+  output.warnings = std::move(warnings);
+  if (log.damaged_lines > 0) {
+    output.warnings.push_back(fmt::format("{} damaged lines of the history were left out", log.damaged_lines));
+  }
+  output.json = nlohmann::json::array();
+  for (const auto& entry : log.entries) {
+    const bool last = &entry == &log.entries.back();
+    const auto* of = log.find(entry.of);
+    output.json.push_back({{"version", entry.version},
+                           {"time", entry.time},
+                           {"who", entry.who},
+                           {"kind", name_of(entry.origin)},
+                           {"of_version", of == nullptr ? nlohmann::json() : nlohmann::json(of->version)},
+                           {"registers", entry.words ? nlohmann::json(entry.words->size()) : nlohmann::json()},
+                           {"crc32", fmt::format("{:08x}", entry.crc)},
+                           {"note", entry.note},
+                           {"active", last}});
+    output.text += (output.text.empty() ? "" : "\n") + line_of(entry, log, last);
+  }
+  return output;
+}
+
 Result<CommandOutput> rollback(const Options& options, const TaskContext& context) {
   std::vector<std::string> warnings;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &warnings));
-  ZD_TRY(const auto permit, permit_for(options, *options.rollback_pin, "Going back to the former table"));
-  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
-  ZD_TRY(const auto former, controller::former_table(*machine));
+  const auto permit = options.list ? access::Permit::read_only()
+                                   : permit_for(options, *options.rollback_pin, "Going back to a former table");
+  if (!permit) return fail(permit.error());
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, *permit));
+  if (options.list) return list_tables(*machine, std::move(warnings));
+  ZD_TRY(const auto target, controller::rollback_target(*machine, {options.to, ""}));
+  const std::string since = target.table.time.empty() ? "" : fmt::format(" of {}", target.table.time);
   ZD_TRY(const UploadRecord record,
-         confirmed(fmt::format("Going back to the table of {}", former.time), options, {},
-                   [&](const UploadOptions& how) { return controller::roll_back(*machine, former, how, context); }));
-  return output_of(record, std::move(warnings));
+         confirmed(fmt::format("Going back to version {}{}", target.table.version, since), options, {},
+                   [&](const UploadOptions& how) { return controller::roll_back(*machine, target, how, context); }));
+  CommandOutput output = output_of(record, std::move(warnings));
+  output.json["rolled_back_to"] = target.table.version;
+  return output;
 }
 
 }  // namespace machine_table_command
@@ -158,10 +209,12 @@ void add_machine_table(Cli& cli) {
   with_profile(command);
   command->add_option("--out", options->out, "Table file to write")->required();
 
-  command = cli.add("rollback", "Bring the table before the last push back",
+  command = cli.add("rollback", "Bring a former table back: the one before the active one, or the one chosen",
                     [options](const TaskContext& context) { return rollback(*options, context); });
   with_profile(command);
   options->rollback_pin = add_pin_option(*command);
+  command->add_option("--to", options->to, "Version to go back to")->check(CLI::Range(0, 65535));
+  command->add_flag("--list", options->list, "List everything that was ever active, with versions; write nothing");
   command->add_flag("--dry-run", options->dry_run, "Check and compare only; write nothing");
   command->add_flag("--yes", options->yes, "Do not ask");
 }

@@ -6,7 +6,6 @@
 #include "app/desktop/steps/upload_presenter.h"
 #include "app/desktop/upload_view.h"
 #include "app/text/core_text.h"
-#include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
 #include "core/flow/flow.h"
 #include "core/flow/steps/fit_step.h"
@@ -75,10 +74,10 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
-  state.written = isWritten() && !m_correction;  // a correction is another table, not written yet
+  state.written = isWritten() && !m_correction && !m_goingBack;  // another table, not written yet
   const json record = body.value("record", json::object());
   if (!m_sign) state.sign = sign_of(body.value("sign_check", json()));
-  if (m_preview && (!state.written || m_correction)) return;
+  if (showsPreview(state.written)) return;
   state.stagesNote.clear();
   if (const int version = body.value("version", 0); version > 0) state.newVersion = version;
   state.oldVersion = record.value("old_sequence", 0);
@@ -91,21 +90,16 @@ void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body)
 void UploadPresenter::fillHistory(ui::UploadState& state) const {
   auto& workbench = const_cast<UploadPresenter*>(this)->bench();
   const auto profile = flow::profile_of(*workbench.job(), "upload");
-  const json machine = workbench.body("machine");
-  if (!profile || !machine.is_object()) return;
-  const auto serial = machine.at("identity").value("serial", 0U);
-  const auto former = controller::TableHistory().read(serial);
-  controller::ActiveTable active;
+  if (!profile) return;
+  std::optional<controller::ActiveTable> active;
   if (m_preview) {
-    active.words = m_preview->record.old_words;
-    active.sequence = m_preview->record.old_sequence;
+    active = controller::ActiveTable{m_preview->record.old_words, m_preview->record.old_sequence, 0};
   } else if (const json body = workbench.body("upload"); body.is_object()) {
-    active.words = body.at("record").value("new_words", std::vector<std::uint16_t>{});
-    active.sequence = body.value("version", 0);
-  } else {
-    return;
+    active = controller::ActiveTable{body.at("record").value("new_words", std::vector<std::uint16_t>{}),
+                                     body.value("version", 0), 0};
   }
-  state.history = history_of(former.value_or(std::vector<controller::FormerTable>{}), active, *profile);
+  state.history = history_of(m_log, active, *profile);
+  if (!workbench.connected()) state.rollbackBlocked = tr("No machine is connected: connect it on the Machine page.");
 }
 
 void UploadPresenter::refresh() {
@@ -140,7 +134,7 @@ void UploadPresenter::refresh() {
     const auto run = warmup ? flow::run_of(*job, *warmup).value_or(recording::Recording{}) : recording::Recording{};
     compensation::Table old_table;
     compensation::Table table;
-    if (m_preview && (!state.written || m_correction)) {
+    if (showsPreview(state.written)) {
       old_table = m_preview->record.old_table;
       table = m_preview->table;
     } else if (state.written) {

@@ -56,6 +56,7 @@ long long UploadPresenter::latestModel(const commissioning::Job& job) {
 }
 
 void UploadPresenter::enter() {
+  readLog();
   refresh();
   // Reading the old table writes nothing: the comparison is there when the page opens.
   if (bench().has("model") && bench().connected() && !m_preview && !bench().tasks().running()) preview({});
@@ -102,11 +103,10 @@ void UploadPresenter::tellForeign() {
   const auto& now = m_preview->record.old_words;
   if (own == now || (own.size() <= 2 && now.size() <= 2)) return;
   tell([version = m_preview->record.old_sequence] {
-    return ui::Problem{
-        ui::ProblemKind::warning,
-        tr("The machine holds version %1, which is not the table of this job.").arg(version),
-        tr("It was written from elsewhere. Compare before you write; it cannot be rolled back from here."),
-        {}};
+    return ui::Problem{ui::ProblemKind::warning,
+                       tr("The machine holds version %1, which is not the table of this job.").arg(version),
+                       tr("It was written from elsewhere. Compare before you write; it is kept in the history then."),
+                       {}};
   });
 }
 
@@ -248,6 +248,7 @@ void UploadPresenter::write(Done done) {
         m_failed = !good;
         m_preview.reset();
         m_correction.reset();
+        readLog();
         refresh();
         if (done) done(good);
       });
@@ -263,13 +264,50 @@ void UploadPresenter::writeCorrection(const compensation::Table& table, Done don
   });
 }
 
-void UploadPresenter::rollBack(int version) {
+void UploadPresenter::rollBack(const QString& id) {
+  const auto profile = bench().profile();
+  const auto* job = bench().job();
+  if (!profile || job == nullptr || m_writing) return;
+  runTask<RollbackPreview>(
+      tr("Reading the table in the machine"),
+      [profile = *profile, id = id.toStdString()](const TaskContext& context) {
+        return preview_roll_back(profile, id, context);
+      },
+      [this, model = latestModel(*job)](Result<RollbackPreview> seen) {
+        if (!seen) return;
+        m_preview = std::move(seen->difference);
+        m_previewOf = model;
+        m_goingBack = std::move(seen->target);
+        refresh();  // the difference stands on the page while it is asked
+        askAndRollBack();
+      });
+}
+
+void UploadPresenter::askAndRollBack() {
   const auto profile = bench().profile();
   auto* job = bench().job();
-  if (!profile || job == nullptr || m_writing) return;
-  if (!confirmed(tr("Go back to version %1 in %2?").arg(version).arg(QString::fromStdString(profile->name)),
-                 tr("The table that was active before is written again, under a new version number."), tr("Go back"))) {
-    return;
+  const int version = m_goingBack->table.version;
+  const auto& record = m_preview->record;
+  const QString change = m_preview->largest_change_axis.empty()
+                             ? tr("Nothing changes at the temperatures of this moment.")
+                             : tr("The largest change now is %1 µm in %2.")
+                                   .arg(m_preview->largest_change_um, 0, 'f', 1)
+                                   .arg(QString::fromStdString(m_preview->largest_change_axis));
+  const bool agreed = confirmed(
+      tr("Go back to version %1 in %2?")
+          .arg(version)
+          .arg(tr("%1 (serial %2)").arg(QString::fromStdString(record.machine)).arg(record.serial)),
+      tr("The table of version %1 is written again, as version %2, in place of version %3. %4 The switch is left as it "
+         "is; nothing is taken out of the history.")
+          .arg(version)
+          .arg(record.sequence)
+          .arg(record.old_sequence)
+          .arg(change),
+      tr("Go back"));
+  if (!agreed || !profile || job == nullptr) {
+    m_goingBack.reset();
+    m_preview.reset();
+    return enter();
   }
   const auto permit = permit_for(bench(), m_page, tr("Going back to version %1").arg(version));
   if (!permit) return;
@@ -277,17 +315,36 @@ void UploadPresenter::rollBack(int version) {
   m_failed = false;
   m_steps.clear();
   m_dryRunAt = {};
+  refresh();
   runStep(
       tr("Going back to version %1").arg(version),
-      [profile = *profile, job, permit = *permit, watch = observer()](const TaskContext& context) {
-        return roll_back(*job, profile, permit, watch, context);
-      },
+      [profile = *profile, job, permit = *permit, target = *m_goingBack, watch = observer()](
+          const TaskContext& context) { return roll_back(*job, profile, permit, target, watch, context); },
       [this](bool good) {
         m_writing = false;
         m_failed = !good;
         m_preview.reset();
+        m_goingBack.reset();
+        readLog();
         refresh();
       });
+}
+
+/// The log of the machine's tables as it is on this computer, with what the job knows beside it.
+void UploadPresenter::readLog() {
+  const auto* job = bench().job();
+  const json machine = bench().body("machine");
+  m_log = {};
+  if (job == nullptr || !machine.is_object()) return;
+  const auto serial = machine.at("identity").value("serial", 0U);
+  const controller::TableHistory history;
+  Status good = history.adopt(serial, flow::tables_of(*job, serial));
+  if (auto log = history.read(serial)) {
+    m_log = std::move(*log);
+  } else {
+    good = fail(log.error());
+  }
+  if (!good) show(good.error());
 }
 
 void UploadPresenter::checkSign() {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/desktop/presenter.h"
+#include "core/controller/rollback.h"
 #include "core/flow/steps/upload_step.h"
 
 namespace zerodrift::ui {
@@ -37,7 +38,11 @@ class UploadPresenter : public Presenter {
   void askAndWrite(Done done);
   bool confirmed(const QString& heading, const QString& text, const QString& deed) const;
   void write(Done done);
-  void rollBack(int version);
+  void rollBack(const QString& id);
+  void askAndRollBack();
+  /// The page shows what would be written, not what was.
+  bool showsPreview(bool written) const { return m_preview && (!written || m_correction || m_goingBack); }
+  void readLog();
   void checkSign();
   void dryRun();
   void tellForeign();
@@ -59,6 +64,8 @@ class UploadPresenter : public Presenter {
   ui::UploadPage* m_page;
   std::optional<flow::UploadPreview> m_preview;
   std::optional<compensation::Table> m_correction;
+  std::optional<controller::RollbackTarget> m_goingBack;  // looked at, or being written
+  controller::TableLog m_log;
   std::optional<controller::SignCheckRecord> m_sign;
   QDateTime m_signAt;     // when it was checked in this session
   QString m_signMachine;  // and on which

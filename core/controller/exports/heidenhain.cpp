@@ -1,5 +1,7 @@
 // Heidenhain TNC 640: a .COM file for each axis, assigned in a line of a .CMA file of which one is active. Rows
 // "NR AXISPOS BACKLASH X Y Z" in mm with four decimals, at most 256; +error is written, as the exporter known does.
+// BACKLASH is written 0 and read as nothing else: no source at hand says which direction it belongs to, or whether the
+// control takes all of it or half on each side. What the directions differ by is told as a loss.
 
 #include <fmt/format.h>
 
@@ -32,6 +34,7 @@ Result<Table> read_heidenhain(std::string_view text, const ExportOptions&) {
                     &value[1], &value[2]) != 6) {
       return unreadable("heidenhain", lines[i], "NR AXISPOS BACKLASH X Y Z");
     }
+    if (backlash != 0.0) return unreadable("heidenhain", lines[i], "BACKLASH 0: its sign and share are not published");
     x.push_back(position);
     um.push_back(1000.0 * value.at(static_cast<std::size_t>(column)));
   }
@@ -62,7 +65,9 @@ Result<Exported> write_heidenhain(const Table& table, const ExportOptions& optio
         fmt::format("axis {}: {} points are resampled to {}", name, axis.points.size(), curve.x_mm.size()));
   }
   out.losses.push_back(fmt::format("axis {}: values and positions are rounded to 0.0001 mm", name));
-  tell_directions(curve, name, "the BACKLASH column or the machine parameter", out);
+  tell_directions(curve, name,
+                  "the control's backlash parameter (BACKLASH is written 0: its sign and share are not published)",
+                  out);
   tell_temperature(axis, name, state, out);
   out.confirm.emplace_back("the sign (+error), and the form of the .CMA file on this control");
   ZD_CHECK(measure_loss(self, table, options, {name}, out));

@@ -37,24 +37,13 @@ std::map<std::string, std::pair<std::string, std::string>> entries_of(const comp
   return entries;
 }
 
-json body_of(const UploadPreview& preview, const controller::UploadRecord& record, const json& signs) {
-  json states = json::array();
-  for (const auto& step : record.steps) {
-    const auto since = std::chrono::duration<double>(step.time - record.started).count();
-    states.push_back({{"state", controller::name_of(step.state)}, {"at_s", since}, {"detail", step.detail}});
-  }
+json body_of(const UploadPreview& preview, const controller::UploadRecord& record, controller::TableOrigin origin,
+             const json& signs) {
   compensation::Table table = preview.table;
   table.version = record.sequence;
-  return {{"table", compensation::to_json(table)},
-          {"version", record.sequence},
-          {"crc32", fmt::format("{:08x}", record.crc)},
-          {"registers", record.new_words.size()},
-          {"largest_change_um", preview.largest_change_um},
-          {"difference", table_difference(record.old_table, preview.table)},
-          {"states", states},
-          {"sign_check", signs},
-          {"record", controller::to_json(record)},
-          {"problems", record.warnings}};
+  json body = upload_body(record, table, origin);
+  body["sign_check"] = signs;
+  return body;
 }
 
 Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
@@ -94,6 +83,14 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
 
 }  // namespace
 
+void UploadPreview::note_largest() {
+  for (const auto& axis : record.difference) {
+    if (axis.largest_um < largest_change_um) continue;
+    largest_change_um = axis.largest_um;
+    largest_change_axis = axis.axis;
+  }
+}
+
 json table_difference(const compensation::Table& old_table, const compensation::Table& new_table) {
   json difference = json::array();
   for (const auto& [what, values] : entries_of(old_table, new_table)) {
@@ -102,6 +99,54 @@ json table_difference(const compensation::Table& old_table, const compensation::
                           {"new", values.second.empty() ? "-" : values.second}});
   }
   return difference;
+}
+
+json upload_body(const controller::UploadRecord& record, const compensation::Table& table,
+                 controller::TableOrigin origin) {
+  json states = json::array();
+  for (const auto& step : record.steps) {
+    const auto since = std::chrono::duration<double>(step.time - record.started).count();
+    states.push_back({{"state", controller::name_of(step.state)}, {"at_s", since}, {"detail", step.detail}});
+  }
+  double largest_um = 0.0;
+  for (const auto& axis : record.difference) largest_um = std::max(largest_um, axis.largest_um);
+  return {{"table", compensation::to_json(table)},
+          {"kind", controller::name_of(origin)},
+          {"version", record.sequence},
+          {"crc32", fmt::format("{:08x}", record.crc)},
+          {"registers", record.new_words.size()},
+          {"largest_change_um", largest_um},
+          {"difference", table_difference(record.old_table, table)},
+          {"states", states},
+          {"sign_check", nullptr},
+          {"record", controller::to_json(record)},
+          {"problems", record.warnings}};
+}
+
+std::vector<controller::TableEntry> tables_of(const commissioning::Job& job, std::uint32_t serial) {
+  std::vector<controller::TableEntry> entries;
+  const auto made = job.history("upload");
+  if (!made) return entries;
+  for (const auto& artefact : *made) {
+    const auto body = artefact.document();
+    if (!body || !body->contains("record")) continue;
+    const json& record = body->at("record");
+    if (record.value("serial", 0U) != serial || record.contains("error")) continue;
+    controller::TableEntry entry;
+    entry.id = fmt::format("job-{}-{}", record.value("started", ""), record.value("sequence", 0));
+    entry.time = artefact.created_utc;
+    entry.who = artefact.engineer;
+    // Jobs made before the kind was kept say only when a table was brought back.
+    const std::string kind = body->value("kind", body->value("rolled_back", false) ? "rollback" : "upload");
+    entry.origin = kind == "rollback"     ? controller::TableOrigin::rollback
+                   : kind == "correction" ? controller::TableOrigin::correction
+                                          : controller::TableOrigin::upload;
+    entry.version = record.value("sequence", 0);
+    entry.words = record.value("new_words", std::vector<std::uint16_t>{});
+    entry.crc = controller::crc_of_words(*entry.words);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
 }
 
 Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
@@ -125,11 +170,7 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
   options.dry_run = true;
   preview.record = controller::upload_table(*devices.machine, preview.table, options, context);
   if (!preview.record.result) return fail(preview.record.result.error());
-  for (const auto& axis : preview.record.difference) {
-    if (axis.largest_um < preview.largest_change_um) continue;
-    preview.largest_change_um = axis.largest_um;
-    preview.largest_change_axis = axis.axis;
-  }
+  preview.note_largest();
   return preview;
 }
 
@@ -141,6 +182,7 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   if (options.confirm && !options.confirm(preview)) {
     return fail(ErrorCode::not_confirmed, {{"operation", "Writing the table"}});
   }
+  const auto origin = options.table ? controller::TableOrigin::correction : controller::TableOrigin::upload;
   json signs;
   ZD_CHECK(sign_check(job, devices, options, preview, context, signs));
   controller::UploadRecord record;
@@ -155,13 +197,13 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   entry.new_value = compensation::to_json(preview.table).dump();
   context.progress(0.4, "uploading");
   ZD_CHECK(audited(job, entry, [&]() -> Status {
-    record = controller::push_table(*devices.machine, preview.table, upload_options, context);
+    record = controller::push_table(*devices.machine, preview.table, origin, upload_options, context);
     return record.result;
   }));
   std::vector<commissioning::ArtefactId> inputs = {machine.id, model.id};
   ZD_TRY(const auto axes, job.latest("axis_table"));
   if (axes) inputs.push_back(axes->id);
-  return commissioning::NewArtefact::of("upload", body_of(preview, record, signs), inputs);
+  return commissioning::NewArtefact::of("upload", body_of(preview, record, origin, signs), inputs);
 }
 
 }  // namespace zerodrift::flow

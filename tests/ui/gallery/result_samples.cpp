@@ -60,9 +60,26 @@ void fillUpload(Page* page, const QString& scene) {
   s.sign.note = "checked 10:32";
   s.sign.word = "Same direction and size";
   s.sign.judgement = Judgement::ok;
-  s.history = {{3, "14 Nov 2026 16:02", "A. Keller", "after spindle exchange", true, false},
-               {2, "02 Jun 2026 10:41", "A. Keller", "first commissioning", false, true},
-               {1, "02 Jun 2026 09:55", "A. Keller", "empty table", false, true}};
+  const auto entry = [&](int version, const char* when, const char* how, const char* what) {
+    TableVersion one;
+    one.id = QString::number(version);
+    one.version = version;
+    one.when = when;
+    one.who = "akeller";
+    one.how = how;
+    one.what = what;
+    return one;
+  };
+  s.history = {entry(5, "14 Nov 16:02", "rollback to 3", "X Y Z, 74 registers"),
+               entry(4, "14 Nov 15:40", "correction", "X Y Z, 74 registers"),
+               entry(3, "14 Nov 14:55", "upload", "X Y Z, 74 registers"),
+               entry(2, "2 Jun 10:41", "restored after a failed upload", "X Z, 50 registers"),
+               entry(1, "2 Jun 09:55", "upload", "X Z, 50 registers"),
+               entry(0, "2 Jun 09:30", "empty at the start", "no compensation")};
+  s.history[0].active = true;
+  s.history[0].blocked = "Version 5 is active; choose a former one.";
+  s.history[2].blocked = "Version 3 is the same table as the active one.";
+  s.history[3].proposed = true;
   upload->setState(s);
 }
 
