@@ -14,6 +14,7 @@ constexpr double margin = 68.0;
 constexpr double foot_height = 28.0;
 constexpr double gap = 12.0;
 constexpr double card_padding = 14.0;  // left and right of a figure's text
+constexpr double cell_gap = 14.0;      // between the columns of a table
 constexpr double plot_height = 232.0;
 constexpr double half_height = 176.0;
 const QColor muted_ink(0x5F6E7C);
@@ -55,9 +56,16 @@ double text_height(const QString& text, const QFont& font, double width) {
   return std::ceil(bounds.height());
 }
 
-/// Numbers stand under one another at the right.
-bool is_number(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("+-.0123456789") == std::string::npos;
+/// Columns of numbers: they stand under one another at the right, their heading with them.
+std::vector<bool> number_columns(const report::Table& table) {
+  std::vector<bool> out(table.header.size(), !table.rows.empty());
+  if (!out.empty()) out.front() = false;  // names the row
+  for (const auto& row : table.rows) {
+    for (std::size_t c = 0; c < std::min(row.size(), out.size()); ++c) {
+      if (row[c].text.find_first_not_of("+-.0123456789") != std::string::npos) out[c] = false;
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -140,6 +148,7 @@ void Paper::operator()(const report::Figures& figures) {
 
 void Paper::operator()(const report::Table& table) {
   const auto widths = column_widths(table);
+  const auto numbers = number_columns(table);
   const std::vector<report::Cell> header(table.header.begin(), table.header.end());
   double first = text_height(paper_text(table.title), paper_font(12, QFont::DemiBold), m_width) + 4;
   first += row_height(header, widths);
@@ -147,13 +156,13 @@ void Paper::operator()(const report::Table& table) {
   if (table.rows.size() > 1) first += row_height(table.rows[1], widths);
   room_for(first);
   label(paper_text(table.title), margin, m_width);
-  table_row(header, widths, true);
+  table_row(header, widths, numbers, true);
   for (const auto& row : table.rows) {
     if (m_y + row_height(row, widths) > m_bottom) {
       new_page();
-      table_row(header, widths, true);
+      table_row(header, widths, numbers, true);
     }
-    table_row(row, widths, false);
+    table_row(row, widths, numbers, false);
   }
   m_y += gap;
 }
@@ -284,7 +293,7 @@ void Paper::figure_card(const QRectF& place, double label_height, double limit_h
 std::vector<double> Paper::column_widths(const report::Table& table) const {
   const QFontMetricsF metrics(paper_font(10));
   const QFontMetricsF bold(paper_font(10, QFont::DemiBold));
-  constexpr double padding = 14.0;
+  constexpr double padding = 20.0;
   std::vector<double> wanted;
   std::vector<double> least;  // the longest word: narrower would cut it
   for (const auto& cell : table.header) {
@@ -320,12 +329,13 @@ std::vector<double> Paper::column_widths(const report::Table& table) const {
 double Paper::row_height(const std::vector<report::Cell>& cells, const std::vector<double>& widths) const {
   double height = 14;
   for (std::size_t c = 0; c < std::min(cells.size(), widths.size()); ++c) {
-    height = std::max(height, text_height(paper_text(cells[c].text), paper_font(10), widths[c] - 8));
+    height = std::max(height, text_height(paper_text(cells[c].text), paper_font(10), widths[c] - cell_gap));
   }
   return height + 4;
 }
 
-void Paper::table_row(const std::vector<report::Cell>& cells, const std::vector<double>& widths, bool is_header) {
+void Paper::table_row(const std::vector<report::Cell>& cells, const std::vector<double>& widths,
+                      const std::vector<bool>& numbers, bool is_header) {
   const double height = row_height(cells, widths);
   double x = margin;
   for (std::size_t c = 0; c < std::min(cells.size(), widths.size()); ++c) {
@@ -333,9 +343,9 @@ void Paper::table_row(const std::vector<report::Cell>& cells, const std::vector<
     const QColor ink = is_header                               ? muted_ink
                        : cell.verdict == report::Verdict::none ? QColor(0x1C2530)
                                                                : verdict_ink(cell.verdict);
-    const bool right = !is_header && c > 0 && is_number(cell.text);
-    draw_text(QRectF(x, m_y + 2, widths[c] - (right ? 24 : 8), height), paper_text(cell.text),
-              paper_font(10, is_header ? QFont::DemiBold : QFont::Normal), ink);
+    const bool right = c < numbers.size() && numbers[c];
+    draw_text(QRectF(x, m_y + 2, widths[c] - cell_gap, height), paper_text(cell.text),
+              paper_font(10, is_header ? QFont::DemiBold : QFont::Normal), ink, right ? Qt::AlignRight : Qt::AlignLeft);
     x += widths[c];
   }
   m_y += height;

@@ -59,7 +59,8 @@ class Paper {
   void figure_card(const QRectF& place, double label_height, double limit_height, const report::Figure& figure);
   std::vector<double> column_widths(const report::Table& table) const;
   double row_height(const std::vector<report::Cell>& cells, const std::vector<double>& widths) const;
-  void table_row(const std::vector<report::Cell>& cells, const std::vector<double>& widths, bool is_header);
+  void table_row(const std::vector<report::Cell>& cells, const std::vector<double>& widths,
+                 const std::vector<bool>& numbers, bool is_header);
   void draw_text(const QRectF& place, const QString& text, const QFont& font, const QColor& colour = {0x1C, 0x25, 0x30},
                  Qt::Alignment alignment = Qt::AlignLeft);
   void fill(const QRectF& place, const QColor& colour);
