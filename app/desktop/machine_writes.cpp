@@ -35,6 +35,7 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   ZD_TRY(const auto machine_artefact, flow::need(job, "upload", "machine"));
   ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_CHECK(flow::same_machine(job, "upload", identity.serial));
   ZD_TRY(auto table, controller::decode_table(target.table.words.value_or(std::vector<std::uint16_t>{}), profile));
   commissioning::AuditEntry entry;
   entry.machine = flow::machine_text(identity.name, identity.serial);
@@ -59,6 +60,7 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
                                               access::Permit permit, const TaskContext& context) {
   ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_CHECK(flow::same_machine(job, "upload", identity.serial));
   if (!identity.accepts_host_offset) {
     return fail(ErrorCode::machine_unsupported,
                 {{"what", "the host offset"}, {"found", "none"}, {"expected", "one, for the test move"}});

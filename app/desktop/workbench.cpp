@@ -51,6 +51,14 @@ Status Workbench::useJob(Result<commissioning::Job> job) {
   if (!job) return fail(std::move(job).error());
   m_job = std::make_unique<commissioning::Job>(std::move(*job));
   log(LogKind::note, tr("Job %1").arg(QString::fromStdString(m_job->path().string())));
+  // A job of another machine takes neither the connection nor its profile over.
+  const auto tested = body("machine");
+  const auto serial = tested.is_object() ? tested.value("identity", nlohmann::json::object()).value("serial", 0U) : 0U;
+  if (connected() && serial != 0 && m_look && m_look->identity.serial != serial) {
+    log(LogKind::warning, tr("Disconnected: this job is of another machine (serial %1).").arg(serial));
+    disconnectMachine();
+    m_profile.reset();
+  }
   // A job brings its machine: the profile it was made with.
   if (const auto machine = body("machine"); machine.is_object() && machine.contains("profile") && !m_profile) {
     if (auto profile = controller::profile_from_job(machine["profile"])) {

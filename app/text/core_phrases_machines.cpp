@@ -326,7 +326,7 @@ constexpr std::array<const char*, 311> machines = {{
     QT_TRANSLATE_NOOP("core", "the zero of the warm-up run cannot be restored"),
     QT_TRANSLATE_NOOP("core", "the machine of this job"),
     QT_TRANSLATE_NOOP("core", "serial %1 connected"),
-    QT_TRANSLATE_NOOP("core", "serial %1, which the model was fitted on"),
+    QT_TRANSLATE_NOOP("core", "serial %1"),
     QT_TRANSLATE_NOOP("core", "a physics model, which predicts recordings"),
     QT_TRANSLATE_NOOP("core", "one that runs sample by sample"),
     QT_TRANSLATE_NOOP("core", "compensate from this computer"),

@@ -107,17 +107,6 @@ class Watch {
   std::jthread m_thread;  // last: ends before what it uses
 };
 
-Status same_machine(const commissioning::Job& job, const acquisition::MachineIdentity& connected) {
-  ZD_TRY(const Input machine, need(job, "compensator", "machine"));
-  const json known = machine.body.value("identity", json::object());
-  const auto serial = known.value("serial", connected.serial);
-  if (serial == connected.serial) return {};
-  return fail(ErrorCode::data_does_not_fit,
-              {{"what", "the machine of this job"},
-               {"found", fmt::format("serial {} connected", connected.serial)},
-               {"expected", fmt::format("serial {}, which the model was fitted on", serial)}});
-}
-
 Result<analysis::Model> running_model(const commissioning::Job& job) {
   ZD_TRY(const auto artefact, job.latest("model"));
   if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "compensator"}, {"needs", "model"}});
@@ -137,7 +126,7 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
   ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, options.permit));
   ZD_TRY(const auto identity, machine->identify());
-  ZD_CHECK(same_machine(job, identity));
+  ZD_CHECK(same_machine(job, "compensator", identity.serial));
   Watch watch(job, profile, options);
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;

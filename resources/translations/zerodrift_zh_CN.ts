@@ -3334,10 +3334,6 @@
         <translation>已连接序列号 %1</translation>
     </message>
     <message>
-        <source>serial %1, which the model was fitted on</source>
-        <translation>序列号 %1（模型在其上拟合）</translation>
-    </message>
-    <message>
         <source>a physics model, which predicts recordings</source>
         <translation>用于预测记录的物理模型</translation>
     </message>
@@ -3496,6 +3492,10 @@
     <message>
         <source>BACKLASH 0: its sign and share are not published</source>
         <translation>BACKLASH 为 0：其符号和所占份额未公开</translation>
+    </message>
+    <message>
+        <source>serial %1</source>
+        <translation>序列号 %1</translation>
     </message>
 </context>
 <context>
@@ -5186,6 +5186,10 @@
         <source>No machine is connected: connect it on the Machine page.</source>
         <translation>未连接机床：请在“机床”页面连接。</translation>
     </message>
+    <message>
+        <source>The model is out of date: %1 changed after it was fitted. </source>
+        <translation>模型已过期：拟合之后“%1”有更改。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::VerifyPresenter</name>
@@ -5262,6 +5266,10 @@
     <message>
         <source>A job keeps no password: load the connection profile for the cameras.</source>
         <translation>作业不保存密码：请为相机载入连接配置。</translation>
+    </message>
+    <message>
+        <source>Disconnected: this job is of another machine (serial %1).</source>
+        <translation>已断开连接：此作业属于另一台机床（序列号 %1）。</translation>
     </message>
 </context>
 <context>

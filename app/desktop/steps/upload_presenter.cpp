@@ -9,6 +9,7 @@
 #include "app/desktop/pin_dialog.h"
 #include "app/desktop/table_export.h"
 #include "app/desktop/upload_view.h"
+#include "app/text/error_text.h"
 #include "core/base/time_text.h"
 #include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
@@ -36,6 +37,7 @@ QString axes_text(const compensation::Table& table) {
 
 UploadPresenter::UploadPresenter(Workbench& bench, ui::UploadPage* page) : Presenter(bench, page), m_page(page) {
   connect(page, &ui::UploadPage::rollbackRequested, this, &UploadPresenter::rollBack);
+  connect(&bench, &Workbench::jobChanged, this, &UploadPresenter::forget);
   connect(page, &ui::Page::primaryTriggered, this, [this] {
     if (m_page->state().written) {
       Q_EMIT nextRequested();
@@ -48,6 +50,18 @@ UploadPresenter::UploadPresenter(Workbench& bench, ui::UploadPage* page) : Prese
     if (action == QStringLiteral("sign")) checkSign();
     if (action == QStringLiteral("export")) exportTable();
   });
+}
+
+/// What was looked at, checked and written belongs to the job it was done in.
+void UploadPresenter::forget() {
+  m_preview.reset();
+  m_correction.reset();
+  m_goingBack.reset();
+  m_sign.reset();
+  m_signAt = {};
+  m_dryRunAt = {};
+  m_steps.clear();
+  m_failed = false;
 }
 
 long long UploadPresenter::latestModel(const commissioning::Job& job) {
@@ -173,7 +187,12 @@ void UploadPresenter::askAndWrite(Done done) {
                           : signStands()
                               ? tr("The sign was checked at %1.").arg(m_signAt.toString(QStringLiteral("HH:mm")))
                               : tr("Before that each axis is moved by 10 µm and back, watched by the camera.");
+    const std::string& outdated = m_preview->model_outdated_by;
+    const QString old_model =
+        outdated.empty() ? QString()
+                         : tr("The model is out of date: %1 changed after it was fitted. ").arg(stepName(outdated));
     const QString text =
+        old_model +
         tr("Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation "
            "is off while it is written and on afterwards. %6")
             .arg(axes_text(m_preview->table))

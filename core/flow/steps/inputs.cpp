@@ -1,6 +1,10 @@
 #include "core/flow/steps/inputs.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "core/base/json.h"
 
 namespace zerodrift::flow {
 
@@ -18,6 +22,30 @@ Result<recording::Recording> run_of(const commissioning::Job& job, const Input& 
 Result<controller::Profile> profile_of(const commissioning::Job& job, const std::string& step) {
   ZD_TRY(const Input machine, need(job, step, "machine"));
   return controller::profile_from_job(machine.body.at("profile"));
+}
+
+Status same_machine(const commissioning::Job& job, const std::string& step, std::uint32_t connected_serial) {
+  ZD_TRY(const Input machine, need(job, step, "machine"));
+  std::vector<std::uint32_t> known;
+  const auto identity = machine.body.value("identity", nlohmann::json::object());
+  known.push_back(identity.value("serial", 0U));
+  ZD_TRY(const auto warmup, job.latest("warmup"));
+  if (warmup) {
+    ZD_TRY(const auto body, warmup->document());
+    ZD_TRY(const auto all, job.series());
+    for (const auto& series : all) {
+      if (series.id != body.value("series", commissioning::SeriesId{0})) continue;
+      ZD_TRY(const auto details, parse_json(series.details.empty() ? "{}" : series.details, "the warm-up run"));
+      known.push_back(details.value("machine_serial", 0U));  // 0: imported from a file
+    }
+  }
+  for (const std::uint32_t serial : known) {
+    if (serial == 0 || serial == connected_serial) continue;
+    return fail(ErrorCode::data_does_not_fit, {{"what", "the machine of this job"},
+                                               {"found", fmt::format("serial {} connected", connected_serial)},
+                                               {"expected", fmt::format("serial {}", serial)}});
+  }
+  return {};
 }
 
 std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {

@@ -23,6 +23,10 @@ Result<recording::Recording> run_of(const commissioning::Job& job, const Input& 
 /// The profile kept with the machine artefact.
 Result<controller::Profile> profile_of(const commissioning::Job& job, const std::string& step);
 
+/// Nothing of this job may be written into, or measured on, another machine than the one it was made on: neither the
+/// one that was tested last nor the one of its warm-up run. data_does_not_fit with both serial numbers.
+Status same_machine(const commissioning::Job& job, const std::string& step, std::uint32_t connected_serial);
+
 /// Largest |value| and rms of each error channel, by direction ("Z" for dZ_um); directions never measured are left out.
 struct ErrorSize {
   double peak_um = 0.0;

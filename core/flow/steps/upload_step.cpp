@@ -6,6 +6,7 @@
 #include "core/compensation/model_table.h"
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/audited.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
@@ -81,6 +82,16 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
   });
 }
 
+/// What was made anew since the model was fitted from it; empty when the model is of today.
+Result<std::string> outdated_by(const commissioning::Job& job) {
+  const Flow flow;
+  ZD_TRY(const auto steps, flow.status(job));
+  for (const auto& status : steps) {
+    if (status.step->id == "fit" && status.state == StepState::stale) return status.reason;
+  }
+  return std::string();
+}
+
 }  // namespace
 
 void UploadPreview::note_largest() {
@@ -151,7 +162,10 @@ std::vector<controller::TableEntry> tables_of(const commissioning::Job& job, std
 
 Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
                                      const std::optional<compensation::Table>& table, const TaskContext& context) {
+  ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_CHECK(same_machine(job, "upload", identity.serial));
   UploadPreview preview;
+  ZD_TRY(preview.model_outdated_by, outdated_by(job));
   if (table) {
     preview.table = *table;
   } else {

@@ -22,6 +22,7 @@ struct UploadPreview {
   controller::UploadRecord record;  // a dry run: old table, difference, warnings
   double largest_change_um = 0.0;
   std::string largest_change_axis;
+  std::string model_outdated_by;  // "sensors", "warmup": made anew since the model was fitted; empty otherwise
 
   /// The largest change and its axis, from the record's difference.
   void note_largest();
@@ -49,7 +50,7 @@ nlohmann::json upload_body(const controller::UploadRecord& record, const compens
 /// another computer, or be older than the log.
 std::vector<controller::TableEntry> tables_of(const commissioning::Job& job, std::uint32_t serial);
 
-/// What would be written, against what is there; writes nothing.
+/// What would be written, against what is there; writes nothing. data_does_not_fit when another machine is connected.
 Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
                                      const std::optional<compensation::Table>& table, const TaskContext& context);
 

@@ -128,6 +128,26 @@ std::optional<Table> brief(const Source& source) {
 
 }  // namespace
 
+namespace {
+
+/// What was proved is no longer what runs.
+std::optional<Text> changed_since(const Source& source, const LoadedArtefact& verification) {
+  const LoadedArtefact* upload = source.find("upload");
+  if (upload == nullptr || upload->id < verification.id) return std::nullopt;
+  const std::string version = text_of(upload->body, "version");
+  const bool none = object_of(object_of(upload->body, "table"), "axes").empty();
+  return Text{none
+                  ? source.tell("The machine runs without compensation now (version {}, an empty table): what was "
+                                "verified is not active.",
+                                version)
+                  : source.tell("The table was changed after the verification: version {}, which the machine runs now, "
+                                "has not been verified.",
+                                version),
+              true, none ? Verdict::bad : Verdict::doubtful};
+}
+
+}  // namespace
+
 std::optional<Section> summary_section(const Source& source) {
   Section section{"summary", source.say("Result"), {}};
   const LoadedArtefact* verification = source.find("verification");
@@ -144,6 +164,7 @@ std::optional<Section> summary_section(const Source& source) {
              : Text{source.say("A second run with the compensation on did not stay within the limit; see "
                                "Verification."),
                     true, Verdict::bad});
+  if (auto text = changed_since(source, *verification)) section.blocks.emplace_back(std::move(*text));
   if (auto text = count_of_doubts(source)) section.blocks.emplace_back(std::move(*text));
   const auto directions = directions_of(verification->body, "peak_error_after_um");
   Figures figures;
