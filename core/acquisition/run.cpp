@@ -92,6 +92,7 @@ Status Run::obey_controls() {
   if (!m_control.paused() && m_paused_since_s) {
     m_paused_s += time_now_s() - *m_paused_since_s;
     m_paused_since_s.reset();
+    m_trend.conditions_changed(time_now_s());  // it has cooled meanwhile
     event("resume", "", nlohmann::json{{"paused_s", m_paused_s}}.dump());
   }
   return {};

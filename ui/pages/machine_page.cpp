@@ -208,7 +208,8 @@ Figure MachinePage::restFigure() const {
   const bool steady = watched && std::abs(rest.change_K_h) <= rest.changeLimit_K_h;
   figure.judgement = even || steady ? Judgement::ok : Judgement::warn;
   figure.word = even ? tr("even") : steady ? tr("steady") : watched ? tr("still settling") : tr("uneven");
-  if (!even) figure.limit = tr("%1 %2 K").arg(rest.warmest, (rest.apart_K > 0 ? "+" : "") + fixedText(rest.apart_K, 1));
+  if (!even && !std::isnan(rest.apart_K))
+    figure.limit = tr("%1 %2 K").arg(rest.warmest, (rest.apart_K > 0 ? "+" : "") + fixedText(rest.apart_K, 1));
   if (watched && !steady) {
     figure.limit = tr("%1 %2 K/h").arg(rest.quickest, (rest.change_K_h > 0 ? "+" : "") + fixedText(rest.change_K_h, 1));
   }
