@@ -5,6 +5,7 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QSettings>
+#include <algorithm>
 
 #include "app/desktop/ask.h"
 #include "app/desktop/file_opener.h"
@@ -25,6 +26,8 @@ namespace {
 const QString english = QStringLiteral("en");
 const QString chinese = QStringLiteral("zh_CN");
 const QString language_key = QStringLiteral("language");
+constexpr int lamp_period_ms = 1000;
+constexpr int unseen_after_ms = 10000;  // without a word from the controller
 
 ui::Judgement judgement_of(LogKind kind) {
   switch (kind) {
@@ -99,6 +102,9 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::machineLost, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::accessChanged, this, &Application::updateLamps);
   new IdleLock(*m_bench, this);
+  connect(m_bench.get(), &Workbench::controllerTold, this, &Application::updateLamps);
+  connect(&m_lampTimer, &QTimer::timeout, this, &Application::updateLamps);
+  m_lampTimer.start(lamp_period_ms);
   connect(&m_bench->tasks(), &TaskRunner::started, this, [this] { updateLamps(); });
   connect(&m_bench->tasks(), &TaskRunner::finished, this, [this] {
     updateLamps();
@@ -132,6 +138,10 @@ void Application::wireSteps() {
             });
             openPage(upload->id());
           });
+  connect(verify, &VerifyPresenter::rollbackWanted, this, [this, upload](int version) {
+    openPage(upload->id());
+    upload->proposeRollback(version);
+  });
   connect(m_window.get(), &ui::MainWindow::lampClicked, this, [this](ui::LampId lamp) {
     if (lamp == ui::LampId::compensation) switchCompensation();
     if (lamp == ui::LampId::access) changeAccess();
@@ -140,7 +150,7 @@ void Application::wireSteps() {
 
 void Application::switchCompensation() {
   const auto profile = m_bench->profile();
-  if (!profile || !m_bench->connected() || m_bench->tasks().running()) return;
+  if (!profile || !m_bench->connected() || m_bench->lost() || m_bench->tasks().running()) return;
   const bool on = !m_bench->compensationOn();
   const QString machine = QString::fromStdString(profile->name);
   const QString heading = on ? tr("Switch the compensation ON?") : tr("Switch the compensation OFF?");
@@ -311,25 +321,13 @@ void Application::updateSteps() {
 }
 
 void Application::updateLamps() {
-  const auto& profile = m_bench->profile();
   const bool running = m_bench->tasks().running();
-  if (m_bench->connected() || (running && profile)) {
-    m_window->setLamp(ui::LampId::controller, tr("Controller connected"), ui::Judgement::ok);
-  } else {
-    m_window->setLamp(ui::LampId::controller, tr("Controller off"), ui::Judgement::none);
-  }
+  lightController();
   if (running) {
     m_window->setLamp(ui::LampId::recording, m_bench->tasks().name(), ui::Judgement::ok);
   } else {
     m_window->setLamp(ui::LampId::recording, tr("Nothing running"), ui::Judgement::none);
   }
-  const bool camera = profile && profile->error_source == controller::ErrorSourceKind::camera;
-  m_window->setLamp(
-      ui::LampId::camera,
-      !profile ? tr("Camera off")
-      : camera ? (profile->cameras.size() == 1 ? tr("1 camera") : tr("%1 cameras").arg(profile->cameras.size()))
-               : tr("Probes"),
-      profile ? ui::Judgement::ok : ui::Judgement::none);
   const auto& access = m_bench->access();
   const bool engineer = access.role() == access::Role::engineer;
   m_window->setLamp(ui::LampId::access,
@@ -337,9 +335,49 @@ void Application::updateLamps() {
                     : engineer        ? tr("Engineer")
                                       : tr("Locked"),
                     access.has_pin() && engineer ? ui::Judgement::ok : ui::Judgement::none);
+  lightCamera();
+  // A switch that cannot be read is neither on nor off.
+  const bool known = m_bench->connected() && !m_bench->lost();
   const bool on = m_bench->compensationOn();
-  m_window->setLamp(ui::LampId::compensation, on ? tr("Compensation ON") : tr("Compensation OFF"),
+  m_window->setLamp(ui::LampId::compensation,
+                    !known ? tr("Compensation unknown")
+                    : on   ? tr("Compensation ON")
+                           : tr("Compensation OFF"),
                     on ? ui::Judgement::warn : ui::Judgement::none, on);
+}
+
+void Application::lightController() {
+  const auto light = [this](const QString& text, ui::Judgement judgement) {
+    m_window->setLamp(ui::LampId::controller, text, judgement);
+  };
+  if (m_bench->lost()) return light(tr("Controller lost"), ui::Judgement::bad);
+  if (!m_bench->connected()) return light(tr("Controller off"), ui::Judgement::none);
+  // While a step works nobody else looks; a step that does not use the machine leaves it unseen.
+  const bool unseen = m_bench->seenAt().msecsTo(QDateTime::currentDateTime()) > unseen_after_ms;
+  if (m_bench->tasks().running() && unseen) {
+    return light(tr("Controller last seen %1").arg(m_bench->seenAt().toString(QStringLiteral("HH:mm:ss"))),
+                 ui::Judgement::none);
+  }
+  light(tr("Controller connected"), ui::Judgement::ok);
+}
+
+void Application::lightCamera() {
+  const auto light = [this](const QString& text, ui::Judgement judgement) {
+    m_window->setLamp(ui::LampId::camera, text, judgement);
+  };
+  const auto& profile = m_bench->profile();
+  if (!profile) return light(tr("Camera off"), ui::Judgement::none);
+  if (profile->error_source != controller::ErrorSourceKind::camera) {
+    const bool seen = m_bench->connected() && !m_bench->lost();
+    return light(tr("Probes"), seen ? ui::Judgement::ok : ui::Judgement::none);
+  }
+  const auto count = static_cast<int>(profile->cameras.size());
+  const QString cameras = count == 1 ? tr("1 camera") : tr("%1 cameras").arg(count);
+  const auto& open = m_bench->openCameras();
+  if (open.empty()) return light(tr("%1, not open").arg(cameras), ui::Judgement::none);
+  const auto alive = std::count_if(open.begin(), open.end(), [](const auto& one) { return one->newest().has_value(); });
+  if (alive == count) return light(cameras, ui::Judgement::ok);
+  light(count == 1 ? tr("No picture") : tr("%1 of %2 cameras").arg(alive).arg(count), ui::Judgement::bad);
 }
 
 void Application::undo() {

@@ -2,6 +2,7 @@
 // Joins window, workbench and presenters: step states, lamps, log, languages, shortcuts.
 
 #include <QObject>
+#include <QTimer>
 #include <QTranslator>
 #include <vector>
 
@@ -54,6 +55,8 @@ class Application : public QObject {
   void openBack();
   void updateSteps();
   void updateLamps();
+  void lightController();
+  void lightCamera();
   void undo();
   void offerCommands();
   void runCommand(const QString& id);
@@ -65,6 +68,7 @@ class Application : public QObject {
   std::unique_ptr<ui::MainWindow> m_window;
   std::vector<Presenter*> m_presenters;
   FileOpener* m_opener;
+  QTimer m_lampTimer;  // what is not told is looked at
   QTranslator m_translator;
   QTranslator m_qtTranslator;  // Qt's own words: Cancel, Copy, the file dialog
   QString m_language = QStringLiteral("en");

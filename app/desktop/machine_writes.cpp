@@ -14,9 +14,11 @@ using commissioning::NewArtefact;
 using controller::UploadRecord;
 using nlohmann::json;
 
-Result<RollbackPreview> preview_roll_back(const controller::Profile& profile, const std::string& id,
-                                          const TaskContext& context) {
+Result<RollbackPreview> preview_roll_back(const commissioning::Job& job, const controller::Profile& profile,
+                                          const std::string& id, const TaskContext& context) {
   ZD_TRY(auto devices, flow::Devices::open(profile, false));
+  ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_CHECK(controller::TableHistory().adopt(identity.serial, flow::tables_of(job, identity.serial)));
   RollbackPreview preview;
   ZD_TRY(preview.target, controller::rollback_target(*devices.machine, {std::nullopt, id}));
   controller::UploadOptions options;
@@ -40,7 +42,8 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   commissioning::AuditEntry entry;
   entry.machine = flow::machine_text(identity.name, identity.serial);
   entry.action = "roll back table";
-  entry.subject = fmt::format("compensation table, to version {}", target.table.version);
+  entry.subject = "compensation table";
+  table.version = target.table.version;  // which one was brought back
   entry.old_value = fmt::format("version {}, {} registers", target.active.sequence, target.active.words.size());
   entry.new_value = compensation::to_json(table).dump();
   controller::UploadOptions options;

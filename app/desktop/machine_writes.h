@@ -12,13 +12,14 @@
 
 namespace zerodrift::desktop {
 
-/// What going back to the entry `id` of the machine's log would change; writes nothing.
+/// What going back to the entry `id` of the machine's log would change; writes nothing to the machine. What only the
+/// job knows of the machine's tables is taken into the log first.
 struct RollbackPreview {
   controller::RollbackTarget target;
   flow::UploadPreview difference;
 };
-Result<RollbackPreview> preview_roll_back(const controller::Profile& profile, const std::string& id,
-                                          const TaskContext& context);
+Result<RollbackPreview> preview_roll_back(const commissioning::Job& job, const controller::Profile& profile,
+                                          const std::string& id, const TaskContext& context);
 
 /// Writes the table that was looked at; makes the artefact "upload" of what is active then.
 Result<commissioning::NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile,

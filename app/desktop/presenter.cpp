@@ -8,12 +8,16 @@ Presenter::Presenter(Workbench& bench, ui::Page* page) : QObject(page), m_bench(
   connect(page, &ui::Page::cancelRequested, this, [this] { m_bench.tasks().cancel(); });
 }
 
-void Presenter::show(const Error& error) {
+void Presenter::showOnly(const Error& error) {
   tell([error] {
     const ErrorText text = textOf(error);
     const bool cancelled = error.code == ErrorCode::cancelled;
     return ui::Problem{cancelled ? ui::ProblemKind::note : ui::ProblemKind::failure, text.sentence, text.remedy, {}};
   });
+}
+
+void Presenter::show(const Error& error) {
+  showOnly(error);
   if (error.code != ErrorCode::cancelled) m_bench.log(LogKind::bad, textOf(error).sentence);
 }
 

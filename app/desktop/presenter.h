@@ -62,6 +62,8 @@ class Presenter : public QObject {
   /// Whether work of this page may be stopped by Cancel.
   virtual bool cancellable() const { return true; }
   void show(const Error& error);
+  /// The same without a line in the log: where it was told already.
+  void showOnly(const Error& error);
   /// Into the banner; asked again when the language changes.
   void tell(std::function<ui::Problem()> problem);
   /// Why nothing else can be done now: the task that runs.

@@ -18,6 +18,12 @@ namespace {
 constexpr int drains_per_s = 15;
 constexpr double trail_enlargement = 20.0;
 
+/// The recorder is without its machine and asks again.
+bool is_silence(const Error& problem) {
+  return problem.code == ErrorCode::machine_silent || problem.code == ErrorCode::machine_link_lost ||
+         problem.code == ErrorCode::machine_unreachable;
+}
+
 int decimals_of(recording::ChannelKind kind) {
   switch (kind) {
     case recording::ChannelKind::temperature:
@@ -392,7 +398,9 @@ void RunFeed::drain() {
   }
   if (updates.empty()) return;
   m_received = true;
-  noteSensors(updates.back().problems);
+  const auto& problems = updates.back().problems;
+  m_bench.tellController(std::none_of(problems.begin(), problems.end(), is_silence));
+  noteSensors(problems);
   appendRows(updates);
   bool measured = false;
   for (const auto& update : updates) {

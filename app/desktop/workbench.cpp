@@ -13,16 +13,29 @@ namespace zerodrift::desktop {
 Workbench::Workbench(QObject* parent)
     : QObject(parent), m_access(std::make_unique<access::Access>(access::access_file())) {
   connect(&m_monitor, &MachineMonitor::looked, this, [this](const std::shared_ptr<const MachineLook>& look) {
-    if (!m_look) log(LogKind::good, tr("Connected to %1").arg(QString::fromStdString(look->identity.name)));
+    const QString name = QString::fromStdString(look->identity.name);
+    if (m_attempts > 1) {
+      log(LogKind::good, tr("Connected to %1 again, after %n attempt(s) that failed", nullptr, m_attempts).arg(name));
+    } else if (!m_look || m_lost) {
+      log(LogKind::good, tr("Connected to %1").arg(name));
+    }
     m_look = look;
-    m_lastProblem.clear();
+    m_lost = false;
+    m_seenAt = QDateTime::currentDateTime();
+    m_lastProblem.reset();
+    m_attempts = 0;
     Q_EMIT machineSeen();
   });
   connect(&m_monitor, &MachineMonitor::failed, this, [this](const Error& error) {
+    m_lost = m_lost || m_look != nullptr;
     m_look.reset();
-    const QString line = lineOf(error);
-    if (line != m_lastProblem) log(LogKind::bad, line);
-    m_lastProblem = line;
+    // It is tried every second: the same trouble is told once, and counted when it is over.
+    if (m_lastProblem != error.code) {
+      log(LogKind::bad, lineOf(error));
+      m_attempts = 0;
+    }
+    m_lastProblem = error.code;
+    ++m_attempts;
     Q_EMIT machineLost(error);
   });
   connect(&m_tasks, &TaskRunner::started, this, [this](const QString& name) {
@@ -130,6 +143,7 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
   dropCameras();
   m_reached = false;
   m_look.reset();
+  m_lost = false;
   Q_EMIT profileChanged();
   return {};
 }
@@ -160,6 +174,9 @@ void Workbench::disconnectMachine() {
   m_reached = false;
   m_look.reset();
   dropCameras();
+  m_lost = false;
+  m_lastProblem.reset();
+  m_attempts = 0;
   Q_EMIT profileChanged();
 }
 
@@ -198,11 +215,19 @@ QString Workbench::channelInWords(const std::string& channel) const {
   return coreText(report::channel_in_words(channel, labels()));
 }
 
-void Workbench::tellSample(const acquisition::MachineSample& sample) {
-  auto look = m_look ? std::make_shared<MachineLook>(*m_look) : std::make_shared<MachineLook>();
-  look->sample = sample;
-  m_look = look;
-  Q_EMIT machineSeen();
+void Workbench::tellController(bool answers, std::optional<bool> switch_on) {
+  if (!answers && !m_lost) log(LogKind::bad, tr("The controller does not answer"));
+  if (answers && m_lost) log(LogKind::good, tr("The controller answers again"));
+  m_lost = !answers;
+  if (answers) {
+    m_seenAt = QDateTime::currentDateTime();
+    if (switch_on) {
+      auto look = m_look ? std::make_shared<MachineLook>(*m_look) : std::make_shared<MachineLook>();
+      look->sample.compensation_on = *switch_on;
+      m_look = look;
+    }
+  }
+  Q_EMIT controllerTold();
 }
 
 void Workbench::log(LogKind kind, const QString& text) {

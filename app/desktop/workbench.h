@@ -61,13 +61,19 @@ class Workbench : public QObject {
   void connectMachine();
   void disconnectMachine();
   bool connected() const { return m_look != nullptr; }
+  /// It was there and does not answer any more: what is known of it is how it stood, not how it is.
+  bool lost() const { return m_lost; }
+  /// When it answered last; not valid: never.
+  const QDateTime& seenAt() const { return m_seenAt; }
   const std::shared_ptr<const MachineLook>& look() const { return m_look; }
-  bool compensationOn() const { return m_look && m_look->sample.compensation_on; }
+  bool compensationOn() const { return m_look && !m_lost && m_look->sample.compensation_on; }
   /// Live cameras of the profile, for the pictures; opened at the first call after a person has connected. A job that
   /// was merely opened reaches nothing.
   const std::vector<std::shared_ptr<vision::Camera>>& cameras();
-  /// A step reads the machine itself: the sample it got serves the lamps.
-  void tellSample(const acquisition::MachineSample& sample);
+  /// Whether the pictures were ever asked for: only then is anything known of the cameras.
+  const std::vector<std::shared_ptr<vision::Camera>>& openCameras() const { return m_cameras; }
+  /// A step reads the machine itself: whether it answers, and the switch where the step sees it.
+  void tellController(bool answers, std::optional<bool> switch_on = {});
 
   /// A sentence or a channel of core as people read it: units, places of the sensors (core/report/wording.h).
   QString inWords(const std::string& text) const;
@@ -85,6 +91,8 @@ class Workbench : public QObject {
   void machineSeen();
   void machineLost(const zerodrift::Error& error);
   void accessChanged();
+  /// A step has told how it stands with the controller.
+  void controllerTold();
   void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);
 
  private:
@@ -102,8 +110,11 @@ class Workbench : public QObject {
   MachineMonitor m_monitor;
   TaskRunner m_tasks;
   Aside m_ending;
-  QString m_lastProblem;
   bool m_reached = false;  // a person has asked for this machine: until then nothing goes out to it or its cameras
+  bool m_lost = false;
+  QDateTime m_seenAt;
+  std::optional<ErrorCode> m_lastProblem;
+  int m_attempts = 0;  // that failed for the same reason
 };
 
 }  // namespace zerodrift::desktop

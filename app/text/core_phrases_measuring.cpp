@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 165> measuring = {{
+constexpr std::array<const char*, 170> measuring = {{
     QT_TRANSLATE_NOOP("core", "a step of the flow"),
     QT_TRANSLATE_NOOP("core", "%1 (serial %2)"),
     QT_TRANSLATE_NOOP("core", "axis of a camera"),
@@ -39,6 +39,11 @@ constexpr std::array<const char*, 165> measuring = {{
     QT_TRANSLATE_NOOP("core", "the uploaded table"),
     QT_TRANSLATE_NOOP("core", "the warm-up's plan"),
     QT_TRANSLATE_NOOP("core", "the corrected table"),
+    QT_TRANSLATE_NOOP("core", "the table before"),
+    QT_TRANSLATE_NOOP("core", "%1 in the warm-up run"),
+    QT_TRANSLATE_NOOP("core", "%1 in the warm-up run, so it is not proposed"),
+    QT_TRANSLATE_NOOP("core", "stuck"),
+    QT_TRANSLATE_NOOP("core", "dead"),
     QT_TRANSLATE_NOOP("core", "%1, %2 times"),
     QT_TRANSLATE_NOOP("core", "link: %1, %2 times, overcome"),
     QT_TRANSLATE_NOOP("core", "axes are not referenced"),

@@ -1,7 +1,9 @@
 #include "core/analysis/budget.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/analysis/statistics.h"
@@ -127,6 +129,21 @@ Result<std::vector<Price>> price_of_dropping(const TrainingSet& set, Method meth
                       100.0 * (without.held_out_rms_um / std::max(all.held_out_rms_um, 1e-9) - 1.0)});
   }
   return prices;
+}
+
+Result<double> fitted_condition(const TrainingSet& set, const std::vector<std::string>& sensors) {
+  const Recipe recipe = make_recipe(Method::ridge, sensors, set);
+  ZD_TRY(const Eigen::MatrixXd x, design(set, recipe.features));
+  double largest = 1.0;
+  for (const auto& group : error_groups(set)) {
+    const Rows rows = rows_of(set, x, group.samples, group.errors.front());
+    ZD_TRY(const std::vector<RidgeFit> fits, fit_rows(rows, errors_at(set, group, group.samples), recipe, set));
+    for (const RidgeFit& fit : fits) {
+      const Eigen::VectorXd s = fit.covariance.selfadjointView<Eigen::Lower>().eigenvalues();
+      largest = std::max(largest, std::sqrt(s.maxCoeff() / std::max(s.minCoeff(), 1e-300)));
+    }
+  }
+  return std::min(largest, 1e12);
 }
 
 }  // namespace zerodrift::analysis

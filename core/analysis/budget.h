@@ -46,4 +46,9 @@ Result<std::vector<Price>> price_of_dropping(const TrainingSet& set, Method meth
 Result<BudgetPoint> price_set(const TrainingSet& set, Method method, const std::vector<std::string>& sensors,
                               const TaskContext& context = {});
 
+/// Condition number of the ridge fit on these sensors with its penalty in it: how far its coefficients disturb one
+/// another (1: not at all), the largest of the errors. Temperatures of one machine are always much alike; what counts
+/// is what is solved.
+Result<double> fitted_condition(const TrainingSet& set, const std::vector<std::string>& sensors);
+
 }  // namespace zerodrift::analysis

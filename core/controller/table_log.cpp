@@ -188,6 +188,16 @@ std::vector<TableEntry> missing_in(const TableLog& log, const std::vector<TableE
   return missing;
 }
 
+TableLog with_missing(TableLog log, const std::vector<TableEntry>& others) {
+  auto missing = missing_in(log, others);
+  for (TableEntry& entry : missing) {
+    const auto later = std::find_if(log.entries.begin(), log.entries.end(),
+                                    [&](const TableEntry& own) { return own.time > entry.time; });
+    log.entries.insert(later, std::move(entry));
+  }
+  return log;
+}
+
 std::string line_of_head(std::uint32_t serial) {
   return one_line(json{{"line", "head"}, {"format", log_format}, {"serial", serial}});
 }

@@ -57,8 +57,9 @@ TableLog with_active(TableLog log, const ActiveTable& active, const std::string&
 /// when there is none, and when the last one was found: what was before something from elsewhere is no safe guess.
 const TableEntry* before_last(const TableLog& log);
 
-/// Puts in what another keeper of the same machine's tables has: each at its time, none twice.
+/// What another keeper of the same machine's tables has and this log has not; and the log with it, each at its time.
 std::vector<TableEntry> missing_in(const TableLog& log, const std::vector<TableEntry>& others);
+TableLog with_missing(TableLog log, const std::vector<TableEntry>& others);
 
 // The lines.
 std::string line_of_head(std::uint32_t serial);

@@ -39,6 +39,16 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::desktop::Workbench</name>
+    <message numerus="yes">
+        <source>Connected to %1 again, after %n attempt(s) that failed</source>
+        <translation>
+            <numerusform>Connected to %1 again, after one attempt that failed</numerusform>
+            <numerusform>Connected to %1 again, after %n attempts that failed</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::MachinePage</name>
     <message numerus="yes">
         <source>%n to check</source>

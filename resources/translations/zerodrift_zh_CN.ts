@@ -3497,6 +3497,26 @@
         <source>serial %1</source>
         <translation>序列号 %1</translation>
     </message>
+    <message>
+        <source>the table before</source>
+        <translation>之前的补偿表</translation>
+    </message>
+    <message>
+        <source>%1 in the warm-up run</source>
+        <translation>在暖机运行中%1</translation>
+    </message>
+    <message>
+        <source>%1 in the warm-up run, so it is not proposed</source>
+        <translation>在暖机运行中%1，因此不建议采用</translation>
+    </message>
+    <message>
+        <source>stuck</source>
+        <translation>卡死</translation>
+    </message>
+    <message>
+        <source>dead</source>
+        <translation>失效</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4333,6 +4353,30 @@
     <message>
         <source>Engineer</source>
         <translation>工程师</translation>
+    </message>
+    <message>
+        <source>Compensation unknown</source>
+        <translation>补偿状态未知</translation>
+    </message>
+    <message>
+        <source>Controller lost</source>
+        <translation>控制器失去连接</translation>
+    </message>
+    <message>
+        <source>Controller last seen %1</source>
+        <translation>控制器最后应答 %1</translation>
+    </message>
+    <message>
+        <source>%1, not open</source>
+        <translation>%1，未打开</translation>
+    </message>
+    <message>
+        <source>No picture</source>
+        <translation>无图像</translation>
+    </message>
+    <message>
+        <source>%1 of %2 cameras</source>
+        <translation>%2 台相机中的 %1 台</translation>
     </message>
 </context>
 <context>
@@ -5270,6 +5314,20 @@
     <message>
         <source>Disconnected: this job is of another machine (serial %1).</source>
         <translation>已断开连接：此作业属于另一台机床（序列号 %1）。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Connected to %1 again, after %n attempt(s) that failed</source>
+        <translation>
+            <numerusform>已重新连接到 %1，此前失败 %n 次</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The controller does not answer</source>
+        <translation>控制器没有应答</translation>
+    </message>
+    <message>
+        <source>The controller answers again</source>
+        <translation>控制器恢复应答</translation>
     </message>
 </context>
 <context>
@@ -6432,6 +6490,10 @@
         <source>Log</source>
         <translation>日志</translation>
     </message>
+    <message>
+        <source>(%1 times, last %2)</source>
+        <translation>（%1 次，最后 %2）</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::MachineDrawing</name>
@@ -6655,6 +6717,14 @@
     <message>
         <source>Not connected; as it stood on %1</source>
         <translation>未连接；显示 %1 时的状态</translation>
+    </message>
+    <message>
+        <source>Version %1 is in the machine. Starting again measures anew, with the compensation off; the table stays until you write another one.</source>
+        <translation>机床中为版本 %1。重新开始将在补偿断开时重新测量；在写入另一个补偿表之前，该表保持不变。</translation>
+    </message>
+    <message>
+        <source>Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: what was measured stays in the job, and version %1 in the machine.</source>
+        <translation>重新检查机床并进入标定。不写入任何内容，也不丢失任何内容：已测数据保留在任务中，版本 %1 保留在机床中。</translation>
     </message>
 </context>
 <context>
@@ -7552,10 +7622,6 @@
         <translation>条件数</translation>
     </message>
     <message>
-        <source>How alike the kept sensors are. Large: their coefficients cannot be told apart.</source>
-        <translation>所保留传感器的相似程度。数值大表示其系数难以区分。</translation>
-    </message>
-    <message>
         <source>much alike</source>
         <translation>非常相似</translation>
     </message>
@@ -7734,6 +7800,14 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Price: what a click on the tick does to the error on unseen stretches. Plus: it grows, leave the tick as it is. Minus (bold): it shrinks.</source>
         <translation>代价：点击勾选后未见数据段误差的变化。正：误差增大，保持勾选不变。负（粗体）：误差减小。</translation>
+    </message>
+    <message>
+        <source>Of the fit on the kept sensors, its penalty included. Large: their coefficients disturb one another.</source>
+        <translation>所选传感器上的拟合（含惩罚项）的条件数。过大：各系数相互干扰。</translation>
+    </message>
+    <message>
+        <source>%1: %2.</source>
+        <translation>%1：%2。</translation>
     </message>
 </context>
 <context>
@@ -8113,10 +8187,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>部分误差超过阈值。请查看建议的修正。</translation>
     </message>
     <message>
-        <source>The proof is complete. Save the report next.</source>
-        <translation>验证完成。接下来请保存报告。</translation>
-    </message>
-    <message>
         <source>Start verification</source>
         <translation>开始验证</translation>
     </message>
@@ -8233,10 +8303,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>拟合的预期为 %1 µm，实测为 %2 µm。预期针对暖机运行中留出的数据段，且为数分钟的平均值；本次运行以不同的次序经历其他转速，且每一次单独测量都带有噪声。</translation>
     </message>
     <message>
-        <source>A peak grows with the length of a run, so both runs are compared as far as the shorter one goes.</source>
-        <translation>峰值随运行时间增大，因此两次运行只比较到较短者的时长。</translation>
-    </message>
-    <message>
         <source>Nothing to verify yet</source>
         <translation>尚无可验证的内容</translation>
     </message>
@@ -8344,6 +8410,50 @@ The sum of absolute values does not have this fault.</source>
         <source>Removed in %1</source>
         <translation>%1 消除</translation>
     </message>
+    <message>
+        <source>%1 is worse than with version %2: roll back, or correct it.</source>
+        <translation>%1 比版本 %2 更差：请回滚或修正。</translation>
+    </message>
+    <message>
+        <source>Look at the proposed correction.</source>
+        <translation>请查看建议的修正。</translation>
+    </message>
+    <message>
+        <source>Fit with a further run, or report it as it is.</source>
+        <translation>请用更多的运行数据拟合，或如实出具报告。</translation>
+    </message>
+    <message>
+        <source>%1 is still above the limit of %2 µm.</source>
+        <translation>%1 仍超过限值 %2 µm。</translation>
+    </message>
+    <message>
+        <source>The proof is complete: every axis keeps its limit. Save the report next.</source>
+        <translation>验证完成：各轴均在限值之内。下一步请保存报告。</translation>
+    </message>
+    <message>
+        <source>Roll back to version %1</source>
+        <translation>回滚到版本 %1</translation>
+    </message>
+    <message>
+        <source>Opens the history in Upload with that version chosen; it asks before it writes.</source>
+        <translation>在“上传”页打开历史并选中该版本；写入前会询问。</translation>
+    </message>
+    <message>
+        <source>Largest error that this very run would have had without compensation: measured less applied.</source>
+        <translation>本次运行若无补偿时的最大误差：测量值减去已施加的补偿。</translation>
+    </message>
+    <message>
+        <source>%1 is worse than with version %2: %3 µm rms now; over this same run version %2 would have left %4 µm. Roll back to version %2?</source>
+        <translation>%1 比版本 %2 更差：现在均方根为 %3 µm；在同一运行中，版本 %2 会剩余 %4 µm。是否回滚到版本 %2？</translation>
+    </message>
+    <message>
+        <source>Without is this same run less what was applied: the same speeds and the same minutes.</source>
+        <translation>“无补偿”即同一运行减去已施加的补偿：转速与时间完全相同。</translation>
+    </message>
+    <message>
+        <source>Without is the warm-up run: other speeds, over the same minutes since the start of each run, as far as the shorter one goes.</source>
+        <translation>“无补偿”为暖机运行：转速不同，各自从开始起取相同的时间，以较短的运行为准。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::VerifyResult</name>
@@ -8438,6 +8548,18 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>%1 with compensation</source>
         <translation>%1 有补偿</translation>
+    </message>
+    <message>
+        <source>largest error of the same %1 min</source>
+        <translation>同一 %1 分钟内的最大误差</translation>
+    </message>
+    <message>
+        <source>This run less what was applied</source>
+        <translation>本次运行减去已施加的补偿</translation>
+    </message>
+    <message>
+        <source>time of the run</source>
+        <translation>运行时间</translation>
     </message>
 </context>
 <context>

@@ -8,16 +8,22 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
+#include <csignal>
 
 #include "app/desktop/application.h"
 #include "core/flow/devices.h"
 #include "tests/app/test_home.h"
 #include "ui/pages/calibrate_page.h"
+#include "ui/pages/machine_page.h"
+#include "ui/shell/lamp.h"
 #include "ui/widgets/camera_view.h"
 
 using zerodrift::desktop::Application;
 using zerodrift::desktop::DemoOptions;
+using zerodrift::desktop::LogKind;
+using zerodrift::desktop::Workbench;
 using zerodrift::ui::CalibratePage;
+using zerodrift::ui::MachinePage;
 
 namespace {
 
@@ -148,6 +154,37 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     application.openPage(QStringLiteral("machine"));
     application.openPage(QStringLiteral("calibrate"));
     QVERIFY(!clear->isChecked());
+  }
+
+  /// A controller that goes away in the middle: nothing goes on looking as if it were there, and the log says it once.
+  void aLostControllerIsTold() {
+    Application application(m_theme);
+    application.show();
+    DemoOptions demo;
+    demo.program = programs + QStringLiteral("/zerodrift-machine");
+    application.startDemo(demo, m_folder.filePath(QStringLiteral("lost.zdj")));
+    auto& bench = application.bench();
+    QTRY_VERIFY_WITH_TIMEOUT(bench.connected(), 60000);
+    const auto lamp = [&application](const char* name) {
+      return application.window().findChild<zerodrift::ui::Lamp*>(QString::fromLatin1(name))->accessibleName();
+    };
+    QTRY_VERIFY(lamp("lamp-controller").contains(QStringLiteral("connected")));
+    QVERIFY(lamp("lamp-camera").contains(QStringLiteral("not open")));  // nobody has asked for a picture
+    QVERIFY(lamp("lamp-compensation").contains(QStringLiteral("OFF")));
+    int red = 0;
+    connect(&bench, &Workbench::logged, this,
+            [&red](const QDateTime&, LogKind kind, const QString&) { red += kind == LogKind::bad ? 1 : 0; });
+    const qint64 machine = child_of(QCoreApplication::applicationPid());
+    QVERIFY(machine != 0);
+    QCOMPARE(::kill(static_cast<pid_t>(machine), SIGKILL), 0);
+    QTRY_VERIFY_WITH_TIMEOUT(bench.lost(), 20000);
+    QVERIFY(lamp("lamp-controller").contains(QStringLiteral("lost")));
+    QVERIFY(lamp("lamp-compensation").contains(QStringLiteral("unknown")));
+    const auto* page = qobject_cast<MachinePage*>(application.presenter(QStringLiteral("machine"))->page());
+    QVERIFY(!page->state().connected);
+    QTest::qWait(5000);  // it is tried every second
+    QVERIFY2(red <= 2, qPrintable(QString::number(red)));
+    QVERIFY(lamp("lamp-controller").contains(QStringLiteral("lost")));
   }
 
   void virtualMachineEndsWithTheWindow_data() {

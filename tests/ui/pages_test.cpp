@@ -45,7 +45,9 @@ class PagesTest : public QObject {
   void sensorsAreTickedInAndOut();
   void uploadIsLockedWhileCompensationIsOn();
   void uploadIsLockedByAWrongSign();
+  void rollbackSaysWhatItWouldDo();
   void verifyProposesTheCorrection();
+  void proofIsOnlyCompleteWithinTheLimit();
   void removedIsToldForEachDirection();
   void nothingIsMinusZero();
   void physicsAdoptsAndRejects();
@@ -291,6 +293,53 @@ void PagesTest::uploadIsLockedByAWrongSign() {
   page.setState(state);
   QVERIFY(!page.primaryAction().enabled);
   QVERIFY(page.primaryAction().reason.contains("direction"));
+}
+
+void PagesTest::rollbackSaysWhatItWouldDo() {
+  UploadPage page;
+  samples::fillUpload(&page, "ready");
+  auto* button = page.findChild<QPushButton*>("rollback");
+  QSignalSpy wanted(&page, &UploadPage::rollbackRequested);
+  QVERIFY(button->isEnabled());  // what is proposed is chosen already
+  QCOMPARE(button->text(), QString("Roll back to version 2"));
+  button->click();
+  QCOMPARE(wanted.first().first().toString(), QString("2"));
+  // A button that cannot be pressed says why, in the page and as a tip.
+  page.showHistory(3);
+  QVERIFY(!button->isEnabled());
+  QVERIFY(button->toolTip().contains("same table"));
+  UploadState state = page.state();
+  state.rollbackBlocked = "No machine is connected.";
+  page.setState(state);
+  QVERIFY(!button->isEnabled());
+  QCOMPARE(button->toolTip(), state.rollbackBlocked);
+  QVERIFY(page.findChild<QLabel*>("rollbackHint")->text().contains("No machine"));
+  state.history.clear();
+  state.rollbackBlocked.clear();
+  page.setState(state);
+  QVERIFY(!button->isEnabled() && !button->toolTip().isEmpty());
+}
+
+void PagesTest::proofIsOnlyCompleteWithinTheLimit() {
+  VerifyPage page;
+  samples::fillVerify(&page, "correction");
+  VerifyState state = page.state();
+  state.correctionProposed = false;
+  state.peakLimit_um = 5.0;
+  QVERIFY(state.results[0].after_um > 5.0);
+  page.setState(state);
+  QVERIFY(!page.sentence().contains("complete"));
+  QVERIFY(page.sentence().contains("X"));
+  for (auto& axis : state.results) axis.after_um = 3.0;
+  state.peakAfter_um = 3.0;
+  page.setState(state);
+  QVERIFY(page.sentence().contains("complete"));
+  state.versionBefore = 1;
+  state.worseThanBefore = {{"X", 1.2, 2.4}};
+  page.setState(state);
+  QVERIFY(page.sentence().contains("X") && page.sentence().contains("version 1"));
+  const auto actions = page.secondaryActions();
+  QVERIFY(std::any_of(actions.begin(), actions.end(), [](const PageAction& a) { return a.id == "rollback"; }));
 }
 
 void PagesTest::verifyProposesTheCorrection() {

@@ -68,6 +68,7 @@ class ShellTest : public QObject {
   void paletteFindsStepsAndActions();
   void lampsCarryText();
   void logCanBeCopied();
+  void logCountsWhatIsToldAgain();
   void textsHaveContrast();
   void curvesDiffer();
   void durationsAreCoarse();
@@ -292,6 +293,31 @@ void ShellTest::logCanBeCopied() {
   MainWindow window;
   window.appendLog(QDateTime::currentDateTime(), Judgement::bad, "The camera froze.");
   QVERIFY(window.findChild<LogDrawer*>()->text().contains("The camera froze."));
+}
+
+void ShellTest::logCountsWhatIsToldAgain() {
+  MainWindow window;
+  window.resize(1280, 720);
+  window.setLogVisible(true);
+  window.show();
+  auto* log = window.findChild<LogDrawer*>();
+  for (int i = 0; i < 60; ++i)
+    window.appendLog(QDateTime::currentDateTime(), Judgement::none, QString("line %1").arg(i));
+  auto* bar = log->findChild<QPlainTextEdit*>()->verticalScrollBar();
+  QVERIFY(bar->maximum() > 0);
+  QCOMPARE(bar->value(), bar->maximum());
+  bar->setValue(3);  // somebody reads above
+  for (int i = 0; i < 100; ++i)
+    window.appendLog(QDateTime::currentDateTime(), Judgement::bad, "The controller is silent.");
+  QCOMPARE(bar->value(), 3);
+  QCOMPARE(log->text().count("The controller is silent."), 1);
+  QVERIFY(log->text().contains("100"));
+  window.appendLog(QDateTime::currentDateTime(), Judgement::ok, "Connected.");
+  window.appendLog(QDateTime::currentDateTime(), Judgement::bad, "The controller is silent.");
+  QCOMPARE(log->text().count("The controller is silent."), 2);
+  bar->setValue(bar->maximum());
+  window.appendLog(QDateTime::currentDateTime(), Judgement::none, "the last line");
+  QCOMPARE(bar->value(), bar->maximum());
 }
 
 void ShellTest::textsHaveContrast() {

@@ -158,6 +158,11 @@ QString MachinePage::sentence() const {
         .arg(rest.warmest)
         .arg(std::abs(rest.apart_K), 0, 'f', 1);
   }
+  if (m_state.writtenVersion > 0) {
+    return tr("Version %1 is in the machine. Starting again measures anew, with the compensation off; the table stays "
+              "until you write another one.")
+        .arg(m_state.writtenVersion);
+  }
   return tr("Check that every sensor is alive and the machine is at rest and of even temperature.");
 }
 
@@ -169,7 +174,12 @@ PageAction MachinePage::primary() const {
             chosen ? tr("The connection is being made.") : tr("Choose or import a connection profile first.")};
   }
   return {"primary", tr("Start commissioning"), !m_state.compensationOn,
-          tr("The compensation is ON. Measuring for the model is locked until it is switched off.")};
+          tr("The compensation is ON. Measuring for the model is locked until it is switched off."),
+          m_state.writtenVersion > 0
+              ? tr("Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: "
+                   "what was measured stays in the job, and version %1 in the machine.")
+                    .arg(m_state.writtenVersion)
+              : QString()};
 }
 
 QVector<PageAction> MachinePage::secondary() const {

@@ -59,6 +59,7 @@ struct MachineState {
   bool connected = false;
   bool connecting = false;
   bool compensationOn = false;
+  int writtenVersion = 0;  // of the table that this job has put into the machine; 0: none yet
   /// Not connected, but the job has kept how the machine stood: when that was. Sensors and figures are those.
   QString keptFrom{};
   bool known() const { return connected || !keptFrom.isEmpty(); }

@@ -172,7 +172,8 @@ QVector<Figure> SensorsPage::figures() const {
     }
   }
   Figure condition = figureAtMost(tr("Condition number"), m_state.condition, 0, {}, m_state.conditionLimit);
-  condition.tip = tr("How alike the kept sensors are. Large: their coefficients cannot be told apart.");
+  condition.tip =
+      tr("Of the fit on the kept sensors, its penalty included. Large: their coefficients disturb one another.");
   if (condition.judgement == Judgement::bad) {
     condition.judgement = Judgement::warn;
     condition.word = tr("much alike");
@@ -282,6 +283,7 @@ void SensorsPage::renderMatrix() {
   QStringList rows;
   QVector<double> values;
   for (const SensorRow& s : m_state.sensors) {
+    if (s.cluster < 0) continue;
     rows.append(s.tag);
     values << s.r[0] << s.r[1] << s.r[2] << s.sum / 3.0;
   }
@@ -326,8 +328,18 @@ void SensorsPage::renderTable() {
     DataCell name;
     name.text = s.tag + QStringLiteral("  ") + s.label;
     name.tip = s.note.isEmpty() ? name.text : name.text + ": " + s.note;
-    name.swatch = groupColor(s.cluster);
     name.checkable = true;
+    name.judged = !s.note.isEmpty();
+    if (name.judged) {
+      name.text = s.tag + QStringLiteral("  ") + s.note;
+      name.judgement = Judgement::warn;
+    }
+    if (s.cluster < 0) {
+      const DataCell none{QStringLiteral("–")};
+      rows.append({name, none, none, none, none, none, none, none});
+      continue;
+    }
+    name.swatch = groupColor(s.cluster);
     name.checked = s.kept;
     name.strong = s.kept;
     DataCell lag = numberCell(s.lag_s / 60.0, 0);
@@ -352,7 +364,13 @@ void SensorsPage::renderTable() {
                  lag, vif, price});
   }
   m_table->setRows(rows);
+  QStringList named;
+  for (const SensorRow& s : m_state.sensors) {
+    if (!s.note.isEmpty()) named << tr("%1: %2.").arg(s.tag, s.note);
+  }
+  const QString before = named.isEmpty() ? QString() : named.join(QLatin1Char(' ')) + QLatin1Char('\n');
   m_priceNote->setText(
+      before +
       tr("Price: what a click on the tick does to the error on unseen stretches. Plus: it grows, leave the tick as "
          "it is. Minus (bold): it shrinks."));
 }

@@ -23,7 +23,7 @@ struct SensorRow {
   QString id{};
   QString tag{};
   QString label{};
-  int cluster = 0;
+  int cluster = 0;  // -1: none
   bool kept = false;
   double r[3] = {0.0, 0.0, 0.0};  // correlation with the errors X, Y, Z
   double sum = 0.0;               // as published, with sign, or of absolute values
@@ -33,7 +33,7 @@ struct SensorRow {
   double price_um = std::numeric_limits<double>::quiet_NaN();
   double pc1 = 0.0;  // place in the plane of the first two components
   double pc2 = 0.0;
-  QString note{};  // "dead", "copy of T3"
+  QString note{};  // why it is not proposed; such a sensor is in no cluster and has no figures
 };
 
 struct SensorsState {

@@ -77,6 +77,7 @@ Card* UploadPage::makeWriting() {
   m_rollback->setObjectName("rollback");
   historyLayout->addWidget(m_history, 1);
   m_rollbackHint = new WrapLabel(historyPanel);
+  m_rollbackHint->setObjectName("rollbackHint");
   m_rollbackHint->setProperty("role", "caption");
   historyLayout->addWidget(m_rollback, 0, Qt::AlignLeft);
   historyLayout->addWidget(m_rollbackHint);
@@ -100,6 +101,17 @@ void UploadPage::setState(const UploadState& state) {
   if (state.writing && !m_state.writing) m_side->setCurrentIndex(0);
   m_state = state;
   refresh();
+}
+
+void UploadPage::showHistory(int version) {
+  m_side->setCurrentIndex(1);
+  m_sides->setCurrentIndex(1);
+  for (const TableVersion& one : m_state.history) {
+    if (one.version != version) continue;
+    m_chosen = one.id;
+    break;
+  }
+  renderHistory();
 }
 
 QString UploadPage::title() const {
@@ -267,9 +279,9 @@ int UploadPage::proposedRow() const {
 }
 
 void UploadPage::renderHistory() {
-  m_history->setColumns({{tr("Version"), 58, true, {}},
-                         {tr("Written"), 92, false, {}},
-                         {tr("By"), 62, false, {}},
+  m_history->setColumns({{tr("Version"), 56, true, {}},
+                         {tr("Written"), 108, false, {}},
+                         {tr("By"), 58, false, {}},
                          {tr("How"), 0, false, {}}});
   QVector<QVector<DataCell>> rows;
   int chosen = -1;

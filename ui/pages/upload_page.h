@@ -87,6 +87,8 @@ class UploadPage : public Page {
   explicit UploadPage(QWidget* parent = nullptr);
   void setState(const UploadState& state);
   const UploadState& state() const { return m_state; }
+  /// The history, with the newest entry of this version chosen.
+  void showHistory(int version);
 
   QString title() const override;
   QString sentence() const override;

@@ -100,11 +100,39 @@ QString VerifyPage::sentence() const {
     case VerifyPhase::paused:
       return tr("Paused. Resume when the machine may run again.");
     case VerifyPhase::finished:
-      return m_state.correctionProposed
-                 ? tr("Some parts of the error are above the threshold. Look at the proposed correction.")
-                 : tr("The proof is complete. Save the report next.");
+      return finishedSentence();
   }
   return {};
+}
+
+QStringList VerifyPage::axesOverLimit() const {
+  QStringList axes;
+  for (const AxisResult& axis : m_state.results) {
+    if (axis.after_um > m_state.peakLimit_um) axes.append(axis.axis);
+  }
+  if (axes.isEmpty() && m_state.peakAfter_um > m_state.peakLimit_um) axes.append(m_state.afterAxis);
+  return axes;
+}
+
+/// What matters most comes first: an axis that got worse, then one over its limit, then a correction to look at.
+QString VerifyPage::finishedSentence() const {
+  const QStringList over = axesOverLimit();
+  if (!m_state.worseThanBefore.isEmpty()) {
+    QStringList axes;
+    for (const WorseThanBefore& axis : m_state.worseThanBefore) axes.append(axis.axis);
+    return tr("%1 is worse than with version %2: roll back, or correct it.")
+        .arg(axes.join(QStringLiteral(", ")))
+        .arg(m_state.versionBefore);
+  }
+  if (!over.isEmpty()) {
+    const QString what = m_state.correctionProposed ? tr("Look at the proposed correction.")
+                                                    : tr("Fit with a further run, or report it as it is.");
+    return tr("%1 is still above the limit of %2 µm.").arg(over.join(QStringLiteral(", "))).arg(m_state.peakLimit_um) +
+           QLatin1Char(' ') + what;
+  }
+  return m_state.correctionProposed
+             ? tr("Some parts of the error are above the threshold. Look at the proposed correction.")
+             : tr("The proof is complete: every axis keeps its limit. Save the report next.");
 }
 
 PageAction VerifyPage::primary() const {
@@ -132,17 +160,27 @@ QVector<PageAction> VerifyPage::secondary() const {
       return {{"abort", tr("Abort"), true, {}, tr("Stops the machine and drops this verification. Asks first.")},
               {"finish", tr("Finish"), true, {}, tr("Ends the run here and keeps what was measured. Asks first.")}};
     case VerifyPhase::finished:
-      if (m_state.correctionProposed) return {{"again", tr("Verify again")}, {"skip", tr("Leave as it is")}};
-      return {{"again", tr("Verify again")}};
+      break;
   }
-  return {};
+  QVector<PageAction> actions = {{"again", tr("Verify again")}};
+  if (m_state.correctionProposed) actions.append({"skip", tr("Leave as it is")});
+  if (!m_state.worseThanBefore.isEmpty()) {
+    actions.append({"rollback",
+                    tr("Roll back to version %1").arg(m_state.versionBefore),
+                    true,
+                    {},
+                    tr("Opens the history in Upload with that version chosen; it asks before it writes.")});
+  }
+  return actions;
 }
 
 QVector<Figure> VerifyPage::figures() const {
   const bool finished = m_state.phase == VerifyPhase::finished;
   Figure before = figureOf(tr("Peak without"), m_state.peakBefore_um, 1, "µm");
   if (!m_state.beforeAxis.isEmpty()) before.limit = tr("in %1").arg(m_state.beforeAxis);
-  before.tip = tr("Largest error of the warm-up run, over the minutes that the verification lasted.");
+  before.tip = m_state.sameRun
+                   ? tr("Largest error that this very run would have had without compensation: measured less applied.")
+                   : tr("Largest error of the warm-up run, over the minutes that the verification lasted.");
   Figure after = figureAtMost(tr("Peak with"), m_state.peakAfter_um, 1, "µm", m_state.peakLimit_um);
   if (!m_state.afterAxis.isEmpty()) after.limit = tr("in %1, %2").arg(m_state.afterAxis, after.limit);
   Figure rms = figureOf(tr("rms with"), m_state.rmsAfter_um, 2, "µm");
@@ -215,6 +253,14 @@ QStringList VerifyPage::words() const {
                    .arg(fixedText(axis.endBefore_um, 1));
     }
   }
+  for (const WorseThanBefore& axis : m_state.worseThanBefore) {
+    lines << tr("%1 is worse than with version %2: %3 µm rms now; over this same run version %2 would have left %4 µm. "
+                "Roll back to version %2?")
+                 .arg(axis.axis)
+                 .arg(m_state.versionBefore)
+                 .arg(axis.now_um, 0, 'f', 2)
+                 .arg(axis.before_um, 0, 'f', 2);
+  }
   if (m_state.peakAfter_um > 1.25 * m_state.promised_um) {
     lines << tr("The fit promised %1 µm, measured are %2 µm. The promise is of stretches of the warm-up run that were "
                 "left out, as means of some minutes each; this run goes through other speeds in another order, and "
@@ -222,7 +268,10 @@ QStringList VerifyPage::words() const {
                  .arg(m_state.promised_um, 0, 'f', 1)
                  .arg(m_state.peakAfter_um, 0, 'f', 1);
   }
-  lines << tr("A peak grows with the length of a run, so both runs are compared as far as the shorter one goes.");
+  lines << (m_state.sameRun
+                ? tr("Without is this same run less what was applied: the same speeds and the same minutes.")
+                : tr("Without is the warm-up run: other speeds, over the same minutes since the start of each run, as "
+                     "far as the shorter one goes."));
   return lines;
 }
 
@@ -237,7 +286,7 @@ void VerifyPage::render() {
                     m_state.correctionProposed ? tr("Correction proposed") : tr("Correction")});
   m_run->retranslate();
   m_result->setResults(m_state.results, std::isnan(m_state.compared_s) ? 0.0 : m_state.compared_s, m_state.peakLimit_um,
-                       words());
+                       m_state.sameRun, words());
   renderCorrection();
 }
 

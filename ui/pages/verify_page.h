@@ -41,6 +41,13 @@ struct AxisCorrection {
   QVector<double> corrected_um{};
 };
 
+/// An axis that the version before would have left less of, over the same run.
+struct WorseThanBefore {
+  QString axis{};
+  double before_um = 0.0;  // rms
+  double now_um = 0.0;
+};
+
 struct VerifyState {
   QString blocked{};
   VerifyPhase phase = VerifyPhase::ready;
@@ -50,6 +57,9 @@ struct VerifyState {
   QString beforeAxis{};  // of peakBefore_um
   QString afterAxis{};
   QVector<AxisResult> results{};
+  bool sameRun = false;   // "without" is the same run less what was applied; else the warm-up run
+  int versionBefore = 0;  // of the table that was active before this one; 0: none is known
+  QVector<WorseThanBefore> worseThanBefore{};
   double compared_s = std::numeric_limits<double>::quiet_NaN();
   double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most
   double rmsBefore_um = std::numeric_limits<double>::quiet_NaN();
@@ -78,7 +88,7 @@ class VerifyPage : public Page {
   QString sentence() const override;
   /// Start verification, Pause, Apply correction, Go on.
   PageAction primary() const override;
-  /// "finish", "abort", "again".
+  /// "finish", "abort", "again", "skip", "rollback".
   QVector<PageAction> secondary() const override;
   bool steersWork() const override { return true; }
 
@@ -96,6 +106,8 @@ class VerifyPage : public Page {
   QVector<Figure> figures() const;
   Figure removedFigure() const;
   QStringList words() const;
+  QStringList axesOverLimit() const;
+  QString finishedSentence() const;
 
   VerifyState m_state;
   ToggleSegment* m_view;

@@ -52,11 +52,12 @@ VerifyResult::VerifyResult(QWidget* parent) : QWidget(parent) {
   connect(m_table, &DataTable::rowSelected, this, [this] { renderPlot(); });
 }
 
-void VerifyResult::setResults(const QVector<AxisResult>& results, double compared_s, double limit_um,
+void VerifyResult::setResults(const QVector<AxisResult>& results, double compared_s, double limit_um, bool same_run,
                               const QStringList& words) {
   m_results = results;
   m_compared_s = compared_s;
   m_limit_um = limit_um;
+  m_sameRun = same_run;
   m_words->setText(words.join(QStringLiteral("\n\n")));
   renderTable();
   renderPlot();
@@ -66,9 +67,11 @@ void VerifyResult::renderTable() {
   m_tableCard->setTitle(tr("Axis by axis"));
   m_tableCard->setSubtitle(
       m_results.isEmpty() ? QString()
+      : m_sameRun         ? tr("largest error of the same %1 min").arg(m_compared_s / 60.0, 0, 'f', 0)
                           : tr("largest error in the first %1 min of each run").arg(m_compared_s / 60.0, 0, 'f', 0));
   m_table->setColumns({{tr("Axis"), 46, false, {}},
-                       {tr("Without"), 78, true, tr("Warm-up run, compensation off")},
+                       {tr("Without"), 78, true,
+                        m_sameRun ? tr("This run less what was applied") : tr("Warm-up run, compensation off")},
                        {tr("With"), 98, true, tr("Verification run, compensation on")},
                        {tr("Gain"), 0, false, tr("Share of the largest error that is gone")},
                        {tr("At the end"), 122, true, tr("Mean of the last tenth: without, with")}});
@@ -108,7 +111,7 @@ void VerifyResult::renderPlot() {
   }
   const AxisResult& axis = m_results[row];
   m_plotCard->setTitle(tr("%1 without and with compensation").arg(axis.axis));
-  m_plot->setAxisLabels(tr("time since the start of each run"), {});
+  m_plot->setAxisLabels(m_sameRun ? tr("time of the run") : tr("time since the start of each run"), {});
   m_plot->setLimits({{m_limit_um, tr("limit"), Judgement::bad}, {-m_limit_um, {}, Judgement::bad}});
   PartStyle style;
   style.unit = QStringLiteral("µm");

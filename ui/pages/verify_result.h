@@ -1,6 +1,6 @@
 #pragma once
-// What the compensation gained, axis by axis: the run without and the run with it over the same minutes since their
-// starts, drawn over one another and as figures.
+// What the compensation gained, axis by axis: the same stretch without and with it, drawn over one another and as
+// figures.
 
 #include <QString>
 #include <QVector>
@@ -37,8 +37,10 @@ class VerifyResult : public QWidget {
 
  public:
   explicit VerifyResult(QWidget* parent = nullptr);
-  /// `words`: what must be said about the figures, one sentence a line.
-  void setResults(const QVector<AxisResult>& results, double compared_s, double limit_um, const QStringList& words);
+  /// `same_run`: without is the run itself less what was applied, else the warm-up run. `words`: what must be said
+  /// about the figures, one sentence a line.
+  void setResults(const QVector<AxisResult>& results, double compared_s, double limit_um, bool same_run,
+                  const QStringList& words);
 
  private:
   void renderTable();
@@ -47,6 +49,7 @@ class VerifyResult : public QWidget {
   QVector<AxisResult> m_results;
   double m_compared_s = 0.0;
   double m_limit_um = 0.0;
+  bool m_sameRun = false;
   Card* m_plotCard;
   Card* m_tableCard;
   LegendRow* m_legend;

@@ -38,13 +38,20 @@ LogDrawer::LogDrawer(QWidget* parent) : QFrame(parent) {
   retranslate();
 }
 
+/// What is told again and again is one line with a count.
 void LogDrawer::append(const QDateTime& time, Judgement judgement, const QString& text) {
-  m_entries.append({time, judgement, text});
+  if (!m_entries.isEmpty() && m_entries.last().text == text && m_entries.last().judgement == judgement) {
+    ++m_entries.last().times;
+    m_entries.last().last = time;
+    return showEntry(m_entries.last(), true);
+  }
+  m_entries.append({time, judgement, text, 1, {}});
   if (m_entries.size() > longest) m_entries.removeFirst();
   showEntry(m_entries.last());
 }
 
-void LogDrawer::showEntry(const Entry& entry) {
+/// `again`: in place of the last line.
+void LogDrawer::showEntry(const Entry& entry, bool again) {
   const char* mark = entry.judgement == Judgement::bad    ? "✕"
                      : entry.judgement == Judgement::warn ? "!"
                      : entry.judgement == Judgement::ok   ? "✓"
@@ -52,12 +59,23 @@ void LogDrawer::showEntry(const Entry& entry) {
   const bool ill = entry.judgement == Judgement::bad || entry.judgement == Judgement::warn;
   QTextCharFormat format;
   format.setForeground(ill ? colors().ink(entry.judgement) : colors().text);
+  QString line = entry.time.toLocalTime().toString("HH:mm:ss  ") + QString::fromUtf8(mark) + "  " + entry.text;
+  if (entry.times > 1) {
+    line += "  " + tr("(%1 times, last %2)").arg(entry.times).arg(entry.last.toLocalTime().toString("HH:mm:ss"));
+  }
+  // Who reads above must not lose the place; who stands at the end sees what comes.
+  QScrollBar* bar = m_lines->verticalScrollBar();
+  const bool follows = bar->value() >= bar->maximum();
+  const int place = bar->value();
   QTextCursor cursor(m_lines->document());
   cursor.movePosition(QTextCursor::End);
+  if (again) {
+    cursor.select(QTextCursor::BlockUnderCursor);
+    cursor.removeSelectedText();
+  }
   if (!m_lines->document()->isEmpty()) cursor.insertBlock();
-  cursor.insertText(entry.time.toLocalTime().toString("HH:mm:ss  ") + QString::fromUtf8(mark) + "  " + entry.text,
-                    format);
-  m_lines->verticalScrollBar()->setValue(m_lines->verticalScrollBar()->maximum());
+  cursor.insertText(line, format);
+  bar->setValue(follows ? bar->maximum() : place);
 }
 
 void LogDrawer::showAll() {

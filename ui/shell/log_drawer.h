@@ -31,9 +31,11 @@ class LogDrawer : public QFrame {
     QDateTime time;
     Judgement judgement;
     QString text;
+    int times = 1;  // told so often, one after the other
+    QDateTime last{};
   };
   void retranslate();
-  void showEntry(const Entry& entry);
+  void showEntry(const Entry& entry, bool again = false);
   void showAll();
 
   QLabel* m_title;

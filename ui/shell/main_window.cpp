@@ -224,8 +224,11 @@ void MainWindow::showHead() {
   m_primary->setVisible(!primary.text.isEmpty());
   m_primary->setText(primary.text);
   m_primary->setEnabled(primary.enabled);
-  m_primary->setToolTip(primary.enabled ? tr("%1 (Ctrl+Enter)").arg(primary.text) : primary.reason);
-  m_primary->setAccessibleDescription(primary.enabled ? QString() : primary.reason);
+  const QString keys = tr("%1 (Ctrl+Enter)").arg(primary.text);
+  m_primary->setToolTip(!primary.enabled        ? primary.reason
+                        : primary.tip.isEmpty() ? keys
+                                                : keys + QLatin1Char('\n') + primary.tip);
+  m_primary->setAccessibleDescription(primary.enabled ? primary.tip : primary.reason);
 }
 
 /// The progress says more than the lamp beside it, and both have no room in a small window.

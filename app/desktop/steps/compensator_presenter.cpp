@@ -151,9 +151,8 @@ void CompensatorPresenter::drain() {
     if (!live.not_measured.empty()) forgetMeasured();
   }
   if (turns.empty()) return;
-  auto sample = bench().look() ? bench().look()->sample : acquisition::MachineSample();
-  sample.compensation_on = turns.back().live.turn.switch_on;
-  bench().tellSample(sample);
+  const auto& last = turns.back().live.turn;
+  bench().tellController(!last.link_lost, last.switch_on);
   refresh();
 }
 

@@ -106,7 +106,14 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     m_connecting = false;
     m_readings.clear();
     m_course.clear();
-    show(error);
+    // It is tried every second; the banner and the log say it once.
+    if (m_lostSaid != error.code) showOnly(error);
+    m_lostSaid = error.code;
+    refresh();
+  });
+  connect(&bench, &Workbench::controllerTold, this, [this] {
+    if (m_toldLost == this->bench().lost()) return;
+    m_toldLost = this->bench().lost();
     refresh();
   });
   connect(&bench, &Workbench::profileChanged, this, &MachinePresenter::refresh);
@@ -248,6 +255,7 @@ void MachinePresenter::looked() {
   const auto& look = bench().look();
   if (!look) return;
   m_lookedAt = QDateTime::currentDateTime();
+  if (std::exchange(m_lostSaid, std::nullopt)) m_page->clearProblem();
   if (!m_readings.empty() && m_readings.back().size() != look->sample.temperature_C.size()) {
     m_readings.clear();
     m_course.clear();
@@ -279,9 +287,12 @@ QString MachinePresenter::connectionText() const {
 void MachinePresenter::refresh() {
   ui::MachineState state;
   state.jobOpen = bench().job() != nullptr;
-  state.connected = bench().connected();
-  state.connecting = m_connecting;
+  // A step that lost the controller asks again by itself; until it answers, what stands here is how it was.
+  const bool lost = bench().lost() && bench().tasks().running();
+  state.connected = bench().connected() && !bench().lost();
+  state.connecting = m_connecting || lost;
   state.compensationOn = bench().compensationOn();
+  if (const auto upload = bench().body("upload"); upload.is_object()) state.writtenVersion = upload.value("version", 0);
   state.sampleAvailable = find_resource("samples/sample.zdj").has_value();
   state.address = connectionText();
   const QStringList recent = recentJobs();
@@ -299,7 +310,11 @@ void MachinePresenter::refresh() {
   if (bench().look()) {
     fillSensors(state);
     fillRest(state);
-    fillParts(state);
+    if (lost) {
+      state.keptFrom = m_lookedAt.toString(QStringLiteral("d MMM yyyy, HH:mm:ss"));
+    } else {
+      fillParts(state);
+    }
   } else if (!m_connecting) {
     fillKept(state);
   }
@@ -314,6 +329,7 @@ void MachinePresenter::sayWhenOld() {
   if (old == m_saidOld) return;
   m_saidOld = old;
   if (!old) return m_page->clearProblem();
+  if (bench().lost()) return;  // said by the state
   tell([at = m_lookedAt] {
     return ui::Problem{ui::ProblemKind::note,
                        tr("Something runs on the machine: what stands here was seen at %1.")

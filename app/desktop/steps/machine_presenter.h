@@ -5,6 +5,7 @@
 #include <QHash>
 #include <QVector>
 #include <deque>
+#include <optional>
 
 #include "app/desktop/demo_machine.h"
 #include "app/desktop/map_editor.h"
@@ -63,6 +64,8 @@ class MachinePresenter : public Presenter {
   QHash<QString, QDateTime> m_alive;  // when a sensor last had a value
   QDateTime m_lookedAt;               // when the machine was last looked at: a run has it to itself
   bool m_saidOld = false;
+  std::optional<ErrorCode> m_lostSaid;  // the trouble that stands in the banner
+  bool m_toldLost = false;
   std::function<void()> m_whenReady;
 };
 

@@ -125,7 +125,9 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     row.id = QString::fromStdString(channel);
     row.tag = tag_of(channel);
     for (const auto& known : labels) {
-      if (known.value("channel", "") == channel) row.label = coreText(known.value("label", ""));
+      if (known.value("channel", "") != channel) continue;
+      row.label = coreText(known.value("label", ""));
+      row.note = coreText(known.value("note", ""));
     }
     row.cluster = sensor.value("cluster", 1) - 1;
     row.kept = std::find(chosen.begin(), chosen.end(), channel) != chosen.end();
@@ -143,6 +145,16 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
       row.pc2 = pc[1].get<double>();
     }
     state.sensors.append(row);
+  }
+  for (const auto& sensor : body.value("left_out", json::array())) {
+    ui::SensorRow row;
+    const std::string channel = sensor.value("channel", "");
+    row.id = QString::fromStdString(channel);
+    row.tag = tag_of(channel);
+    row.label = coreText(sensor.value("label", ""));
+    row.cluster = -1;
+    row.note = coreText(sensor.value("reason", ""));
+    state.sensors.prepend(row);  // where it is seen
   }
   state.clusters = static_cast<int>(body.value("clusters", json::array()).size());
   const json suggested = body.value("suggested_clusters", json::object());

@@ -95,8 +95,12 @@ void UploadPresenter::fillHistory(ui::UploadState& state) const {
   if (m_preview) {
     active = controller::ActiveTable{m_preview->record.old_words, m_preview->record.old_sequence, 0};
   } else if (const json body = workbench.body("upload"); body.is_object()) {
-    active = controller::ActiveTable{body.at("record").value("new_words", std::vector<std::uint16_t>{}),
-                                     body.value("version", 0), 0};
+    // Away from the machine the job's table is taken for the active one as long as nothing says otherwise.
+    const controller::ActiveTable written{body.at("record").value("new_words", std::vector<std::uint16_t>{}),
+                                          body.value("version", 0), 0};
+    const bool last = !m_log.entries.empty() && m_log.entries.back().version == written.sequence &&
+                      controller::holds(m_log.entries.back(), written);
+    if (last) active = written;
   }
   state.history = history_of(m_log, active, *profile);
   if (!workbench.connected()) state.rollbackBlocked = tr("No machine is connected: connect it on the Machine page.");

@@ -289,8 +289,8 @@ void UploadPresenter::rollBack(const QString& id) {
   if (!profile || job == nullptr || m_writing) return;
   runTask<RollbackPreview>(
       tr("Reading the table in the machine"),
-      [profile = *profile, id = id.toStdString()](const TaskContext& context) {
-        return preview_roll_back(profile, id, context);
+      [profile = *profile, job, id = id.toStdString()](const TaskContext& context) {
+        return preview_roll_back(*job, profile, id, context);
       },
       [this, model = latestModel(*job)](Result<RollbackPreview> seen) {
         if (!seen) return;
@@ -300,6 +300,10 @@ void UploadPresenter::rollBack(const QString& id) {
         refresh();  // the difference stands on the page while it is asked
         askAndRollBack();
       });
+}
+
+void UploadPresenter::proposeRollback(int version) {
+  m_page->showHistory(version);
 }
 
 void UploadPresenter::askAndRollBack() {
@@ -323,13 +327,14 @@ void UploadPresenter::askAndRollBack() {
           .arg(record.old_sequence)
           .arg(change),
       tr("Go back"));
-  if (!agreed || !profile || job == nullptr) {
+  const auto permit = agreed && profile && job != nullptr
+                          ? permit_for(bench(), m_page, tr("Going back to version %1").arg(version))
+                          : std::nullopt;
+  if (!permit) {
     m_goingBack.reset();
     m_preview.reset();
     return enter();
   }
-  const auto permit = permit_for(bench(), m_page, tr("Going back to version %1").arg(version));
-  if (!permit) return;
   m_writing = true;
   m_failed = false;
   m_steps.clear();
@@ -356,14 +361,11 @@ void UploadPresenter::readLog() {
   m_log = {};
   if (job == nullptr || !machine.is_object()) return;
   const auto serial = machine.at("identity").value("serial", 0U);
-  const controller::TableHistory history;
-  Status good = history.adopt(serial, flow::tables_of(*job, serial));
-  if (auto log = history.read(serial)) {
-    m_log = std::move(*log);
+  if (auto log = controller::TableHistory().read(serial)) {
+    m_log = controller::with_missing(std::move(*log), flow::tables_of(*job, serial));
   } else {
-    good = fail(log.error());
+    show(log.error());
   }
-  if (!good) show(good.error());
 }
 
 void UploadPresenter::checkSign() {

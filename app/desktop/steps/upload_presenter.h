@@ -28,6 +28,8 @@ class UploadPresenter : public Presenter {
   void tour(std::function<void(bool good)> done) override;
   /// Writes this table instead of the model's: the correction found by a verification. Asks first.
   void writeCorrection(const compensation::Table& table, std::function<void(bool good)> done);
+  /// Shows the history with this version chosen; nothing is written before a person has said so.
+  void proposeRollback(int version);
   /// In the tour nobody is there to be asked.
   void setAsking(bool asking) { m_asking = asking; }
 

@@ -6,6 +6,7 @@
 
 #include "core/flow/flow.h"
 #include "core/flow/steps/inputs.h"
+#include "core/flow/steps/verify_compare.h"
 #include "core/report/comparison.h"
 #include "ui/pages/verify_page.h"
 
@@ -87,6 +88,10 @@ void VerifyPresenter::primary() {
 void VerifyPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("again")) m_again = true;
   if (action == QStringLiteral("skip")) m_skipped = true;
+  if (action == QStringLiteral("rollback")) {
+    Q_EMIT rollbackWanted(m_page->state().versionBefore);
+    return;
+  }
   steer(action);
   refresh();
 }
@@ -136,7 +141,7 @@ void VerifyPresenter::fillRun(ui::VerifyState& state) {
   if (feed().measuredAt_s() >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - feed().measuredAt_s());
 }
 
-/// Both runs over the same minutes; computed here so that jobs of any age are shown alike.
+/// The reference is the one the job's figures have: page and report say the same.
 void VerifyPresenter::compare(const json& body) {
   m_axes.clear();
   const auto warmup = flow::need(*bench().job(), "verify", "warmup");
@@ -144,7 +149,10 @@ void VerifyPresenter::compare(const json& body) {
   const auto before = flow::run_of(*bench().job(), *warmup);
   const auto after = bench().job()->read_series(body.at("series").get<long long>());
   if (!before || !after) return;
-  const auto compared = report::compare_runs(*before, *after);
+  flow::VerificationReference reference{*before, false};
+  if (body.value("reference", "") == "same_run") reference = flow::reference_of(*after, *before);
+  m_sameRun = reference.same_run;
+  const auto compared = report::compare_runs(reference.without, *after);
   m_compared_s = compared.span_s;
   for (const auto& axis : compared.axes) {
     ui::AxisResult row;
@@ -155,7 +163,7 @@ void VerifyPresenter::compare(const json& body) {
     row.endBefore_um = axis.end_before_um;
     row.endAfter_um = axis.end_after_um;
     const std::string channel = "d" + axis.axis + "_um";
-    measured_until(*before, channel, compared.span_s, row.beforeTime_s, row.before);
+    measured_until(reference.without, channel, compared.span_s, row.beforeTime_s, row.before);
     measured_until(*after, channel, compared.span_s, row.afterTime_s, row.after);
     m_axes.append(row);
   }
@@ -167,6 +175,7 @@ void VerifyPresenter::fillAxes(ui::VerifyState& state, const json& body) {
   if (m_axesOf != (*artefact)->id) compare(body);
   m_axesOf = (*artefact)->id;
   state.results = m_axes;
+  state.sameRun = m_sameRun;
   state.compared_s = m_compared_s;
   double before_um = std::nan("");
   double after_um = std::nan("");
@@ -184,6 +193,14 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   state.rmsAfter_um = largest(body, "rms_error_after_um");
   state.peakLimit_um = body.value("limit_um", flow::VerifyOptions().limit_um);
   fillAxes(state, body);
+  if (const json before = body.value("version_before", json()); before.is_object()) {
+    state.versionBefore = before.value("version", 0);
+    for (const auto& axis : before.value("axes", json::array())) {
+      if (!axis.value("worse", false)) continue;
+      state.worseThanBefore.append({QString::fromStdString(axis.value("axis", "")), axis.value("rms_before_um", 0.0),
+                                    axis.value("rms_now_um", 0.0)});
+    }
+  }
   const json model = bench().body("model");
   if (model.is_object()) {
     for (const auto& figure : model.value("figures", json::array())) {

@@ -20,6 +20,8 @@ class VerifyPresenter : public RunPresenter {
  Q_SIGNALS:
   /// Writes the table (it asks first) and tells how that ended.
   void correctionWanted(const zerodrift::compensation::Table& table, std::function<void(bool good)> done);
+  /// Going back to this version is to be looked at, where transactions are.
+  void rollbackWanted(int version);
 
  private:
   void primary();
@@ -46,6 +48,7 @@ class VerifyPresenter : public RunPresenter {
   QVector<ui::AxisResult> m_axes;  // of the verification m_axesOf
   long long m_axesOf = 0;
   double m_compared_s = 0.0;
+  bool m_sameRun = false;
 };
 
 }  // namespace zerodrift::desktop

@@ -1,8 +1,12 @@
 #include "core/flow/steps/sensors_step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/acquisition/happening.h"
 #include "core/analysis/budget.h"
 #include "core/analysis/clustering.h"
 #include "core/analysis/sensor_choice.h"
@@ -58,6 +62,28 @@ Result<json> budget_of(const analysis::TrainingSet& training, const TaskContext&
   return list;
 }
 
+/// Sensors that the run named stuck or dead, with what it said of them: none of these is proposed.
+std::map<std::string, std::string> named_by(const json& warmup) {
+  std::map<std::string, std::string> named;
+  const auto happened = warmup.find("happened");
+  if (happened == warmup.end()) return named;
+  for (const auto& one : acquisition::happenings_from_json(*happened)) {
+    if (one.overcome || !one.name.starts_with("sensor_")) continue;
+    const std::string fault = one.name.substr(std::string("sensor_").size());
+    for (const auto& sensor : one.what) {
+      std::string& said = named[sensor];
+      said += (said.empty() ? "" : ", ") + fault;
+    }
+  }
+  return named;
+}
+
+/// The run without these sensors.
+recording::Recording without(recording::Recording run, const std::map<std::string, std::string>& left_out) {
+  std::erase_if(run.channels, [&](const recording::Channel& channel) { return left_out.contains(channel.name); });
+  return run;
+}
+
 /// Of the blocks of the first run, as the clustering states its own.
 double condition_of(const analysis::TrainingSet& training, const Names& chosen) {
   const auto& samples = training.samples.front().temperature_C;
@@ -76,7 +102,11 @@ double condition_of(const analysis::TrainingSet& training, const Names& chosen) 
 Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job, const SensorsOptions& options,
                                                   const TaskContext& context) {
   ZD_TRY(const Input warmup, need(job, "sensors", "warmup"));
-  ZD_TRY(const auto run, run_of(job, warmup));
+  ZD_TRY(const auto whole, run_of(job, warmup));
+  const auto named = named_by(warmup.body);
+  auto left_out = named;
+  for (const auto& taken : options.chosen) left_out.erase(taken);  // by hand, against the advice
+  const auto run = without(whole, left_out);
   ZD_TRY(const auto machine, job.latest("machine"));
   controller::Profile profile;  // of no machine when the run was imported: then the sensors have no labels
   if (machine) {
@@ -99,22 +129,33 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   body["choice"] = analysis::to_json(choice);
   ZD_TRY(body["price"], price_of(training, chosen, context));
   ZD_TRY(body["budget"], budget_of(training, context));
-  body["condition_number"]["chosen"] = condition_of(training, chosen);
+  ZD_TRY(body["condition_number"]["chosen"], analysis::fitted_condition(training, chosen));
+  body["condition_number"]["chosen_temperatures"] = condition_of(training, chosen);
   body["chosen"] = chosen;
   body["chosen_by"] = options.chosen.empty() ? std::string(analysis::name_of(best.kind)) : "hand";
+  const auto label_of = [&](const std::string& channel) -> std::string {
+    for (const auto& known : profile.sensors) {
+      if (known.channel == channel) return known.label;
+    }
+    return "";
+  };
   json table = json::array();
   for (const auto& sensor : clusters.sensors) {
-    std::string label;
-    for (const auto& known : profile.sensors) {
-      if (known.channel == sensor.sensor) label = known.label;
-    }
     table.push_back({{"channel", sensor.sensor},
-                     {"label", label},
+                     {"label", label_of(sensor.sensor)},
+                     {"note", named.contains(sensor.sensor) ? named.at(sensor.sensor) + " in the warm-up run" : ""},
                      {"cluster", sensor.cluster + 1},
                      {"correlation_sum", clusters.absolute_criterion ? sensor.absolute_sum : sensor.signed_sum},
                      {"kept", std::find(chosen.begin(), chosen.end(), sensor.sensor) != chosen.end()}});
   }
   body["table"] = table;
+  body["left_out"] = json::array();
+  for (const auto& [channel, fault] : left_out) {
+    if (whole.find(channel) == nullptr) continue;
+    body["left_out"].push_back({{"channel", channel},
+                                {"label", label_of(channel)},
+                                {"reason", fmt::format("{} in the warm-up run, so it is not proposed", fault)}});
+  }
   return commissioning::NewArtefact::of("sensors", body, {warmup.id});
 }
 

@@ -5,8 +5,9 @@
 //   "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets} (core/analysis/sensor_choice.h),
 //   "price": {held_out_rms_um, held_out_peak_um (of the chosen), all_rms_um, change_um {sensor: change of the rms when
 //   a kept one is dropped or a left one is added}}, "budget": [{sensors, added, held_out_rms_um, held_out_peak_um}],
-//   "condition_number": {..., chosen},
-//   "table": [{channel, label, cluster, correlation_sum, kept}]
+//   "condition_number": {..., chosen (of the fit, its penalty included), chosen_temperatures},
+//   "table": [{channel, label, note, cluster, correlation_sum, kept}],
+//   "left_out": [{channel, label, reason}]: sensors the run named stuck or dead; taken only by hand
 
 #include <string>
 #include <vector>

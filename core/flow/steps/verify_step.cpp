@@ -6,6 +6,7 @@
 
 #include "core/compensation/residual.h"
 #include "core/flow/steps/inputs.h"
+#include "core/flow/steps/verify_compare.h"
 #include "core/report/comparison.h"
 
 namespace zerodrift::flow {
@@ -17,9 +18,8 @@ namespace {
 constexpr double axis_threshold_um = 1.0;  // once the table is written again: what is worth correcting in each axis
 const std::string no_correction = "no correction: ";
 
-std::map<std::string, std::vector<compensation::ResidualSample>> residuals_of(const recording::Recording& run,
-                                                                              const compensation::Table& table) {
-  std::map<std::string, std::vector<compensation::ResidualSample>> samples;
+ResidualSamples residuals_of(const recording::Recording& run, const compensation::Table& table) {
+  ResidualSamples samples;
   const auto sensors = compensation::sensors_of(table);
   for (const auto& [axis, record] : table.axes) {
     const auto* error = run.find("d" + axis + "_um");
@@ -69,14 +69,16 @@ void propose_correction(const recording::Recording& run, const compensation::Tab
   if (any && needed) body["corrected_table"] = compensation::to_json(correction->table);
 }
 
-void add_figures(const recording::Recording& before, const recording::Recording& after, double limit_um, json& body) {
+void add_figures(const recording::Recording& warmup, const recording::Recording& after, double limit_um, json& body) {
   bool passed = true;
   for (const auto& [direction, size] : error_sizes(after)) {
     body["peak_error_after_um"][direction] = size.peak_um;
     body["rms_error_after_um"][direction] = size.rms_um;
     passed = passed && size.peak_um <= limit_um;
   }
-  const auto compared = report::compare_runs(before, after);
+  const auto reference = reference_of(after, warmup);
+  const auto compared = report::compare_runs(reference.without, after);
+  body["reference"] = reference.same_run ? "same_run" : "warmup";
   body["compared_s"] = compared.span_s;
   for (const auto& axis : compared.axes) {
     body["peak_error_before_um"][axis.axis] = axis.before_um;
@@ -125,6 +127,7 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   json body = run.body();
   body["machine_time_s"] = {start.machine_time_s, start.machine_time_s + run.summary.duration_s};
   add_figures(before, after, options.limit_um, body);
+  body["version_before"] = version_before(job, upload.id, residuals_of(after, table), table);
   propose_correction(after, table, std::min(options.limit_um, options.threshold_um), body);
   return commissioning::NewArtefact::of("verification", body, {warmup.id, calibration.id, upload.id});
 }

@@ -4,7 +4,9 @@
 // "verification":
 //   {...as warm-up..., "peak_error_after_um": {"X", ...}, "rms_error_after_um" of the whole run,
 //    "compared_s", "peak_error_before_um", "rms_error_before_um", "removed_percent", "end_error_before_um",
-//    "end_error_after_um" over the same time since each run's start, as long as both went,
+//    "end_error_after_um" over the same stretch, "reference": "same_run" (this run less what was applied) | "warmup"
+//    (the same time since each run's start, as long as both went), "version_before": what the table before would have
+//    left (verify_compare.h) | null,
 //    "limit_um", "threshold_um", "verdict": "passed"|"failed", "kappa": {...}, "correction": [...],
 //    "corrected_table": {...} | null, "machine_time_s": [from, to]}
 

@@ -81,6 +81,7 @@ void fillUpload(Page* page, const QString& scene) {
   s.history[2].blocked = "Version 3 is the same table as the active one.";
   s.history[3].proposed = true;
   upload->setState(s);
+  if (scene == "history") upload->showHistory(2);
 }
 
 void fillVerify(Page* page, const QString& scene) {
@@ -117,6 +118,12 @@ void fillVerify(Page* page, const QString& scene) {
       r.after = warming(r.afterTime_s, 0, r.after_um, 2400, 0.2, i + 3);
       s.results.append(r);
     }
+  }
+  if (scene == "worse") {
+    s.sameRun = true;
+    s.correctionProposed = false;
+    s.versionBefore = 1;
+    s.worseThanBefore = {{"X", 1.2, 2.9}};
   }
   const auto time = timeAxis(5400, 30);
   const char* names[] = {"X", "Y", "Z"};
@@ -169,7 +176,7 @@ void fillVerify(Page* page, const QString& scene) {
   marks.trailEnlargement = 50;
   verify->run()->setFrame(cameraImage(640, 480), marks);
   verify->setState(s);
-  verify->showView(scene == "correction" ? 1 : 0);
+  verify->showView(scene == "correction" || scene == "worse" ? 1 : 0);
 }
 
 static QImage sheet(int number) {

@@ -1,0 +1,103 @@
+#include "core/flow/steps/verify_compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace zerodrift::flow {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double told_worse_um = 0.15;  // rms: less is within what the camera may be wrong by from run to run
+
+/// Measured minus applied in this direction, where both are there; false where nothing was applied or recorded.
+bool take_out_applied(recording::Recording& run, const std::string& axis) {
+  auto* error = run.find("d" + axis + "_um");
+  const auto* applied_nm = run.find("applied_" + axis + "_nm");
+  if (error == nullptr || applied_nm == nullptr || recording::present_count(*applied_nm) == 0) return false;
+  for (std::size_t r = 0; r < run.rows(); ++r) {
+    if (std::isnan(error->values[r])) continue;
+    error->values[r] -= 1e-3 * recording::value_at(run, *applied_nm, run.time_s[r]);
+  }
+  return true;
+}
+
+struct Size {
+  double peak_um = 0.0;
+  double squares = 0.0;
+  int count = 0;
+
+  void add(double value_um) {
+    peak_um = std::max(peak_um, std::abs(value_um));
+    squares += value_um * value_um;
+    ++count;
+  }
+  double rms_um() const { return count > 0 ? std::sqrt(squares / count) : 0.0; }
+};
+
+}  // namespace
+
+VerificationReference reference_of(const recording::Recording& verification, const recording::Recording& warmup) {
+  VerificationReference reference{verification, true};
+  for (const char* axis : {"X", "Y", "Z"}) {
+    const auto* error = verification.find("d" + std::string(axis) + "_um");
+    if (error == nullptr || recording::present_count(*error) == 0) continue;
+    if (!take_out_applied(reference.without, axis)) return {warmup, false};
+  }
+  return reference;
+}
+
+std::vector<AxisAgainstBefore> against_before(const ResidualSamples& samples, const compensation::Table& now,
+                                              const compensation::Table& before) {
+  std::vector<AxisAgainstBefore> axes;
+  for (const auto& [axis, measured] : samples) {
+    Size size_now;
+    Size size_before;
+    for (const auto& sample : measured) {
+      if (std::isnan(sample.residual_um)) continue;
+      const auto error_of = [&](const compensation::Table& table) -> double {
+        if (!table.axes.contains(axis)) return 0.0;
+        return compensation::error_um(table, axis, sample.position_mm, compensation::Approach::up, sample.temperatures)
+            .value_or(std::nan(""));
+      };
+      // What a table says more is compensated more: left before = left now + said now - said before.
+      const double left_before = sample.residual_um + error_of(now) - error_of(before);
+      if (std::isnan(left_before)) continue;
+      size_now.add(sample.residual_um);
+      size_before.add(left_before);
+    }
+    if (size_now.count == 0) continue;
+    const bool worse = size_now.rms_um() > size_before.rms_um() + told_worse_um;
+    axes.push_back({axis, size_before.rms_um(), size_now.rms_um(), size_before.peak_um, size_now.peak_um, worse});
+  }
+  return axes;
+}
+
+json version_before(const commissioning::Job& job, commissioning::ArtefactId upload, const ResidualSamples& samples,
+                    const compensation::Table& now) {
+  const auto uploads = job.history("upload");
+  if (!uploads) return nullptr;
+  std::optional<json> former;
+  for (const auto& one : *uploads) {
+    if (one.id >= upload) break;
+    if (auto body = one.document()) former = std::move(*body);
+  }
+  if (!former || !former->contains("table")) return nullptr;
+  const auto table = compensation::table_from_json(former->at("table"), "the table before");
+  if (!table || table->axes.empty()) return nullptr;
+  json axes = json::array();
+  for (const auto& axis : against_before(samples, now, *table)) {
+    axes.push_back({{"axis", axis.axis},
+                    {"rms_before_um", axis.rms_before_um},
+                    {"rms_now_um", axis.rms_now_um},
+                    {"peak_before_um", axis.peak_before_um},
+                    {"peak_now_um", axis.peak_now_um},
+                    {"worse", axis.worse}});
+  }
+  return {{"version", former->value("version", 0)}, {"axes", std::move(axes)}};
+}
+
+}  // namespace zerodrift::flow

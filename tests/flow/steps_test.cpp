@@ -1,0 +1,190 @@
+// Steps on data made here: what a verification is compared with, and which sensors are proposed.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/flow/steps/import_step.h"
+#include "core/flow/steps/sensors_step.h"
+#include "core/flow/steps/upload_step.h"
+#include "core/flow/steps/verify_compare.h"
+
+namespace zerodrift::flow {
+namespace {
+
+using commissioning::Job;
+using commissioning::NewArtefact;
+using nlohmann::json;
+
+constexpr int rows = 240;
+
+double warming(double time_s, double end, double tau_s) {
+  return end * (1.0 - std::exp(-time_s / tau_s));
+}
+
+/// Four hours at two speeds, six sensors of different bodies; Z follows the first and the fourth.
+recording::Recording warm_up() {
+  recording::Recording run;
+  run.name = "made here";
+  auto& speed = run.ensure("spindle_rpm");
+  for (int i = 0; i < rows; ++i) run.time_s.push_back(60.0 * i);
+  speed.values.assign(rows, 3000.0);
+  for (int i = rows / 2; i < rows; ++i) speed.values[static_cast<std::size_t>(i)] = 0.0;
+  const auto shape = [&](double tau_s, int i) {
+    const double t = 60.0 * i;
+    const double half = 30.0 * rows;
+    return t <= half ? warming(t, 1.0, tau_s) : warming(half, 1.0, tau_s) * std::exp(-(t - half) / tau_s);
+  };
+  for (int s = 1; s <= 6; ++s) {
+    auto& sensor = run.ensure("T" + std::to_string(s) + "_C");
+    for (int i = 0; i < rows; ++i) {
+      // A reading's own small scatter, the same in every run of the test.
+      const double scatter = 0.02 * std::sin(12.9898 * i + 78.233 * s);
+      sensor.values[static_cast<std::size_t>(i)] = 20.0 + (2.0 + s) * shape(500.0 * s, i) + scatter;
+    }
+  }
+  auto& z = run.ensure("dZ_um");
+  for (int i = 0; i < rows; ++i) {
+    z.values[static_cast<std::size_t>(i)] = 20.0 * shape(500.0, i) + 15.0 * shape(2000.0, i);
+  }
+  return run;
+}
+
+class StepsTest : public testing::Test {
+ protected:
+  StepsTest() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "zerodrift-steps-XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+    job.emplace(std::move(*Job::create(folder / "a.zdj")));
+  }
+  ~StepsTest() override {
+    job.reset();
+    std::filesystem::remove_all(folder);
+  }
+
+  /// The run in the job, with these faults named by it.
+  void keep_run(const json& happened) {
+    auto made = import_warmup(*job, warm_up(), "run.csv");
+    ASSERT_TRUE(made) << describe(made.error());
+    json body = json::parse(made->body);
+    body["happened"] = happened;
+    ASSERT_TRUE(job->put(NewArtefact::of("warmup", body, made->inputs)));
+  }
+  json chosen_with(const SensorsOptions& options) {
+    const auto made = choose_sensors(*job, options, {});
+    EXPECT_TRUE(made) << describe(made.error());
+    return made ? json::parse(made->body) : json();
+  }
+  static bool has(const json& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  }
+
+  std::filesystem::path folder;
+  std::optional<Job> job;
+};
+
+compensation::Table table_of(double um_per_K) {
+  compensation::Table table;
+  table.axes["Z"].terms = {{"T1_C", um_per_K, 20.0, 0.0}};
+  return table;
+}
+
+}  // namespace
+
+TEST_F(StepsTest, ASensorThatTheRunNamedIsLeftOutWithTheReason) {
+  SensorsOptions options;
+  options.clusters = 3;
+  keep_run(json::array());
+  const json before = chosen_with(options);
+  ASSERT_FALSE(before["chosen"].empty());
+  EXPECT_TRUE(before["left_out"].empty());
+  const std::string best = before["chosen"].at(0);
+  keep_run({{{"name", "sensor_stuck"}, {"what", json::array({best})}, {"count", 1}, {"overcome", false}},
+            {{"name", "machine_busy"}, {"what", json::array()}, {"count", 3}, {"overcome", true}}});
+  const json after = chosen_with(options);
+  EXPECT_FALSE(has(after["chosen"], best));
+  ASSERT_EQ(after["left_out"].size(), 1U);
+  EXPECT_EQ(after["left_out"][0]["channel"], best);
+  EXPECT_NE(after["left_out"][0]["reason"].get<std::string>().find("stuck"), std::string::npos);
+  // By hand it may be taken all the same; the table still says what the run said of it.
+  SensorsOptions hand = options;
+  hand.chosen = {best, after["chosen"].at(0)};
+  const json taken = chosen_with(hand);
+  EXPECT_TRUE(has(taken["chosen"], best));
+  EXPECT_TRUE(taken["left_out"].empty());
+  for (const auto& row : taken["table"]) {
+    EXPECT_EQ(row["note"].get<std::string>().empty(), row["channel"] != best) << row;
+  }
+}
+
+// Measured = error + applied: less what was applied it is the very same run without compensation.
+TEST(VerificationReference, IsTheSameRunWithoutWhatWasApplied) {
+  const auto warmup = warm_up();
+  recording::Recording after = warmup;
+  auto& applied = after.ensure("applied_Z_nm");
+  auto* z = after.find("dZ_um");
+  for (std::size_t r = 0; r < after.rows(); ++r) {
+    applied.values[r] = -1000.0 * (0.9 * warmup.find("dZ_um")->values[r]);
+    z->values[r] += 1e-3 * applied.values[r];
+  }
+  const auto reference = reference_of(after, warmup);
+  ASSERT_TRUE(reference.same_run);
+  for (std::size_t r = 0; r < after.rows(); ++r) {
+    EXPECT_NEAR(reference.without.find("dZ_um")->values[r], warmup.find("dZ_um")->values[r], 1e-9);
+  }
+  const auto compared = report::compare_runs(reference.without, after);
+  ASSERT_EQ(compared.axes.size(), 1U);
+  EXPECT_NEAR(compared.axes[0].removed_percent, 90.0, 1e-6);
+  // Nothing applied was recorded: the warm-up run stands for it, and that is said.
+  EXPECT_FALSE(reference_of(warmup, warmup).same_run);
+}
+
+TEST(AgainstBefore, NamesTheAxisThatGotWorse) {
+  ResidualSamples samples;
+  for (int i = 0; i < 50; ++i) {
+    compensation::ResidualSample sample;
+    sample.temperatures["T1_C"] = 20.0 + 0.1 * i;
+    const double error_um = 2.0 * (sample.temperatures["T1_C"] - 20.0);  // of the machine: 2 um/K
+    sample.residual_um = error_um - 1.5 * (sample.temperatures["T1_C"] - 20.0);
+    samples["Z"].push_back(sample);
+  }
+  const auto worse = against_before(samples, table_of(1.5), table_of(2.0));
+  ASSERT_EQ(worse.size(), 1U);
+  EXPECT_TRUE(worse[0].worse);
+  EXPECT_NEAR(worse[0].peak_before_um, 0.0, 1e-9);
+  EXPECT_NEAR(worse[0].peak_now_um, 2.45, 1e-9);
+  EXPECT_FALSE(against_before(samples, table_of(1.5), table_of(1.0))[0].worse);
+  EXPECT_FALSE(against_before(samples, table_of(1.5), table_of(1.49))[0].worse);  // the same, as far as one can tell
+}
+
+// What a job wrote is known from the job, for a computer that has no log of the machine; jobs of any age.
+TEST_F(StepsTest, TheTablesAJobWroteAreKnown) {
+  const auto body = [](int version, json more) {
+    json made = {{"table", compensation::to_json(table_of(1.0))},
+                 {"version", version},
+                 {"record",
+                  {{"serial", 7},
+                   {"started", "2026-01-01T00:00:00.000Z"},
+                   {"sequence", version},
+                   {"new_words", {1, 0, version}}}}};
+    made.update(more);
+    return made;
+  };
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", body(1, json::object()))));
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", body(2, {{"kind", "correction"}}))));
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", body(3, {{"rolled_back", true}}))));  // as older versions said it
+  const auto tables = tables_of(*job, 7);
+  ASSERT_EQ(tables.size(), 3U);
+  EXPECT_EQ(tables[0].origin, controller::TableOrigin::upload);
+  EXPECT_EQ(tables[1].origin, controller::TableOrigin::correction);
+  EXPECT_EQ(tables[2].origin, controller::TableOrigin::rollback);
+  EXPECT_EQ(tables[2].version, 3);
+  EXPECT_FALSE(tables[2].time.empty());
+  EXPECT_TRUE(tables_of(*job, 8).empty());
+}
+
+}  // namespace zerodrift::flow
