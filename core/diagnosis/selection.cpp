@@ -176,10 +176,10 @@ class Selector {
     m_result.described = selection.described;
     m_result.screened = selection.screened;
     m_result.base = std::make_shared<Model>(selection.base->machine(), data);
-    m_result.base->start_from(*selection.base, false);
+    m_result.base->continue_from(*selection.base);
     m_result.base->fit({});
     m_result.best = std::make_shared<Model>(selection.best->machine(), data);
-    m_result.best->start_from(*selection.best, false);
+    m_result.best->continue_from(*selection.best);
     m_result.best->fit({20, 0.05, true});
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     eliminate();
@@ -196,7 +196,7 @@ class Selector {
  private:
   static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data) {
     auto result = std::make_shared<Model>(model.machine(), data);
-    result->start_from(model, false);
+    result->continue_from(model);
     result->fit({20, 0.05, true});
     return result;
   }
@@ -221,7 +221,7 @@ class Selector {
     auto data =
         std::make_shared<Dataset>(with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
     auto result = std::make_shared<Model>(model->machine(), data);
-    result->start_from(*model, false);
+    result->continue_from(*model);
     result->gain = model->gain;
     result->fit({12, 0.05, true});
     return result;
@@ -264,7 +264,8 @@ class Selector {
     if (forms && count < m_result.described + 2) return false;
     for (std::size_t i = m_result.described; i < count; ++i) {
       const auto rivals = in_place_of(*m_result.best, i, m_facts, forms);
-      if (rivals.empty() || rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
+      if (rivals.empty() || doubles_a_joint(*rivals.front())) continue;
+      if (rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
       m_result.best = rivals.front();
       return true;
     }
@@ -300,6 +301,7 @@ class Selector {
   double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
 
   bool accepted(const Model& fit, const Excess& before) const {
+    if (doubles_a_joint(fit)) return false;
     const double gained = total_gain(fit, *m_result.best);
     const double so_far = total_gain(*m_result.best, *m_result.base);
     if (before.largest < 2.0) return gained > least_gain(so_far);
