@@ -31,8 +31,10 @@ constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr double poor_residual = 4.0;  // grey levels at middle grey: no camera's noise is so large after the blur
 constexpr int largest_rounds = 6;
+constexpr int shared_patch_px = 24;  // further apart, two patches are less work than one around both
 constexpr float seen_through = 0.02f;
 constexpr int within_outline_px = 8;
+constexpr double least_inside = 0.02;  // of the pixels
 constexpr double outline_share = 0.7;  // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
@@ -100,11 +102,16 @@ std::optional<TemplateSource> outline_of(const TemplateSource& source, const Tem
     }
   }
   double kept = 0.0, all = 0.0;
+  int left_out = 0;
   for (int k = 0; k < model.pixels; ++k) {
     const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
+    const bool keep = out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]] != 0;
     all += energy;
-    if (out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]]) kept += energy;
+    kept += keep ? energy : 0.0;
+    left_out += keep ? 0 : 1;
   }
+  // A target through which is seen everywhere is all outline: there is nothing to do without.
+  if (left_out < least_inside * model.pixels) return std::nullopt;
   return kept > outline_share * all ? std::optional(std::move(out)) : std::nullopt;
 }
 
@@ -134,7 +141,7 @@ class PatchOfFrame {
 };
 
 Registrar::Registrar(TemplateSource source)
-    : m_source(std::move(source)),
+    : m_source(completed(std::move(source))),
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
   find_noise_growth(m_model);
@@ -148,12 +155,36 @@ Region Registrar::patch_at(int dx_px, int dy_px) const {
           region.height + 2 * patch_margin_px};
 }
 
-Registration Registrar::glance(const GrayImage& frame, int dx_px, int dy_px) const {
-  const FramePatch patch(frame, patch_at(dx_px, dy_px), m_model.blur_px2);
-  RegistrationStart start;
-  start.whole_px = {dx_px, dy_px};
-  RegistrationSolver solver(m_model, patch, nullptr, start);
-  return solver.glance() ? solver.fit(m_model.pixels / 4) : Registration{};
+// Places near each other share a patch: a pattern that repeats has many, a period apart.
+std::vector<Registration> Registrar::glances(const GrayImage& frame,
+                                             const std::vector<std::array<int, 2>>& places) const {
+  std::vector<Registration> out(places.size());
+  std::vector<bool> done(places.size(), false);
+  for (std::size_t first = 0; first < places.size(); ++first) {
+    if (done[first]) continue;
+    std::vector<std::size_t> together;
+    Region box = patch_at(places[first][0], places[first][1]);
+    for (std::size_t k = first; k < places.size(); ++k) {
+      const int dx = places[k][0] - places[first][0];
+      const int dy = places[k][1] - places[first][1];
+      if (done[k] || std::max(std::abs(dx), std::abs(dy)) > shared_patch_px) continue;
+      done[k] = true;
+      together.push_back(k);
+      const Region own = patch_at(places[k][0], places[k][1]);
+      const int right = std::max(box.x + box.width, own.x + own.width);
+      const int bottom = std::max(box.y + box.height, own.y + own.height);
+      box.x = std::min(box.x, own.x), box.y = std::min(box.y, own.y);
+      box.width = right - box.x, box.height = bottom - box.y;
+    }
+    const FramePatch patch(frame, box, m_model.blur_px2);
+    for (const std::size_t k : together) {
+      RegistrationStart start;
+      start.whole_px = {places[k][0], places[k][1]};
+      RegistrationSolver solver(m_model, patch, nullptr, start);
+      if (solver.glance()) out[k] = solver.fit(m_model.pixels / 4);
+    }
+  }
+  return out;
 }
 
 // Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only
@@ -252,12 +283,17 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     const bool blurs = match_blur(solver.extra_blur_px2(), next);
     on_trial = !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;
     next.with_field = setup.with_field || (!blurs && (needs_field(out) || on_trial));
-    if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
-    solver.tell_uncertainty(out);
-    if (!blurs && next.with_field == setup.with_field) break;
+    const bool last = (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
+    // What only leads to a better matched blur need not be known so well.
+    if (last || !blurs) {
+      if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
+      solver.tell_uncertainty(out);
+    }
+    if (last) break;
     setup = next;
     if (blurs) remodel();
   }
+  out.converged = out.converged && out.covariance_px2(0, 0) > 0.0;
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;
 }
