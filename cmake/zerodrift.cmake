@@ -27,7 +27,6 @@ find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
-find_package(spdlog REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
@@ -47,7 +46,7 @@ target_compile_options(zerodrift_options INTERFACE
   -Werror)
 target_compile_definitions(zerodrift_options INTERFACE ZERODRIFT_VERSION="${PROJECT_VERSION}")
 target_link_libraries(zerodrift_options INTERFACE
-  Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog tl::expected Threads::Threads)
+  Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt tl::expected Threads::Threads)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these falsely inside its own string and vector headers (GCC bug 105651 and its kin).
   target_compile_options(zerodrift_options INTERFACE -fpch-preprocess -Wno-restrict -Wno-stringop-overflow

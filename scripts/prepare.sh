@@ -7,7 +7,7 @@ build_dir="$root/build/release"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config
   qt6-base-dev qt6-svg-dev qt6-tools-dev qt6-tools-dev-tools qt6-l10n-tools qt6-translations-l10n libqt6svg6 libqcustomplot-dev
-  libopencv-dev libmodbus-dev libsqlite3-dev libeigen3-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
+  libopencv-dev libmodbus-dev libsqlite3-dev libeigen3-dev nlohmann-json3-dev libfmt-dev
   libqpdf-dev libzip-dev libcli11-dev libexpected-dev libcpp-httplib-dev libssl-dev zlib1g-dev libgtest-dev libgmock-dev
   fonts-inter fonts-noto-cjk
 )
