@@ -1,10 +1,10 @@
 #include "ui/widgets/colors.h"
 
-#include "ui/widgets/paper_colors.h"
-
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "ui/widgets/paper_colors.h"
 
 namespace zerodrift::ui {
 namespace {
