@@ -144,16 +144,19 @@ Section improvement_section(const Score& score) {
   section.blocks.emplace_back(
       Text{"Rms of recording against simulation, median over channels and cases (unlisted effects left out): with the "
            "description as it was; re-fitted within its tolerances without any effect; with what was found. The floor "
-           "is the sensors' own noise: no simulation can be below it."});
+           "is the sensors' own noise: no simulation can be below it. The true structure is what an analysis reaches "
+           "that is told what is hidden and fits it to the same recording."});
   Table table;
   table.id = "improvement";
-  table.header = {"channels",        "recording", "as described",  "re-fitted",
-                  "with the effect", "floor",     "worst / floor", "unit"};
+  table.header = {"channels", "recording",     "as described",   "re-fitted", "with the effect",
+                  "floor",    "worst / floor", "true structure", "over that", "unit"};
   for (const auto& one : score.improvements()) {
     const auto number = [](double value) { return fmt::format("{:.3f}", value); };
-    table.rows.push_back({one.kind == "T" ? "temperatures" : one.kind, one.second ? "held out" : "fitted",
-                          number(one.nominal), number(one.refitted), number(one.explained), number(one.floor),
-                          fmt::format("{:.1f}", one.worst_over_floor), one.kind == "T" ? "K" : "um"});
+    table.rows.push_back(
+        {one.kind == "T" ? "temperatures" : one.kind, one.second ? "held out" : "fitted", number(one.nominal),
+         number(one.refitted), number(one.explained), number(one.floor), fmt::format("{:.1f}", one.worst_over_floor),
+         std::isfinite(one.reached) ? number(one.reached) : "",
+         std::isfinite(one.over_reached) ? fmt::format("{:.2f}", one.over_reached) : "", one.kind == "T" ? "K" : "um"});
   }
   section.blocks.emplace_back(std::move(table));
   return section;
@@ -193,14 +196,23 @@ Section cases_section(const Score& score) {
   Section section{"cases", "Every case", {}};
   Table table;
   table.id = "cases";
-  table.header = {"case", "hidden", "noise widths", "answer", "confidence", "mm off", "s", "outcome"};
+  table.header = {"case",   "hidden", "noise widths", "evidence if told", "answer", "confidence",
+                  "mm off", "s",      "outcome"};
   for (const auto& one : score.judgements()) {
     table.rows.push_back({one.name, one.truth, one.truth == "none" ? "" : fmt::format("{:.1f}", one.strength),
-                          one.answer, one.confidence > 0 ? fmt::format("{:.2f}", one.confidence) : "",
+                          one.told ? fmt::format("{:.0f}", *one.told) : "", one.answer,
+                          one.confidence > 0 ? fmt::format("{:.2f}", one.confidence) : "",
                           one.location_error_mm ? fmt::format("{:.1f}", *one.location_error_mm) : "",
                           fmt::format("{:.1f}", one.seconds), name_of(one.outcome)});
   }
   section.blocks.emplace_back(std::move(table));
+  const Score::Undecidable hard = score.undecidable();
+  section.blocks.emplace_back(Text{fmt::format(
+      "Evidence if told: what the recording says, in natural logarithms, for the hidden effect that shows least, to an "
+      "analysis that is told the answer. An answer needs 8. Of {} listed effects that were not answered rightly {} "
+      "have "
+      "less.",
+      hard.wrong, hard.undecidable)});
   return section;
 }
 

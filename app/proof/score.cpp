@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int reliability_bins = 5;
+constexpr double least_evidence = 8.0;  // that names an effect (diagnosis::SelectionOptions)
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::nan("");
@@ -123,8 +124,10 @@ Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
   judgement.answer = answer_of(diagnosis, truth);
   judgement.outcome = outcome_of(truth, diagnosis);
   judgement.strength = truth.strength;
+  judgement.told = truth.told;
   judgement.seconds = diagnosis.value("seconds", 0.0);
   m_seconds.push_back(judgement.seconds);
+  if (diagnosis.contains("processor_seconds")) m_processor_s.push_back(diagnosis.at("processor_seconds"));
   for (const auto& note : diagnosis.value("notes", std::vector<std::string>{})) {
     m_turned_round += note.rfind("fitted_instead:", 0) == 0 ? 1 : 0;
   }
@@ -200,6 +203,10 @@ void Score::count_rms(const OpenedAnswer& truth, const json& diagnosis) {
       rms.refitted.push_back(refitted.value(channel, std::nan("")));
       rms.explained.push_back(value.get<double>());
       rms.floor.push_back(floor->second);
+      const auto reached = truth.reached.find(channel);
+      if (!second || reached == truth.reached.end()) continue;
+      rms.reached.push_back(reached->second);
+      rms.explained_there.push_back(value.get<double>());
     }
   }
 }
@@ -245,7 +252,15 @@ std::vector<Score::Improvement> Score::improvements() const {
                       median(rms.explained),
                       median(rms.floor),
                       0.0,
-                      static_cast<int>(rms.explained.size())};
+                      static_cast<int>(rms.explained.size()),
+                      median(rms.reached),
+                      median(rms.explained_there) / median(rms.reached),
+                      std::nan("")};
+      std::vector<double> ratios;
+      for (std::size_t i = 0; i < rms.reached.size(); ++i) {
+        ratios.push_back(rms.explained_there[i] / std::max(1e-9, rms.reached[i]));
+      }
+      one.median_over_reached = median(ratios);
       for (std::size_t i = 0; i < rms.explained.size(); ++i) {
         one.worst_over_floor = std::max(one.worst_over_floor, rms.explained[i] / std::max(1e-9, rms.floor[i]));
       }
@@ -271,15 +286,36 @@ std::vector<ProofFigure> Score::figures() const {
       share_figure("channel", "channel with the largest mismatch named", m_channel.good, m_channel.all, 0.85, true));
   list.push_back(number_figure("location_median_mm", "location, median", median(m_location_mm), 1, "mm", 2.0));
   list.push_back(number_figure("location_worst_mm", "location, worst", quantile(m_location_mm, 1.0), 1, "mm", 12.0));
+  for (const Improvement& one : improvements()) {
+    if (!one.second || !std::isfinite(one.over_reached)) continue;
+    const double must = one.kind == "T" ? 1.2 : one.kind == "dZ" ? 1.0 : 2.0;
+    list.push_back(number_figure("held_out_" + one.kind,
+                                 "held-out recording, " + one.kind + ", over what the true structure reaches",
+                                 one.over_reached, 2, "times", must));
+  }
   list.push_back(number_figure("calibration_error", "confidence: expected calibration error",
                                expected_calibration_error(), 3, "", 0.10));
   list.push_back(number_figure("seconds_median", "whole diagnosis, median", median(m_seconds), 2, "s", 2.0));
+  list.push_back(
+      number_figure("processor_median", "whole diagnosis, processor time, median", median(m_processor_s), 2, "s", 2.0));
   return list;
+}
+
+Score::Undecidable Score::undecidable() const {
+  Undecidable count;
+  for (const Judgement& one : m_judgements) {
+    if (one.outcome == Outcome::right || !one.told) continue;
+    ++count.wrong;
+    count.undecidable += *one.told < least_evidence ? 1 : 0;
+  }
+  return count;
 }
 
 json Score::to_json() const {
   json out = {{"cases", m_judgements.size()}, {"turned_round", m_turned_round}, {"figures", json::array()},
               {"confusion", m_confusion},     {"rmse", json::array()},          {"reliability", json::array()}};
+  out["not_right"] = undecidable().wrong;
+  out["not_right_and_undecidable"] = undecidable().undecidable;
   for (const auto& figure : figures()) {
     out["figures"].push_back({{"id", figure.id},
                               {"label", figure.label},
@@ -296,6 +332,10 @@ json Score::to_json() const {
                            {"after", one.explained},
                            {"floor", one.floor},
                            {"worst_over_floor", one.worst_over_floor}});
+    if (!std::isfinite(one.reached)) continue;
+    out["rmse"].back()["true_structure"] = one.reached;
+    out["rmse"].back()["over_true_structure"] = one.over_reached;
+    out["rmse"].back()["median_over_true_structure"] = one.median_over_reached;
   }
   for (const auto& bin : reliability()) {
     out["reliability"].push_back({{"from", bin.low},
@@ -311,6 +351,7 @@ json Score::to_json() const {
                               {"outcome", name_of(one.outcome)},
                               {"confidence", one.confidence},
                               {"strength", one.strength},
+                              {"evidence_if_told", one.told ? json(*one.told) : json()},
                               {"location_error_mm", one.location_error_mm ? json(*one.location_error_mm) : json()},
                               {"seconds", one.seconds}});
   }
@@ -323,13 +364,16 @@ std::string Score::text() const {
     out += fmt::format("{:<50} {:>18} {:<3} (must: {}){}\n", figure.label, figure.value, figure.unit, figure.limit,
                        figure.met && !*figure.met ? "  NOT MET" : "");
   }
-  out += fmt::format("{:<22} {:>9} {:>10} {:>12} {:>8} {:>14}\n", "rms, median", "nominal", "re-fitted", "with effect",
-                     "floor", "worst / floor");
+  out += fmt::format("{:<22} {:>9} {:>10} {:>12} {:>8} {:>14} {:>15} {:>8}\n", "rms, median", "nominal", "re-fitted",
+                     "with effect", "floor", "worst / floor", "true structure", "over it");
   for (const auto& one : improvements()) {
-    out += fmt::format("{:<3} {:<18} {:>9.3f} {:>10.3f} {:>12.3f} {:>8.3f} {:>14.2f}\n", one.kind,
+    out += fmt::format("{:<3} {:<18} {:>9.3f} {:>10.3f} {:>12.3f} {:>8.3f} {:>14.2f} {:>15.3f} {:>8.2f}\n", one.kind,
                        one.second ? "held-out recording" : "fitted recording", one.nominal, one.refitted, one.explained,
-                       one.floor, one.worst_over_floor);
+                       one.floor, one.worst_over_floor, one.reached, one.over_reached);
   }
+  const Undecidable hard = undecidable();
+  out += fmt::format("listed effects not answered rightly: {}, undecidable even for one who is told: {}\n", hard.wrong,
+                     hard.undecidable);
   for (const auto& [truth, answers] : m_confusion) {
     out += fmt::format("  {:<44}", truth);
     for (const auto& [answer, n] : answers) out += fmt::format(" {} x{}", answer, n);

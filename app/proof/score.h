@@ -25,6 +25,10 @@ struct OpenedAnswer {
   std::string worst_channel;            // which the hidden effects change most, in noise widths; empty: nothing hidden
   double strength = 0.0;                // how many noise widths (rms) that is
   std::map<std::string, double> floor;  // noise of each channel in the second recording: no model can be better
+  /// What the true structure, re-fitted, reaches in the second recording; empty where nobody asked.
+  std::map<std::string, double> reached;
+  /// Log evidence, for one who is told the truth, of the hidden effect that shows least beside the others.
+  std::optional<double> told;
 
   std::string words() const;  // "none", "coolant", "coolant+sensor_lag"
 };
@@ -47,6 +51,7 @@ struct Judgement {
   double seconds = 0.0;
   double strength = 0.0;
   std::optional<double> location_error_mm;
+  std::optional<double> told;  // OpenedAnswer::told
 };
 
 /// A figure of the proof beside what it must reach.
@@ -81,8 +86,18 @@ class Score {
     bool second = false;  // on the recording that was held out
     double nominal = 0.0, refitted = 0.0, explained = 0.0, floor = 0.0, worst_over_floor = 0.0;
     int channels = 0;
+    /// The true structure's rms, explained over it as a ratio of medians, and the median of the channels' ratios; on
+    /// channels of cases where it is known (NaN without).
+    double reached = 0.0, over_reached = 0.0, median_over_reached = 0.0;
   };
   std::vector<Improvement> improvements() const;
+
+  /// Of the listed effects not answered rightly: how many, and for how many of them the recording holds less evidence,
+  /// even for one who is told the truth, than any answer needs.
+  struct Undecidable {
+    int wrong = 0, undecidable = 0;
+  };
+  Undecidable undecidable() const;
 
   /// Cases in which the first recording could not show the effect: the second was fitted and the first held out.
   int turned_round() const { return m_turned_round; }
@@ -101,6 +116,7 @@ class Score {
   };
   struct Rms {
     std::vector<double> nominal, refitted, explained, floor;
+    std::vector<double> reached, explained_there;  // where the true structure's is known
   };
 
   void count_outcome(const OpenedAnswer& truth, const Judgement& judgement);
@@ -109,7 +125,7 @@ class Score {
 
   Tally m_first, m_all_right, m_pairs, m_quiet, m_missed, m_unlisted, m_channel;
   int m_turned_round = 0;
-  std::vector<double> m_location_mm, m_seconds;
+  std::vector<double> m_location_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;
   std::map<std::pair<std::string, bool>, Rms> m_rms;  // (kind of channel, second recording)
   std::map<std::string, std::map<std::string, int>> m_confusion;

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/proof/concealed_case.h"
 #include "app/proof/diagnose_files.h"
+#include "app/proof/oracle.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/json.h"
+#include "core/recording/csv.h"
 
 namespace zerodrift::proof {
 namespace {
@@ -95,6 +98,21 @@ Result<bool> open_seal(const Sealed& one, const fs::path& folder, const json& pr
   return kept;
 }
 
+/// The files of the case again, this time with the answer known: the same recording is fitted as the diagnosis fitted.
+Result<OracleAnswer> told(const fs::path& folder, const OpenedAnswer& truth, const json& diagnosis) {
+  ZD_TRY(const physics::Machine machine, physics::read_machine(folder / "machine.json"));
+  std::vector<recording::Recording> runs;
+  for (const char* file : {"recording.csv", "second.csv"}) {
+    ZD_TRY(auto run, recording::read_recording(folder / file));
+    runs.push_back(std::move(run));
+  }
+  const auto notes = diagnosis.value("notes", std::vector<std::string>{});
+  const bool turned = std::any_of(notes.begin(), notes.end(),
+                                  [](const std::string& note) { return note.rfind("fitted_instead:", 0) == 0; });
+  if (turned) std::swap(runs[0], runs[1]);
+  return told_the_truth(machine, runs, truth.effects);
+}
+
 }  // namespace
 
 json Trial::to_json() const {
@@ -127,7 +145,12 @@ Result<Trial> run_trial(const TrialOptions& options, const TaskContext& context)
     ZD_TRY(const bool kept, open_seal(sealed[i], folder, promises));
     trial.seals_kept += kept ? 1 : 0;
     if (i >= answers.size()) continue;
-    ZD_TRY(const OpenedAnswer truth, truth_from(sealed[i].seal.answer, (folder / "answer.json").string()));
+    ZD_TRY(OpenedAnswer truth, truth_from(sealed[i].seal.answer, (folder / "answer.json").string()));
+    if (answers[i] && !truth.unlisted) {
+      ZD_TRY(const OracleAnswer oracle, told(folder, truth, *answers[i]));
+      truth.reached = oracle.reached;
+      for (const auto& [id, evidence] : oracle.beside) truth.told = std::min(truth.told.value_or(evidence), evidence);
+    }
     if (answers[i]) {
       trial.score.add(truth, *answers[i]);
     } else {

@@ -30,10 +30,18 @@ bool happened_once(const Diagnosis& diagnosis) {
                      [](const FoundEffect& effect) { return physics::happens_once(effect.id); });
 }
 
+/// An event that the other recording cannot judge; of a slip it can (Diagnoser::slips_of_its_own).
+bool cannot_be_judged(const Diagnosis& diagnosis) {
+  return std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), [](const FoundEffect& effect) {
+    return physics::happens_once(effect.id) && effect.id != "bracket_slip";
+  });
+}
+
 /// The other recording is missed in the very channel that the effects explain, and in that alone: the description is of
 /// this machine, but the explanation does not hold. Where everything is missed it is another machine's recording.
 bool fails_where_it_explains(const Diagnosis& first, const HeldOut& other) {
-  if (first.verdict != Verdict::missing_effect || happened_once(first) || first.mismatch.channels.empty()) return false;
+  if (first.verdict != Verdict::missing_effect || cannot_be_judged(first) || first.mismatch.channels.empty())
+    return false;
   for (const ChannelReport& channel : first.channels) {
     const bool explained = channel.channel == first.mismatch.channels.front();
     const double by = missed_by(channel, other);

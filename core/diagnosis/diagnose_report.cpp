@@ -12,18 +12,39 @@ namespace zerodrift::diagnosis {
 using physics::Machine;
 using recording::Recording;
 
-double rms_between(const Recording& recording, const std::string& name, const std::vector<double>& predicted) {
+/// Measured - predicted where a sample is there and no spike.
+static std::vector<double> differences(const Recording& recording, const std::string& name,
+                                       const std::vector<double>& predicted) {
+  std::vector<double> list;
   const recording::Channel* seen = recording.find(name);
-  if (seen == nullptr || seen->values.size() != predicted.size()) return std::nan("");
+  if (seen == nullptr || seen->values.size() != predicted.size()) return list;
   const std::vector<bool> spike = physics::spikes(seen->values, physics::noise_width(seen->values, 0.01));
-  double sum = 0.0;
-  int count = 0;
   for (std::size_t k = 0; k < predicted.size(); ++k) {
-    if (!std::isfinite(seen->values[k]) || spike[k]) continue;
-    sum += (seen->values[k] - predicted[k]) * (seen->values[k] - predicted[k]);
-    ++count;
+    if (std::isfinite(seen->values[k]) && !spike[k]) list.push_back(seen->values[k] - predicted[k]);
   }
-  return count > 0 ? std::sqrt(sum / count) : std::nan("");
+  return list;
+}
+
+static double rms_of(const std::vector<double>& differences) {
+  double sum = 0.0;
+  for (const double d : differences) sum += d * d;
+  return differences.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(differences.size()));
+}
+
+/// The least that one step at some moment leaves.
+static double rms_beside_a_step(const std::vector<double>& differences) {
+  double sum = 0.0, squares = 0.0, removed = 0.0, count = 0.0;
+  for (const double d : differences) squares += d * d;
+  for (auto d = differences.rbegin(); d != differences.rend(); ++d) {
+    sum += *d;
+    count += 1.0;
+    removed = std::max(removed, sum * sum / count);
+  }
+  return count > 0.0 ? std::sqrt(std::max(0.0, squares - removed) / count) : std::nan("");
+}
+
+double rms_between(const Recording& recording, const std::string& name, const std::vector<double>& predicted) {
+  return rms_of(differences(recording, name, predicted));
 }
 
 void Diagnoser::series() {
@@ -192,8 +213,28 @@ void Diagnoser::held_out() {
     put(m_machine, 0.0, result.nominal);
     put(base, hold_of(*m_selection.base), result.refitted);
     result.explained = result.refitted;
-    if (m_selection.best != m_selection.base) put(best, hold_of(*m_selection.best), result.explained);
+    if (m_selection.best != m_selection.base) {
+      put(best, hold_of(*m_selection.best), result.explained);
+      slips_of_its_own(best, other, result);
+    }
     m_out.held_out.push_back(std::move(result));
+  }
+}
+
+/// A bracket that slipped in one recording stays where it is in the next, or slips there too, at a moment of its own.
+/// What goes to and fro there did not slip.
+void Diagnoser::slips_of_its_own(const Machine& best, const Recording& other, HeldOut& result) const {
+  Machine without = best;
+  std::erase_if(without.effects, [](const auto& spec) { return spec.id == "bracket_slip"; });
+  if (without.effects.size() == best.effects.size()) return;
+  for (const auto& channel : predict_other(without, other, hold_of(*m_selection.best)).channels) {
+    const bool slipped = std::any_of(best.effects.begin(), best.effects.end(), [&](const auto& spec) {
+      return spec.id == "bracket_slip" && spec.word_or("channel", "") == channel.channel;
+    });
+    auto known = result.explained.find(channel.channel);
+    if (!slipped || known == result.explained.end()) continue;
+    const auto left = differences(other, channel.channel, channel.values);
+    known->second = std::min({known->second, rms_of(left), rms_beside_a_step(left)});
   }
 }
 

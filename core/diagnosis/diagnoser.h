@@ -39,6 +39,7 @@ class Diagnoser {
   void times();
   void place_from_effect();
   void held_out();
+  void slips_of_its_own(const physics::Machine& best, const recording::Recording& other, HeldOut& result) const;
   bool refuted() const;
   void details();
   void notes();

@@ -38,6 +38,8 @@ Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool
     m_z[i] = std::clamp(m_z[i], m_low[i], m_high[i]);
   }
   m_jacobian.setZero(static_cast<Index>(m_data->stacked()), n);
+  m_gram.setZero(n, n);
+  m_stale.assign(m_free.size(), true);
   for (const auto& spec : m_machine.effects)
     m_log_prior += spec.candidate ? physics::log_prior_of(spec.id) + spec.log_prior : 0.0;
 }
@@ -58,6 +60,7 @@ void Model::start_from(const Model& parent, bool columns) {
     return a.key == b.key && a.component == b.component && a.channel == b.channel && a.effect == b.effect;
   };
   std::vector<bool> used(parent.unknowns(), false);
+  std::vector<std::pair<Index, Index>> taken;  // columns: mine, the parent's
   for (std::size_t i = 0; i < unknowns(); ++i) {
     for (std::size_t k = 0; k < parent.unknowns(); ++k) {
       if (used[k] || !same(unknown(i), parent.unknown(k))) continue;
@@ -66,9 +69,14 @@ void Model::start_from(const Model& parent, bool columns) {
           std::clamp(parent.m_z[static_cast<Index>(k)], m_low[static_cast<Index>(i)], m_high[static_cast<Index>(i)]);
       if (columns && parent.m_have_columns) {
         m_jacobian.col(static_cast<Index>(i)) = parent.m_jacobian.col(static_cast<Index>(k));
+        m_stale[i] = parent.m_stale[k];
+        taken.emplace_back(i, k);
       }
       break;
     }
+  }
+  for (const auto& [i, k] : taken) {
+    for (const auto& [j, l] : taken) m_gram(i, j) = parent.m_gram(k, l);
   }
   m_borrowed = m_have_columns = columns && parent.m_have_columns;
 }
@@ -93,59 +101,121 @@ std::vector<int> Model::effect_unknowns() const {
   return list;
 }
 
-void Model::residual_at(const Eigen::VectorXd& z, Eigen::VectorXd& residual) {
-  m_log_determinant = whiten(*m_data, predict(m_network, m_inputs, values_at(z)), &residual);
+physics::Prediction Model::predict_at(const Eigen::VectorXd& z, const std::vector<int>& unknowns) const {
+  std::vector<int> parameters;
+  for (const int i : unknowns) parameters.push_back(m_free[i]);
+  return predict(m_network, m_inputs, values_at(z), parameters);
+}
+
+void Model::take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns) {
+  if (unknowns.empty()) return;
+  const std::vector<double> values = values_at(m_z);
+  std::vector<double> slopes;
+  for (const int i : unknowns) {
+    slopes.push_back(unknown(static_cast<std::size_t>(i)).slope_at(values[m_free[i]]));
+    m_stale[i] = true;
+  }
+  whiten_columns(*m_data, prediction, slopes, m_jacobian, unknowns);
+}
+
+/// Keeps what was simulated at m_z, for the same hypothesis under other noise.
+void Model::keep(const physics::Prediction& prediction, const std::vector<int>& unknowns) {
+  const std::size_t width = m_free.size();
+  if (m_simulated.columns != width) return;
+  for (std::size_t c = 0; c < prediction.channels.size(); ++c) {
+    const physics::PredictedChannel& from = prediction.channels[c];
+    physics::PredictedChannel& to = m_simulated.channels[c];
+    to.values = from.values;
+    for (std::size_t k = 0; k < prediction.rows; ++k) {
+      for (std::size_t u = 0; u < unknowns.size(); ++u) {
+        to.derivatives[k * width + static_cast<std::size_t>(unknowns[u])] = from.derivatives[k * unknowns.size() + u];
+      }
+    }
+  }
 }
 
 void Model::refresh(const std::vector<int>& unknowns) {
-  std::vector<int> parameters;
-  std::vector<double> slopes;
-  const std::vector<double> values = values_at(m_z);
-  for (const int i : unknowns) {
-    parameters.push_back(m_free[i]);
-    slopes.push_back(unknown(static_cast<std::size_t>(i)).slope_at(values[m_free[i]]));
-  }
-  const physics::Prediction prediction = predict(m_network, m_inputs, values, parameters);
+  physics::Prediction prediction = predict_at(m_z, unknowns);
   m_log_determinant = whiten(*m_data, prediction, &m_residual);
-  if (!unknowns.empty()) whiten_columns(*m_data, prediction, slopes, m_jacobian, unknowns);
+  take_columns(prediction, unknowns);
   m_cost = m_residual.squaredNorm() + m_z.squaredNorm();
+  if (unknowns.size() == m_free.size()) {
+    m_simulated = std::move(prediction);
+  } else {
+    keep(prediction, unknowns);
+  }
+}
+
+void Model::continue_from(const Model& same) {
+  if (same.m_simulated.columns != m_free.size() || m_free.empty()) return start_from(same, false);
+  m_z = same.m_z;
+  m_simulated = same.m_simulated;
+  m_borrowed = same.m_borrowed;
+  m_log_determinant = whiten(*m_data, m_simulated, &m_residual);
+  take_columns(m_simulated, all_unknowns());
+  m_cost = m_residual.squaredNorm() + m_z.squaredNorm();
+  m_have_columns = m_ready = true;
 }
 
 Eigen::MatrixXd Model::hessian() const {
   const Index n = static_cast<Index>(m_free.size());
-  Eigen::MatrixXd h = Eigen::MatrixXd::Identity(n, n);
-  h.selfadjointView<Eigen::Lower>().rankUpdate(m_jacobian.transpose());
-  return h.selfadjointView<Eigen::Lower>();
+  std::vector<Index> stale;
+  for (Index i = 0; i < n; ++i) {
+    if (m_stale[static_cast<std::size_t>(i)]) stale.push_back(i);
+  }
+  const Index changed = static_cast<Index>(stale.size());
+  if (2 * changed > n) {
+    m_gram.setZero(n, n);
+    m_gram.selfadjointView<Eigen::Lower>().rankUpdate(m_jacobian.transpose());
+    m_gram = Eigen::MatrixXd(m_gram.selfadjointView<Eigen::Lower>());
+  } else if (changed > 0) {
+    const Eigen::MatrixXd columns = m_jacobian(Eigen::all, stale);
+    const Eigen::MatrixXd products = m_jacobian.transpose() * columns;
+    for (Index k = 0; k < changed; ++k) {
+      m_gram.col(stale[static_cast<std::size_t>(k)]) = products.col(k);
+      m_gram.row(stale[static_cast<std::size_t>(k)]) = products.col(k).transpose();
+    }
+  }
+  m_stale.assign(m_free.size(), false);
+  return m_gram + Eigen::MatrixXd::Identity(n, n);
 }
 
-/// Chord steps: the base's columns change little, so only the effect's are renewed each step; all of them after a large
-/// gain or three steps.
+/// Chord steps: the base's columns change little, so only the effect's are renewed each step, by the simulation that
+/// tries the step; all of them after a large gain or three steps.
 void Model::fit(const FitOptions& options) {
   m_log_evidence.reset();
   const std::vector<int> all = all_unknowns();
   const std::vector<int> effects = effect_unknowns();
   int stale = m_borrowed ? 1 : 0;
-  refresh(m_borrowed ? effects : all);
-  m_borrowed = false;
+  if (!m_ready) refresh(m_borrowed ? effects : all);
+  m_ready = m_borrowed = false;
   m_have_columns = true;
   analysis::Damping damping;
+  physics::Prediction trial;
   Eigen::VectorXd trial_residual;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const Eigen::MatrixXd h = hessian();
     const Eigen::VectorXd g = m_jacobian.transpose() * m_residual - m_z;
     bool better = false;
+    bool promising = true;
+    bool fresh_effects = false;
     double gained = 0.0;
-    for (int attempt = 0; attempt < 5 && !better; ++attempt) {
-      const Eigen::VectorXd step =
-          analysis::damped_step(h, g, damping.value() * h.diagonal(), m_z, m_low, m_high).cwiseMax(-4.0).cwiseMin(4.0);
-      const Eigen::VectorXd z = (m_z + step).cwiseMax(m_low).cwiseMin(m_high);
-      residual_at(z, trial_residual);
+    for (int attempt = 0; attempt < 5 && !better && promising; ++attempt) {
+      const Eigen::VectorXd step = analysis::damped_step(h, g, damping.value() * h.diagonal(), m_z, m_low, m_high);
+      const Eigen::VectorXd z = (m_z + step.cwiseMax(-4.0).cwiseMin(4.0)).cwiseMax(m_low).cwiseMin(m_high);
+      // What the quadratic model promises; far less than what counts as converged is not worth a simulation.
+      promising = 2.0 * step.dot(g) - step.dot(h * step) > 0.1 * options.tolerance;
+      if (!promising) break;
+      fresh_effects = attempt == 0;
+      trial = predict_at(z, fresh_effects ? effects : std::vector<int>{});
+      m_log_determinant = whiten(*m_data, trial, &trial_residual);
       const double cost = trial_residual.squaredNorm() + z.squaredNorm();
       if (cost < m_cost) {
         gained = m_cost - cost;
         m_z = z;
         m_cost = cost;
         m_residual = trial_residual;
+        keep(trial, fresh_effects ? effects : std::vector<int>{});
         damping.helped();
         better = true;
       } else {
@@ -159,7 +229,11 @@ void Model::fit(const FitOptions& options) {
       stale = 0;
       if (!better) damping.restart();
     } else {
-      refresh(effects);
+      if (fresh_effects) {
+        take_columns(trial, effects);
+      } else {
+        refresh(effects);
+      }
       ++stale;
       if (gained < 0.5) break;
     }

@@ -43,6 +43,8 @@ class Model {
   std::vector<double> values_at(const Eigen::VectorXd& z) const;
   /// Takes over the unknowns that a parent model has too, and its Jacobian columns where `columns` is set.
   void start_from(const Model& parent, bool columns);
+  /// Takes over everything from the same hypothesis under other noise: what was simulated there is only whitened anew.
+  void continue_from(const Model& same);
   void set_z(std::size_t i, double z);
 
   void fit(const FitOptions& options);
@@ -59,8 +61,12 @@ class Model {
   double gain = 0.0;  // of the score test that suggested it
 
  private:
-  void residual_at(const Eigen::VectorXd& z, Eigen::VectorXd& residual);
+  /// The prediction at z with its derivatives by some unknowns.
+  physics::Prediction predict_at(const Eigen::VectorXd& z, const std::vector<int>& unknowns) const;
+  /// Takes the derivatives of a prediction at m_z over into the Jacobian.
+  void take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns);
   void refresh(const std::vector<int>& unknowns);
+  void keep(const physics::Prediction& prediction, const std::vector<int>& unknowns);
   std::vector<int> all_unknowns() const;
   std::vector<int> effect_unknowns() const;
 
@@ -71,8 +77,12 @@ class Model {
   std::vector<int> m_free;
   Eigen::VectorXd m_z, m_low, m_high, m_residual;
   RowMatrix m_jacobian;
-  bool m_borrowed = false;  // some columns come from the parent
+  mutable Eigen::MatrixXd m_gram;     // J'J, but for
+  mutable std::vector<bool> m_stale;  // columns that changed since it was last asked for
+  physics::Prediction m_simulated;    // at m_z, with every unknown's column; empty until all were simulated
+  bool m_borrowed = false;            // some columns come from the parent
   bool m_have_columns = false;
+  bool m_ready = false;  // residual and columns are there before the first step
   double m_cost = 0.0;
   double m_log_determinant = 0.0;
   double m_log_prior = 0.0;                      // of the candidates it has

@@ -176,10 +176,10 @@ class Selector {
     m_result.described = selection.described;
     m_result.screened = selection.screened;
     m_result.base = std::make_shared<Model>(selection.base->machine(), data);
-    m_result.base->start_from(*selection.base, false);
+    m_result.base->continue_from(*selection.base);
     m_result.base->fit({});
     m_result.best = std::make_shared<Model>(selection.best->machine(), data);
-    m_result.best->start_from(*selection.best, false);
+    m_result.best->continue_from(*selection.best);
     m_result.best->fit({20, 0.05, true});
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     eliminate();
@@ -196,7 +196,7 @@ class Selector {
  private:
   static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data) {
     auto result = std::make_shared<Model>(model.machine(), data);
-    result->start_from(model, false);
+    result->continue_from(model);
     result->fit({20, 0.05, true});
     return result;
   }
@@ -221,7 +221,7 @@ class Selector {
     auto data =
         std::make_shared<Dataset>(with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
     auto result = std::make_shared<Model>(model->machine(), data);
-    result->start_from(*model, false);
+    result->continue_from(*model);
     result->gain = model->gain;
     result->fit({12, 0.05, true});
     return result;

@@ -184,6 +184,7 @@ void Assembly::assemble(double alpha) {
     const TermNow& now = m_now[i];
     const double u = now.strength.value;
     if (term.kind == TermKind::link) {
+      if (!m_stiffness_changed) continue;
       for (const auto& one : term.links) m_links[link++].conductance = u * one.weight;
       continue;
     }

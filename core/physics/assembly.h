@@ -47,8 +47,8 @@ class Assembly {
   void assemble(double alpha);
 
   Skyline& matrix() { return m_matrix; }
+  const Skyline& matrix() const { return m_matrix; }
   const TermNow& now(std::size_t term) const { return m_now[term]; }
-  const std::vector<FlatLink>& links() const { return m_links; }
   const std::vector<double>& film() const { return m_film; }
   const std::vector<double>& source() const { return m_source; }
   const std::vector<double>& capacity() const { return m_capacity; }

@@ -17,10 +17,11 @@ Skyline::Skyline(std::vector<int> first, std::vector<int> order)
   m_diagonal.assign(m_first.size(), 0.0);
   m_inverse.assign(m_first.size(), 0.0);
   m_chain = m_chain && m_order.empty();
-  m_band = m_band && !m_chain;
+  constexpr std::size_t worth_two_halves = 8;
+  m_band = m_band && !m_chain && m_first.size() >= worth_two_halves;
   if (m_band) {
-    m_near.assign(m_first.size() + 2, 0.0);  // two rows of nothing below the last
-    m_far = m_near;
+    m_near.assign(m_first.size(), 0.0);
+    m_far = m_near_up = m_far_up = m_near;
   }
   if (m_chain) {
     m_link.assign(m_first.size(), 0.0);
@@ -99,59 +100,96 @@ void Skyline::solve_chain(double* x) const {
   if (middle > lower) x[0] -= f[0] * x[1];
 }
 
-ZERODRIFT_WIDE void Skyline::solve_chain(double* x, std::size_t columns) const {
-  const int n = static_cast<int>(m_first.size());
-  const int middle = n / 2;
-  const auto eliminate = [&](int target, int source, double factor) {
-    double* t = x + static_cast<std::size_t>(target) * columns;
-    const double* s = x + static_cast<std::size_t>(source) * columns;
-    for (std::size_t c = 0; c < columns; ++c) t[c] -= factor * s[c];
-  };
-  for (int i = 0; i < middle; ++i) eliminate(i + 1, i, m_factor[i]);
-  for (int i = n - 1; i > middle; --i) eliminate(i - 1, i, m_factor[i]);
-  for (int i = 0; i < n; ++i) {
-    double* own = x + static_cast<std::size_t>(i) * columns;
-    for (std::size_t c = 0; c < columns; ++c) own[c] *= m_inverse[i];
+ZERODRIFT_WIDE void Skyline::solve_lanes_of_chain(double* x) const {
+  const std::size_t n = m_first.size();
+  const std::size_t middle = n / 2;
+  Four* rows = reinterpret_cast<Four*>(x);
+  for (std::size_t i = 0; i < middle; ++i) {
+    rows[2 * i + 2] -= m_factor[i] * rows[2 * i];
+    rows[2 * i + 3] -= m_factor[i] * rows[2 * i + 1];
   }
-  for (int i = middle - 1; i >= 0; --i) eliminate(i, i + 1, m_factor[i]);
-  for (int i = middle + 1; i < n; ++i) eliminate(i, i - 1, m_factor[i]);
+  for (std::size_t i = n - 1; i > middle; --i) {
+    rows[2 * i - 2] -= m_factor[i] * rows[2 * i];
+    rows[2 * i - 1] -= m_factor[i] * rows[2 * i + 1];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    rows[2 * i] *= m_inverse[i];
+    rows[2 * i + 1] *= m_inverse[i];
+  }
+  for (std::size_t i = middle; i-- > 0;) {
+    rows[2 * i] -= m_factor[i] * rows[2 * i + 2];
+    rows[2 * i + 1] -= m_factor[i] * rows[2 * i + 3];
+  }
+  for (std::size_t i = middle + 1; i < n; ++i) {
+    rows[2 * i] -= m_factor[i] * rows[2 * i - 2];
+    rows[2 * i + 1] -= m_factor[i] * rows[2 * i - 1];
+  }
 }
 
 void Skyline::factor_band() {
-  const int n = static_cast<int>(m_first.size());
-  for (int i = 0; i < n; ++i) {
-    const double* row = m_below.data() + m_start[i];
-    const int width = i - m_first[i];
-    const double far = width == 2 ? row[0] : 0.0;  // L_ij D_j
-    double near = width == 2 ? row[1] : width == 1 ? row[0] : 0.0;
-    double pivot = m_diagonal[i];
-    if (far != 0.0) {
-      near -= far * m_near[i - 1];
-      m_far[i] = far * m_inverse[i - 2];
-      pivot -= far * m_far[i];
-    } else {
-      m_far[i] = 0.0;
-    }
-    m_near[i] = i > 0 ? near * m_inverse[i - 1] : 0.0;
-    m_inverse[i] = 1.0 / (pivot - near * m_near[i]);
+  const std::size_t n = m_first.size();
+  const std::size_t m = middle();
+  // Entries of the matrix beside the diagonal, 0 outside the envelope.
+  const auto beside = [&](std::size_t i, std::size_t distance) {
+    const int row = static_cast<int>(i), column = row - static_cast<int>(distance);
+    return i < n && column >= m_first[i] ? m_below[m_start[i] + column - m_first[i]] : 0.0;
+  };
+  std::vector<double>& pivot = m_inverse;  // the diagonal as it is left; rows already eliminated hold 1 / pivot
+  for (std::size_t i = 0; i < n; ++i) pivot[i] = m_diagonal[i];
+  for (std::size_t i = 0; i <= m + 1; ++i) {
+    const double far = i >= 2 ? beside(i, 2) : 0.0;
+    m_far[i] = i >= 2 ? far * m_inverse[i - 2] : 0.0;
+    pivot[i] -= far * m_far[i];
+    if (i > m) break;
+    const double near = i >= 1 ? beside(i, 1) - far * m_near[i - 1] : 0.0;
+    m_near[i] = i >= 1 ? near * m_inverse[i - 1] : 0.0;
+    pivot[i] -= near * m_near[i];
+    if (i < m) m_inverse[i] = 1.0 / pivot[i];
   }
+  for (std::size_t k = n; k-- > m;) {
+    const double far = beside(k + 2, 2);
+    m_far_up[k] = k + 2 < n ? far * m_inverse[k + 2] : 0.0;
+    pivot[k] -= far * m_far_up[k];
+    if (k == m) break;
+    const double near = k + 1 < n ? beside(k + 1, 1) - far * m_near_up[k + 1] : 0.0;
+    m_near_up[k] = k + 1 < n ? near * m_inverse[k + 1] : 0.0;
+    pivot[k] -= near * m_near_up[k];
+    if (k > m + 1) m_inverse[k] = 1.0 / pivot[k];
+  }
+  const double across = beside(m + 1, 1) - beside(m + 1, 2) * m_near[m] - beside(m + 2, 2) * m_near_up[m + 1];
+  const double scale = 1.0 / (pivot[m] * pivot[m + 1] - across * across);
+  m_middle[0] = pivot[m + 1] * scale;
+  m_middle[1] = -across * scale;
+  m_middle[2] = pivot[m] * scale;
 }
 
-void Skyline::solve_band(double* x) const {
-  const int n = static_cast<int>(m_first.size());
-  double before = 0.0, last = 0.0;
-  for (int i = 0; i < n; ++i) {
+ZERODRIFT_WIDE void Skyline::solve_band(double* x) const {
+  const std::size_t n = m_first.size();
+  const std::size_t m = middle();
+  double before = 0.0, last = 0.0, before_up = 0.0, last_up = 0.0;
+  for (std::size_t i = 0, k = n - 1; k >= m + 2; ++i, --k) {
+    const double up = x[k] - m_far_up[k] * before_up - m_near_up[k] * last_up;
+    before_up = last_up;
+    last_up = x[k] = up;
+    if (i >= m) break;
     const double now = x[i] - m_far[i] * before - m_near[i] * last;
-    x[i] = now;
     before = last;
-    last = now;
+    last = x[i] = now;
   }
-  double after = 0.0, next = 0.0;  // rows i + 2 and i + 1
-  for (int i = n - 1; i >= 0; --i) {
-    const double now = x[i] * m_inverse[i] - m_far[i + 2] * after - m_near[i + 1] * next;
-    x[i] = now;
+  const double one = x[m] - m_far[m] * before - m_near[m] * last - m_far_up[m] * last_up;
+  const double two = x[m + 1] - m_far[m + 1] * last - m_near_up[m + 1] * last_up - m_far_up[m + 1] * before_up;
+  double next = x[m] = m_middle[0] * one + m_middle[1] * two;
+  double next_up = x[m + 1] = m_middle[1] * one + m_middle[2] * two;
+  double after = next_up, after_up = next;
+  for (std::size_t i = m, k = m + 2; k < n; ++k) {
+    const double up = x[k] * m_inverse[k] - m_near_up[k - 1] * next_up - m_far_up[k - 2] * after_up;
+    after_up = next_up;
+    next_up = x[k] = up;
+    if (i == 0) continue;
+    --i;
+    const double now = x[i] * m_inverse[i] - m_near[i + 1] * next - m_far[i + 2] * after;
     after = next;
-    next = now;
+    next = x[i] = now;
   }
 }
 
@@ -182,48 +220,102 @@ void Skyline::solve(double* given) {
   for (int i = 0; i < n && x != given; ++i) given[m_order[i]] = x[i];
 }
 
-ZERODRIFT_WIDE void Skyline::solve(double* x, std::size_t columns) const {
-  if (m_chain) return solve_chain(x, columns);
+/// The two rows that the next one needs stay in registers. Everything is written out here: what is called would be
+/// compiled for the narrow registers.
+ZERODRIFT_WIDE void Skyline::solve_lanes_of_band(double* x) const {
+  const std::size_t n = m_first.size();
+  const std::size_t m = middle();
+  const int* order = m_order.empty() ? nullptr : m_order.data();
+  const auto at = [&](std::size_t i) {
+    return reinterpret_cast<Four*>(x + (order == nullptr ? i : static_cast<std::size_t>(order[i])) * lanes);
+  };
+  Four last_a{}, last_b{}, before_a{}, before_b{};
+  for (std::size_t i = 0; i < m; ++i) {
+    Four* own = at(i);
+    const double near = m_near[i], far = m_far[i];
+    const Four now_a = own[0] - far * before_a - near * last_a;
+    const Four now_b = own[1] - far * before_b - near * last_b;
+    before_a = last_a;
+    before_b = last_b;
+    own[0] = last_a = now_a;
+    own[1] = last_b = now_b;
+  }
+  Four* middle_one = at(m);
+  Four* middle_two = at(m + 1);
+  Four one_a = middle_one[0] - m_far[m] * before_a - m_near[m] * last_a;
+  Four one_b = middle_one[1] - m_far[m] * before_b - m_near[m] * last_b;
+  Four two_a = middle_two[0] - m_far[m + 1] * last_a;
+  Four two_b = middle_two[1] - m_far[m + 1] * last_b;
+  last_a = last_b = before_a = before_b = Four{};
+  for (std::size_t k = n; k-- > m + 2;) {
+    Four* own = at(k);
+    const double near = m_near_up[k], far = m_far_up[k];
+    const Four now_a = own[0] - far * before_a - near * last_a;
+    const Four now_b = own[1] - far * before_b - near * last_b;
+    before_a = last_a;
+    before_b = last_b;
+    own[0] = last_a = now_a;
+    own[1] = last_b = now_b;
+  }
+  one_a -= m_far_up[m] * last_a;
+  one_b -= m_far_up[m] * last_b;
+  two_a -= m_near_up[m + 1] * last_a + m_far_up[m + 1] * before_a;
+  two_b -= m_near_up[m + 1] * last_b + m_far_up[m + 1] * before_b;
+  const Four first_a = m_middle[0] * one_a + m_middle[1] * two_a, second_a = m_middle[1] * one_a + m_middle[2] * two_a;
+  const Four first_b = m_middle[0] * one_b + m_middle[1] * two_b, second_b = m_middle[1] * one_b + m_middle[2] * two_b;
+  middle_one[0] = last_a = first_a;
+  middle_one[1] = last_b = first_b;
+  middle_two[0] = before_a = second_a;
+  middle_two[1] = before_b = second_b;
+  for (std::size_t i = m; i-- > 0;) {
+    Four* own = at(i);
+    const double inverse = m_inverse[i], near = m_near[i + 1], far = m_far[i + 2];
+    const Four now_a = own[0] * inverse - far * before_a - near * last_a;
+    const Four now_b = own[1] * inverse - far * before_b - near * last_b;
+    before_a = last_a;
+    before_b = last_b;
+    own[0] = last_a = now_a;
+    own[1] = last_b = now_b;
+  }
+  last_a = second_a;
+  last_b = second_b;
+  before_a = first_a;
+  before_b = first_b;
+  for (std::size_t k = m + 2; k < n; ++k) {
+    Four* own = at(k);
+    const double inverse = m_inverse[k], near = m_near_up[k - 1], far = m_far_up[k - 2];
+    const Four now_a = own[0] * inverse - far * before_a - near * last_a;
+    const Four now_b = own[1] * inverse - far * before_b - near * last_b;
+    before_a = last_a;
+    before_b = last_b;
+    own[0] = last_a = now_a;
+    own[1] = last_b = now_b;
+  }
+}
+
+ZERODRIFT_WIDE void Skyline::solve_lanes(double* x) const {
+  if (m_first.empty()) return;
+  if (m_chain) return solve_lanes_of_chain(x);
+  if (m_band) return solve_lanes_of_band(x);
   const int n = static_cast<int>(m_first.size());
-  const auto at = [&](int i) { return x + static_cast<std::size_t>(m_order.empty() ? i : m_order[i]) * columns; };
-  if (m_band) {
-    for (int i = 1; i < n; ++i) {
-      double* own = at(i);
-      const double* last = at(i - 1);
-      const double* before = at(std::max(0, i - 2));
-      const double near = m_near[i], far = m_far[i];
-      for (std::size_t c = 0; c < columns; ++c) own[c] -= near * last[c] + far * before[c];
-    }
-    for (int i = n - 1; i >= 0; --i) {
-      double* own = at(i);
-      const double* next = at(std::min(n - 1, i + 1));
-      const double* after = at(std::min(n - 1, i + 2));
-      const double inverse = m_inverse[i], near = m_near[i + 1], far = m_far[i + 2];
-      for (std::size_t c = 0; c < columns; ++c) own[c] = own[c] * inverse - near * next[c] - far * after[c];
-    }
-    return;
+  const auto at = [&](int i) {
+    return reinterpret_cast<Four*>(x + static_cast<std::size_t>(m_order.empty() ? i : m_order[i]) * lanes);
+  };
+  const auto eliminate = [&](int target, int source, int i, int j) {
+    const double factor = m_below[m_start[i] + j - m_first[i]];
+    if (factor == 0.0) return;
+    at(target)[0] -= factor * at(source)[0];
+    at(target)[1] -= factor * at(source)[1];
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = m_first[i]; j < i; ++j) eliminate(i, j, i, j);
   }
   for (int i = 0; i < n; ++i) {
-    double* target = at(i);
-    for (int j = m_first[i]; j < i; ++j) {
-      const double factor = m_below[m_start[i] + j - m_first[i]];
-      if (factor == 0.0) continue;
-      const double* other = at(j);
-      for (std::size_t c = 0; c < columns; ++c) target[c] -= factor * other[c];
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    double* own = at(i);
-    for (std::size_t c = 0; c < columns; ++c) own[c] *= m_inverse[i];
+    at(i)[0] *= m_inverse[i];
+    at(i)[1] *= m_inverse[i];
   }
   for (int i = n - 1; i >= 0; --i) {
-    const double* own = at(i);
-    for (int j = m_first[i]; j < i; ++j) {
-      const double factor = m_below[m_start[i] + j - m_first[i]];
-      if (factor == 0.0) continue;
-      double* other = at(j);
-      for (std::size_t c = 0; c < columns; ++c) other[c] -= factor * own[c];
-    }
+    for (int j = m_first[i]; j < i; ++j) eliminate(j, i, i, j);
   }
 }
 

@@ -2,23 +2,30 @@
 // L D L^T of a symmetric positive definite matrix stored by its envelope: a chain of cells costs what the Thomas
 // algorithm costs, and a coupling between components only widens the rows it touches (George and Liu 1981, ch. 4).
 // Two chains side by side (a rod and its inside, in turns) have two entries beside the diagonal and loops of their own.
-// A pure chain is eliminated from both ends towards its middle (the "twisted" or "burn at both ends" factorisation,
-// Babuska 1972): each half waits only for itself, so that the processor works on both at once.
+// Both are eliminated from both ends towards the middle (the "twisted" or "burn at both ends" factorisation, Babuska
+// 1972): each half waits only for itself, so that the processor works on both at once.
 
 #include <cstddef>
 #include <vector>
 
 /// The inner loops over columns are worth the wider registers of today's processors; the loader picks the version.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define ZERODRIFT_WIDE __attribute__((target_clones("avx2", "default")))
+#define ZERODRIFT_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define ZERODRIFT_WIDE
 #endif
 
 namespace zerodrift::physics {
 
+/// Four numbers in one register (two where registers are narrow). Written out, because loops of a fixed short length
+/// are taken apart into single numbers by the compiler. Sums and products are element by element.
+using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+
 class Skyline {
  public:
+  /// Right-hand sides that are solved side by side: a fixed number, so that they stay in registers.
+  static constexpr std::size_t lanes = 8;
+
   /// first[i]: the first column of row i that may be non-zero. order[i]: where row i's values stand in the vectors that
   /// solve() gets; empty: in place i.
   explicit Skyline(std::vector<int> first, std::vector<int> order = {});
@@ -29,15 +36,17 @@ class Skyline {
   double& below(int row, int column) { return m_below[m_start[row] + column - m_first[row]]; }
   void factor();
   void solve(double* x);
-  /// `columns` right-hand sides side by side: x[row * columns + column].
-  void solve(double* x, std::size_t columns) const;
+  /// x[row * lanes + lane].
+  void solve_lanes(double* x) const;
 
  private:
   void factor_chain();
   void factor_band();
   void solve_band(double* x) const;
+  std::size_t middle() const { return (m_first.size() - 2) / 2; }  // band: first of the two rows that are left
   void solve_chain(double* x) const;
-  void solve_chain(double* x, std::size_t columns) const;
+  void solve_lanes_of_chain(double* x) const;
+  void solve_lanes_of_band(double* x) const;
 
   std::vector<int> m_first;
   std::vector<int> m_order;
@@ -46,9 +55,12 @@ class Skyline {
   std::vector<double> m_below;
   std::vector<double> m_diagonal;
   std::vector<double> m_inverse;
-  std::vector<double> m_link;         // chain: entry (i, i - 1) of the matrix, 0 for i = 0
-  std::vector<double> m_factor;       // chain: eliminates row i from its neighbour nearer to the middle
-  std::vector<double> m_near, m_far;  // band: L at (i, i - 1) and (i, i - 2)
+  std::vector<double> m_link;    // chain: entry (i, i - 1) of the matrix, 0 for i = 0
+  std::vector<double> m_factor;  // chain: eliminates row i from its neighbour nearer to the middle
+  // Band: what eliminates row i from the rows i - 1 and i - 2 (upper half and the two in the middle), and from the rows
+  // i + 1 and i + 2 (lower half and the two in the middle).
+  std::vector<double> m_near, m_far, m_near_up, m_far_up;
+  double m_middle[3] = {};  // the inverse of the two rows in the middle: (0, 0), (0, 1), (1, 1)
   bool m_chain = true;
   bool m_band = true;
 };

@@ -9,11 +9,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/proof/oracle.h"
 #include "core/base/json.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/recording/csv.h"
 #include "tests/proof/case_generator.h"
-#include "tests/proof/oracle.h"
 
 namespace {
 
@@ -52,7 +52,7 @@ OpenedAnswer truth_of(const Case& one) {
 
 /// Of a case that went wrong: how much evidence each hidden effect has for one who knows it.
 bool decidable(const zerodrift::physics::Machine& machine, const Case& one) {
-  const auto truth = zerodrift::proof::told_the_truth(machine, one);
+  const auto truth = zerodrift::proof::told_the_truth(machine, one.recordings, truth_of(one).effects);
   std::string text;
   bool all = truth.beside.size() == one.hidden.size();
   for (const auto& [id, evidence] : truth.beside) {
@@ -102,16 +102,22 @@ int main(int argc, char** argv) {
       score.add_failure(truth_of(one), "refused");
       continue;
     }
-    const auto judged = score.add(truth_of(one), zerodrift::diagnosis::to_json(*d));
+    OpenedAnswer truth = truth_of(one);
+    if (!truth.unlisted) {
+      const auto told = zerodrift::proof::told_the_truth(*machine, one.recordings, truth.effects);
+      truth.reached = told.reached;
+      for (const auto& [id, evidence] : told.beside) truth.told = std::min(truth.told.value_or(evidence), evidence);
+    }
+    const auto judged = score.add(truth, zerodrift::diagnosis::to_json(*d));
     const bool wrong = judged.outcome != zerodrift::proof::Outcome::right && !one.hidden.empty();
-    if (oracle && wrong && !truth_of(one).unlisted && !decidable(*machine, one)) {
+    if (oracle && wrong && !truth.unlisted && !decidable(*machine, one)) {
       ++undecidable;
       if (one.hidden.size() == 2) ++undecidable_pairs;
     }
     if (!verbose) continue;
-    std::string truth;
+    std::string hides;
     for (const auto& h : one.hidden) {
-      truth += h.id + (h.channel.empty() ? "" : "(" + h.channel + ")") +
+      hides += h.id + (h.channel.empty() ? "" : "(" + h.channel + ")") +
                (h.position_mm >= 0 ? fmt::format("@{:.0f}", h.position_mm) : "") + " ";
     }
     std::string says;
@@ -132,7 +138,7 @@ int main(int argc, char** argv) {
     std::string rivals = fmt::format("rise {:.0f} K in {:.3f} held {:.3f} | ", rise, in / channels, held / channels);
     for (const auto& r : d->ambiguous_with) rivals += fmt::format("{}({:.1f}) ", r.id, r.behind);
     fmt::print("{:5} {:<40} -> {:<14} {:<50} a {:.2f}->{:.2f} f{} ch {} ({}) {:.1f} s | {}\n",
-               seed + static_cast<std::uint64_t>(i), one.hidden.empty() ? "none" : truth,
+               seed + static_cast<std::uint64_t>(i), one.hidden.empty() ? "none" : hides,
                std::string(name_of(d->verdict)), says, d->excess_before, d->excess_after, d->drift_factor,
                d->mismatch.channels.empty() ? "-" : d->mismatch.channels[0], one.worst_channel, d->seconds, rivals);
     std::fflush(stdout);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "app/proof/concealed_case.h"
+#include "app/proof/oracle.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/json.h"
@@ -31,6 +32,23 @@ TEST(ConcealedCase, AMachineMayHideTwoEffects) {
   ASSERT_EQ(pair.truth.effects.size(), 2u);
   EXPECT_NE(pair.truth.effects[0].id, pair.truth.effects[1].id);
   EXPECT_NE(pair.truth.words().find('+'), std::string::npos);
+}
+
+TEST(Oracle, WhoIsToldTheEffectPredictsTheOtherRecordingToItsNoise) {
+  const ConcealedCase one = draw_case(8, 5, "coolant", false);
+  const fs::path folder = fs::path(testing::TempDir()) / ("zd_oracle_" + std::to_string(::getpid()));
+  ASSERT_TRUE(write_case_files(one, folder));
+  const auto machine = physics::read_machine(folder / "machine.json");
+  ASSERT_TRUE(machine);
+  const std::vector<recording::Recording> runs = {recording_of(one, one.run), recording_of(one, {.second = true})};
+  const OracleAnswer told = told_the_truth(*machine, runs, one.truth.effects);
+  EXPECT_TRUE(told.found);
+  EXPECT_GT(told.evidence, 10.0);
+  ASSERT_EQ(told.reached.count("T5_C"), 1u);
+  EXPECT_LT(told.reached.at("T5_C"), 2.0 * one.truth.floor.at("T5_C"));
+  EXPECT_LT(told.reached.at("dZ_um"), 3.0 * one.truth.floor.at("dZ_um"));
+  EXPECT_FALSE(told_the_truth(*machine, runs, {{"unlisted:creep", {}, "", ""}}).found);
+  fs::remove_all(folder);
 }
 
 TEST(Trial, PromisesFirstAndOpensEverySealAfterwards) {

@@ -1,0 +1,111 @@
+#include "app/proof/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/diagnosis/bodies.h"
+#include "core/diagnosis/diagnoser.h"
+#include "core/diagnosis/refined.h"
+#include "core/diagnosis/screening.h"
+
+namespace zerodrift::proof {
+namespace {
+
+using diagnosis::Candidate;
+using diagnosis::Dataset;
+using diagnosis::Model;
+using ModelPtr = std::shared_ptr<Model>;
+
+bool is_form_of(const Candidate& candidate, const TrueEffect& hidden) {
+  const auto& spec = candidate.spec;
+  if (spec.id != hidden.id) return false;
+  if (!hidden.channel.empty() && spec.word_or("channel", "") != hidden.channel) return false;
+  return hidden.law.empty() || spec.word_or("law", hidden.law) == hidden.law;
+}
+
+/// The best form of one hidden effect added to a model; places start where the truth is.
+ModelPtr with_effect(const ModelPtr& base, const TrueEffect& hidden, const physics::RunFacts& facts) {
+  auto screened = diagnosis::screen(*base, facts);
+  std::erase_if(screened, [&](const auto& candidate) { return !is_form_of(candidate, hidden); });
+  if (hidden.position_mm) {
+    std::stable_sort(screened.begin(), screened.end(), [&](const auto& a, const auto& b) {
+      const auto off = [&](const Candidate& c) {
+        return std::abs(c.spec.number_or("position_mm", *hidden.position_mm) - *hidden.position_mm);
+      };
+      return off(a) < off(b);
+    });
+  }
+  constexpr std::size_t forms = 6;
+  if (screened.size() > forms) screened.resize(forms);
+  ModelPtr best;
+  for (auto& candidate : screened) {
+    if (hidden.position_mm && candidate.spec.numbers.count("position_mm") != 0) {
+      candidate.spec.numbers["position_mm"] = *hidden.position_mm;
+    }
+    const ModelPtr fit = diagnosis::extended(*base, candidate);
+    fit->fit({20, 0.02, true});
+    if (best == nullptr || fit->log_evidence() > best->log_evidence()) best = fit;
+  }
+  return best;
+}
+
+/// Under the misfit that suits the model, as every answer of the diagnosis is.
+ModelPtr at_its_own_misfit(const ModelPtr& model, const Dataset& usual) {
+  auto data = std::make_shared<Dataset>(
+      diagnosis::with_discrepancy(usual, diagnosis::ordinary_discrepancy(usual, model->prediction())));
+  auto result = std::make_shared<Model>(model->machine(), std::move(data));
+  result->continue_from(*model);
+  result->fit({20, 0.02, true});
+  return result;
+}
+
+std::map<std::string, double> reached_in(const Model& model, const recording::Recording& other) {
+  const double hold = model.values()[static_cast<std::size_t>(model.network().hold_parameter)];
+  std::map<std::string, double> reached;
+  for (const auto& channel : diagnosis::predict_other(diagnosis::refined_machine(model), other, hold).channels) {
+    const double rms = diagnosis::rms_between(other, channel.channel, channel.values);
+    if (std::isfinite(rms)) reached[channel.channel] = rms;
+  }
+  return reached;
+}
+
+}  // namespace
+
+OracleAnswer told_the_truth(const physics::Machine& described, const std::vector<recording::Recording>& recordings,
+                            const std::vector<TrueEffect>& hidden) {
+  const physics::Machine machine = diagnosis::with_inner_bodies(described);
+  const auto& recording = recordings.front();
+  const physics::Network network = physics::build_network(machine, recording);
+  auto usual = std::make_shared<Dataset>(diagnosis::make_dataset(recording, network));
+  diagnosis::set_timing_noise(*usual, network, physics::make_inputs(network, recording));
+  const physics::RunFacts facts = diagnosis::facts_of(machine, recording);
+  auto base = std::make_shared<Model>(machine, usual);
+  base->fit({20, 0.02, true});
+  base = at_its_own_misfit(base, *usual);
+  OracleAnswer answer;
+  ModelPtr best;
+  std::vector<TrueEffect> in_turn = hidden;
+  for (std::size_t order = 0; order < std::max<std::size_t>(1, hidden.size()); ++order) {
+    ModelPtr model = base;
+    for (const auto& effect : in_turn) {
+      if (model != nullptr) model = with_effect(model, effect, facts);
+    }
+    if (model == nullptr) return answer;
+    if (best == nullptr || model->log_evidence() > best->log_evidence()) best = model;
+    std::reverse(in_turn.begin(), in_turn.end());
+  }
+  if (best != base) best = at_its_own_misfit(best, *usual);
+  answer.found = true;
+  answer.evidence = best->log_evidence_total() - base->log_evidence_total();
+  for (std::size_t i = machine.effects.size(); i < best->machine().effects.size(); ++i) {
+    auto less = diagnosis::reduced(*best, i);
+    less->fit({20, 0.02, true});
+    less = at_its_own_misfit(less, *usual);
+    answer.beside[best->machine().effects[i].id] = best->log_evidence_total() - less->log_evidence_total();
+  }
+  if (recordings.size() > 1) answer.reached = reached_in(*best, recordings[1]);
+  return answer;
+}
+
+}  // namespace zerodrift::proof
