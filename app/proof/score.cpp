@@ -61,7 +61,7 @@ Outcome outcome_of(const OpenedAnswer& truth, const json& diagnosis) {
   if (verdict == "consistent") return Outcome::missed;
   if (truth.unlisted) return verdict == "unexplained" ? Outcome::right : Outcome::wrong_name;
   if (!names) return Outcome::given_up;
-  std::set<std::string> hidden, named;
+  std::multiset<std::string> hidden, named;  // the same name twice is one too many
   for (const auto& effect : truth.effects) hidden.insert(effect.id);
   for (const auto& effect : effects) named.insert(id_of(effect, truth));
   if (hidden == named) return Outcome::right;

@@ -13,64 +13,47 @@ namespace zerodrift::diagnosis {
 namespace {
 
 struct Step {
-  double minutes;
+  double hours;
   double speed_share;  // of full speed
   bool coolant;
   double load_W;
 };
 
 struct Run {
-  std::string id;
+  const char* id;
+  const char* text;
   std::vector<Step> steps;
-
-  double minutes() const {
-    double sum = 0.0;
-    for (const auto& step : steps) sum += step.minutes;
-    return sum;
-  }
 };
 
-constexpr double longest_min = 240.0;
-
-/// Runs of some shape, each in several lengths, shortest first: what separates two effects is the shape, how long it
-/// has to be depends on how far apart they are.
-std::vector<Run> runs_to_choose_from() {
-  static const std::vector<Run> shapes = {
-      {"heat_and_stop", {{60, 1.0, false, 0}, {60, 0.0, false, 0}}},
-      {"coolant_once", {{50, 0.67, false, 0}, {40, 0.67, true, 0}, {30, 0.0, false, 0}}},
-      {"half_speed", {{120, 0.5, false, 0}}},
-      {"staircase", {{30, 0.25, false, 0}, {30, 0.5, false, 0}, {30, 0.75, false, 0}, {30, 1.0, false, 0}}},
-      {"start_stop", {{30, 1.0, false, 0}, {30, 0.0, false, 0}, {30, 1.0, false, 0}, {30, 0.0, false, 0}}},
-      {"coolant_toggle", {{30, 1.0, false, 0}, {30, 1.0, true, 0}, {30, 1.0, false, 0}, {30, 1.0, true, 0}}},
-      {"hot_and_cold", {{20, 0.5, false, 0}, {60, 1.0, false, 0}, {20, 0.5, false, 0}, {20, 0.0, false, 0}}},
-      {"cutting_toggle", {{30, 0.5, false, 0}, {30, 0.5, false, 2000}, {30, 0.5, false, 0}, {30, 0.5, false, 2000}}}};
-  std::vector<Run> runs;
-  for (const double share : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0}) {
-    for (Run run : shapes) {
-      for (Step& step : run.steps) step.minutes = std::round(step.minutes * share);
-      if (run.minutes() <= longest_min) runs.push_back(std::move(run));
-    }
-  }
-  std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.minutes() < b.minutes(); });
+/// From short to long.
+const std::vector<Run>& library() {
+  static const std::vector<Run> runs = {
+      {"hour_and_stop",
+       "full speed for 1 h without coolant, then stop and record 1 h of cooling",
+       {{1.0, 1.0, false, 0}, {1.0, 0.0, false, 0}}},
+      {"coolant_once",
+       "two thirds of full speed for 50 min without coolant, 40 min with it, then stop and record 30 min",
+       {{0.834, 0.67, false, 0}, {0.667, 0.67, true, 0}, {0.5, 0.0, false, 0}}},
+      {"full_then_stop",
+       "full speed for 2 h without coolant, then stop and record 1.5 h of cooling",
+       {{2.0, 1.0, false, 0}, {1.5, 0.0, false, 0}}},
+      {"half_speed", "half speed for 3 h without coolant", {{3.0, 0.5, false, 0}}},
+      {"staircase",
+       "25, 50, 75 and 100 % of full speed, 45 min each",
+       {{0.75, 0.25, false, 0}, {0.75, 0.5, false, 0}, {0.75, 0.75, false, 0}, {0.75, 1.0, false, 0}}},
+      {"start_stop",
+       "full speed for 40 min and stop for 40 min, twice",
+       {{0.667, 1.0, false, 0}, {0.667, 0.0, false, 0}, {0.667, 1.0, false, 0}, {0.667, 0.0, false, 0}}},
+      {"coolant_toggle",
+       "full speed for 2.7 h, coolant on and off every 40 min",
+       {{0.667, 1.0, false, 0}, {0.667, 1.0, true, 0}, {0.667, 1.0, false, 0}, {0.667, 1.0, true, 0}}},
+      {"hot_and_cold",
+       "half speed for 20 min cold, full speed for 1.5 h, half speed for 20 min hot, stop for 40 min",
+       {{0.334, 0.5, false, 0}, {1.5, 1.0, false, 0}, {0.334, 0.5, false, 0}, {0.667, 0.0, false, 0}}},
+      {"cutting_toggle",
+       "half speed for 2.7 h, cutting on and off every 40 min",
+       {{0.667, 0.5, false, 0}, {0.667, 0.5, false, 2000}, {0.667, 0.5, false, 0}, {0.667, 0.5, false, 2000}}}};
   return runs;
-}
-
-std::string words_of(const Run& run, double full_rpm) {
-  std::string text;
-  for (const Step& step : run.steps) {
-    if (!text.empty()) text += "; ";
-    const double rpm = std::round(step.speed_share * full_rpm);
-    if (rpm <= 0.0) {
-      text += fmt::format("{:.0f} min at rest", step.minutes);
-    } else if (step.coolant) {
-      text += fmt::format("{:.0f} min at {:.0f} rpm with coolant", step.minutes, rpm);
-    } else if (step.load_W > 0.0) {
-      text += fmt::format("{:.0f} min at {:.0f} rpm while cutting", step.minutes, rpm);
-    } else {
-      text += fmt::format("{:.0f} min at {:.0f} rpm", step.minutes, rpm);
-    }
-  }
-  return text;
 }
 
 /// Load of the spindle while it only turns, W per rpm, as the recording has it: the least that was measured there.
@@ -96,7 +79,7 @@ recording::Recording inputs_of(const Run& run, const Model& model) {
   const double idle_W_rpm = idle_load_W_rpm(*model.data().recording);
   double start_s = 0.0;
   for (const auto& step : run.steps) {
-    for (double t = start_s; t < start_s + 60.0 * step.minutes - 1.0; t += 60.0) {
+    for (double t = start_s; t < start_s + 3600.0 * step.hours - 1.0; t += 60.0) {
       r.time_s.push_back(t);
       rpm.values.push_back(step.speed_share * full_rpm);
       coolant.values.push_back(step.coolant ? 1.0 : 0.0);
@@ -122,13 +105,19 @@ recording::Recording inputs_of(const Run& run, const Model& model) {
   return r;
 }
 
+double hours_of(const Run& run) {
+  double sum = 0.0;
+  for (const auto& step : run.steps) sum += step.hours;
+  return sum;
+}
+
 nlohmann::json plan_of(const Run& run, double full_rpm) {
   nlohmann::json plan = {{"name", run.id},
                          {"sample_period_s", 10},
                          {"measure_period_s", 60},
                          {"measure_position_mm", {{"X", 0}, {"Y", 0}, {"Z", 0}}}};
   for (const auto& step : run.steps) {
-    plan["steps"].push_back({{"duration_s", std::round(60.0 * step.minutes)},
+    plan["steps"].push_back({{"duration_s", std::round(3600.0 * step.hours)},
                              {"spindle_rpm", std::round(step.speed_share * full_rpm)},
                              {"coolant_on", step.coolant},
                              {"path", "still"}});
@@ -137,27 +126,13 @@ nlohmann::json plan_of(const Run& run, double full_rpm) {
   return plan;
 }
 
-/// What a model expects of a run and how its unknowns could bend that, whitened by the noise of the recording so far.
+/// What a model expects of a run, in noise widths at samples that are independent of each other (neighbours share the
+/// slow drift: one in 15 minutes), and how its unknowns could bend that.
 struct Expectation {
-  physics::Prediction values;
-  RowMatrix columns;          // by standardised unknowns
+  Eigen::VectorXd values;
+  Eigen::MatrixXd columns;    // by standardised unknowns
   Eigen::MatrixXd precision;  // of the unknowns after the first recording; what is new in each recording at its prior
 };
-
-/// The channels of the recording as they would be measured in the run: zeros with their noise.
-Dataset channels_in(const recording::Recording& inputs, const Dataset& seen) {
-  Dataset data;
-  data.time_s = inputs.time_s;
-  for (MeasuredChannel channel : seen.channels) {
-    channel.values.assign(data.rows(), 0.0);
-    channel.timing.assign(data.rows(), 0.0);
-    channel.present.assign(data.rows(), channel.samples > 0);
-    if (channel.samples > 0) channel.samples = static_cast<int>(data.rows());
-    data.channels.push_back(std::move(channel));
-  }
-  data.prepare();
-  return data;
-}
 
 Expectation expectation_of(const Model& model, const recording::Recording& inputs) {
   const physics::Network network = physics::build_network(model.machine(), inputs);
@@ -180,24 +155,28 @@ Expectation expectation_of(const Model& model, const recording::Recording& input
     expected.precision.col(row).setZero();
     expected.precision(row, row) = 1.0;
   }
-  if (parameters.size() != model.unknowns()) parameters.clear();
-  expected.values = physics::predict(network, physics::make_inputs(network, inputs), values, parameters);
-  if (expected.values.channels.size() != model.data().channels.size()) return expected;
-  const Dataset data = channels_in(inputs, model.data());
-  expected.columns.setZero(static_cast<Eigen::Index>(data.stacked()), static_cast<Eigen::Index>(parameters.size()));
-  std::vector<int> targets(parameters.size());
-  for (std::size_t i = 0; i < targets.size(); ++i) targets[i] = static_cast<int>(i);
-  if (!targets.empty()) whiten_columns(data, expected.values, slopes, expected.columns, targets);
+  const bool whole = parameters.size() == model.unknowns();
+  if (!whole) parameters.clear();
+  const physics::Prediction prediction =
+      physics::predict(network, physics::make_inputs(network, inputs), values, parameters);
+  constexpr std::size_t stride = 15;
+  const std::size_t per_channel = (prediction.rows + stride - 1) / stride;
+  expected.values.setZero(static_cast<Eigen::Index>(per_channel * prediction.channels.size()));
+  expected.columns.setZero(expected.values.size(), static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t c = 0; c < prediction.channels.size() && c < model.data().channels.size(); ++c) {
+    const MeasuredChannel& channel = model.data().channels[c];
+    if (channel.samples == 0) continue;
+    const double sigma = std::hypot(channel.drift, channel.white / 4.0);
+    for (std::size_t k = 0; k < prediction.rows; k += stride) {
+      const auto row = static_cast<Eigen::Index>(c * per_channel + k / stride);
+      expected.values[row] = prediction.channels[c].values[k] / sigma;
+      for (std::size_t p = 0; p < parameters.size(); ++p) {
+        expected.columns(row, static_cast<Eigen::Index>(p)) =
+            prediction.channels[c].derivatives[k * prediction.columns + p] * slopes[p] / sigma;
+      }
+    }
+  }
   return expected;
-}
-
-/// What two models expect differently, in noise widths; empty where they do not see the same channels.
-Eigen::VectorXd difference_of(const Expectation& a, const Expectation& b, Dataset data) {
-  if (a.values.channels.size() != data.channels.size() || b.values.channels.size() != data.channels.size()) return {};
-  for (std::size_t c = 0; c < data.channels.size(); ++c) data.channels[c].values = a.values.channels[c].values;
-  Eigen::VectorXd difference;
-  whiten(data, b.values, &difference);
-  return difference;
 }
 
 /// Expected log evidence against a model if the difference is true: what its unknowns cannot absorb.
@@ -212,47 +191,37 @@ double evidence_against(const Expectation& model, const Eigen::VectorXd& differe
   return 0.5 * std::max(0.0, left);
 }
 
-struct Separation {
-  double evidence = 0.0;  // the least over the rivals
-  const Model* nearest = nullptr;
-};
-
-Separation separation_by(const Run& run, const Model& best, const std::vector<const Model*>& rivals) {
-  const recording::Recording inputs = inputs_of(run, best);
-  const Expectation expected = expectation_of(best, inputs);
-  const Dataset data = channels_in(inputs, best.data());
-  Separation separation{1e300, nullptr};
-  for (const Model* rival : rivals) {
-    const Expectation other = expectation_of(*rival, inputs);
-    const Eigen::VectorXd difference = difference_of(expected, other, data);
-    if (difference.size() == 0) continue;
-    const double apart = std::min(evidence_against(expected, difference), evidence_against(other, difference));
-    if (apart < separation.evidence) separation = {apart, rival};
-  }
-  return separation;
-}
-
 }  // namespace
 
 SuggestedExperiment suggest_experiment(const Model& best, const std::vector<const Model*>& rivals) {
-  constexpr double decisive = 40.0;  // log evidence expected: then more hours buy nothing
-  constexpr double as_short = 1.1;   // lengths that are called alike
+  constexpr double decisive = 30.0;  // log evidence expected: a shorter run is not worth less certainty
   SuggestedExperiment suggestion;
-  double decided_min = 1e300;
-  for (const Run& run : runs_to_choose_from()) {
-    if (run.minutes() > as_short * decided_min) break;
-    const Separation separation = separation_by(run, best, rivals);
-    if (separation.nearest == nullptr || separation.evidence <= suggestion.distance) continue;
-    if (separation.evidence > decisive) decided_min = std::min(decided_min, run.minutes());
-    suggestion.distance = separation.evidence;
+  double chosen_hours = 0.0;
+  for (const auto& run : library()) {
+    const recording::Recording inputs = inputs_of(run, best);
+    const Expectation expected = expectation_of(best, inputs);
+    double least = 1e300;
+    const Model* nearest = nullptr;
+    for (const Model* rival : rivals) {
+      const Expectation other = expectation_of(*rival, inputs);
+      if (other.values.size() != expected.values.size()) continue;
+      const Eigen::VectorXd difference = expected.values - other.values;
+      const double apart = std::min(evidence_against(expected, difference), evidence_against(other, difference));
+      if (apart >= least) continue;
+      least = apart;
+      nearest = rival;
+    }
+    if (nearest == nullptr || least <= suggestion.distance) continue;
+    if (suggestion.distance > decisive && hours_of(run) > chosen_hours) continue;
+    chosen_hours = hours_of(run);
+    suggestion.distance = least;
     suggestion.id = run.id;
-    const double full_rpm = best.network().full_speed_rpm;
-    suggestion.plan_json = plan_of(run, full_rpm).dump();
+    suggestion.plan_json = plan_of(run, best.network().full_speed_rpm).dump();
     // A best model without any effect: nothing is missing, or the rival is.
     const auto& effects = best.machine().effects;
     const bool named = !effects.empty() && effects.back().candidate;
-    suggestion.text = explain_experiment(named ? effects.back().id : std::string(),
-                                         separation.nearest->machine().effects.back().id, words_of(run, full_rpm));
+    suggestion.text =
+        explain_experiment(named ? effects.back().id : std::string(), nearest->machine().effects.back().id, run.text);
   }
   return suggestion;
 }

@@ -49,12 +49,18 @@ std::vector<double> jumps(const recording::Channel& channel, const std::vector<d
   return times_s;
 }
 
+// Shares of the length within which no second of the kind is looked for.
+constexpr double source_alone = 0.07;
+constexpr double joint_alone = 0.25;
+
 bool conflicts(const Machine& machine, const EffectSpec& have, const EffectSpec& want) {
   if (have.id != want.id) return false;
   const auto same = [&](const char* word) { return have.word_or(word, "") == want.word_or(word, ""); };
   if (have.id == "extra_heat_source" || have.id == "contact_resistance") {
     const physics::Component* component = machine.find(want.word_or("component", ""));
-    const double near_mm = component == nullptr ? 1.0 : 0.07 * component->length_mm;
+    const double length_mm = component == nullptr ? 1.0 : component->length_mm;
+    // One joint of a body that has an inside is a little wider than a plane: a second beside it would only mend that.
+    const double near_mm = (have.id == "contact_resistance" ? joint_alone : source_alone) * length_mm;
     return same("law") && std::abs(have.number_or("position_mm", 0) - want.number_or("position_mm", 0)) < near_mm;
   }
   if (have.id == "neighbour_heat") return same("component") && same("neighbour");
@@ -235,6 +241,25 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts)
   }
   std::stable_sort(together.begin(), together.end(), [](auto& a, auto& b) { return a.gain > b.gain; });
   return together;
+}
+
+bool doubles_a_joint(const Model& model) {
+  const Machine& machine = model.machine();
+  std::vector<std::pair<std::string, double>> joints;
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    const auto& unknown = model.unknown(i);
+    if (unknown.effect < 0 || unknown.key != "position_mm") continue;
+    const EffectSpec& spec = machine.effects[static_cast<std::size_t>(unknown.effect)];
+    if (spec.id == "contact_resistance") joints.emplace_back(spec.word_or("component", ""), model.value(i));
+  }
+  for (std::size_t a = 0; a < joints.size(); ++a) {
+    for (std::size_t b = a + 1; b < joints.size(); ++b) {
+      const physics::Component* component = machine.find(joints[a].first);
+      if (component == nullptr || joints[a].first != joints[b].first) continue;
+      if (std::abs(joints[a].second - joints[b].second) < joint_alone * component->length_mm) return true;
+    }
+  }
+  return false;
 }
 
 std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate) {

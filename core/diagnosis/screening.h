@@ -20,6 +20,8 @@ struct Candidate {
 physics::RunFacts facts_of(const physics::Machine& machine, const recording::Recording& recording);
 /// Best first. Forms that the model already has are left out.
 std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts);
+/// Two joints so close that the second only mends the shape of the first: places move while they are fitted.
+bool doubles_a_joint(const Model& model);
 /// The model with one candidate more, started at the candidate's step, not yet fitted.
 std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate);
 /// The model without its effect at `index`, not yet fitted.

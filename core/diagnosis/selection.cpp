@@ -264,7 +264,8 @@ class Selector {
     if (forms && count < m_result.described + 2) return false;
     for (std::size_t i = m_result.described; i < count; ++i) {
       const auto rivals = in_place_of(*m_result.best, i, m_facts, forms);
-      if (rivals.empty() || rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
+      if (rivals.empty() || doubles_a_joint(*rivals.front())) continue;
+      if (rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
       m_result.best = rivals.front();
       return true;
     }
@@ -300,6 +301,7 @@ class Selector {
   double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
 
   bool accepted(const Model& fit, const Excess& before) const {
+    if (doubles_a_joint(fit)) return false;
     const double gained = total_gain(fit, *m_result.best);
     const double so_far = total_gain(*m_result.best, *m_result.base);
     if (before.largest < 2.0) return gained > least_gain(so_far);

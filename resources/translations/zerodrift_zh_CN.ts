@@ -2478,20 +2478,40 @@
         <translation>至少一个</translation>
     </message>
     <message>
-        <source>%1 min at rest</source>
-        <translation>停机 %1 min</translation>
+        <source>full speed for 1 h without coolant, then stop and record 1 h of cooling</source>
+        <translation>以最高转速运行 1 h，不开冷却液，然后停机并记录 1 h 冷却过程</translation>
     </message>
     <message>
-        <source>%1 min at %2 rpm</source>
-        <translation>以 %2 rpm 运行 %1 min</translation>
+        <source>two thirds of full speed for 50 min without coolant, 40 min with it, then stop and record 30 min</source>
+        <translation>以最高转速的三分之二运行：不开冷却液 50 min，开冷却液 40 min，然后停机并记录 30 min</translation>
     </message>
     <message>
-        <source>%1 min at %2 rpm with coolant</source>
-        <translation>开冷却液，以 %2 rpm 运行 %1 min</translation>
+        <source>full speed for 2 h without coolant, then stop and record 1.5 h of cooling</source>
+        <translation>以最高转速运行 2 h，不开冷却液，然后停机并记录 1.5 h 冷却过程</translation>
     </message>
     <message>
-        <source>%1 min at %2 rpm while cutting</source>
-        <translation>切削状态下以 %2 rpm 运行 %1 min</translation>
+        <source>half speed for 3 h without coolant</source>
+        <translation>以最高转速的一半运行 3 h，不开冷却液</translation>
+    </message>
+    <message>
+        <source>25, 50, 75 and 100 % of full speed, 45 min each</source>
+        <translation>以最高转速的 25、50、75 和 100 % 运行，各 45 min</translation>
+    </message>
+    <message>
+        <source>full speed for 40 min and stop for 40 min, twice</source>
+        <translation>以最高转速运行 40 min、停机 40 min，重复两次</translation>
+    </message>
+    <message>
+        <source>full speed for 2.7 h, coolant on and off every 40 min</source>
+        <translation>以最高转速运行 2.7 h，冷却液每 40 min 开关一次</translation>
+    </message>
+    <message>
+        <source>half speed for 20 min cold, full speed for 1.5 h, half speed for 20 min hot, stop for 40 min</source>
+        <translation>冷态下以半速运行 20 min，全速运行 1.5 h，热态下再以半速运行 20 min，停机 40 min</translation>
+    </message>
+    <message>
+        <source>half speed for 2.7 h, cutting on and off every 40 min</source>
+        <translation>以半速运行 2.7 h，每 40 min 切削与停止交替一次</translation>
     </message>
     <message>
         <source>µm per unit of its driver</source>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/physics/machine.h"
@@ -57,6 +58,43 @@ TEST(Contradiction, AnExplanationThatMakesTheOtherRecordingWorseIsNone) {
   const auto both = diagnose(*machine, one.recordings, {false});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->verdict, Verdict::unexplained);
+}
+
+/// A movement of the nose that only the other recording has: something is missing, whatever it is.
+TEST(Contradiction, AMovementThatOnlyTheOtherRecordingHasIsNotConsistent) {
+  proof::Case one = proof::make_case(5, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const auto before = diagnose(*machine, one.recordings, {false});
+  ASSERT_TRUE(before.has_value());
+  EXPECT_EQ(before->verdict, Verdict::consistent);
+  recording::Recording& other = one.recordings[1];
+  for (std::size_t k = 0; k < other.rows(); ++k) {
+    other.find("dZ_um")->values[k] += 8.0 * std::sin(2.0 * 3.14159265 * other.time_s[k] / 5000.0);
+  }
+  const auto both = diagnose(*machine, one.recordings, {false});
+  ASSERT_TRUE(both.has_value());
+  EXPECT_EQ(both->verdict, Verdict::unexplained);
+  EXPECT_EQ(both->mismatch.channels.front(), "dZ_um");
+}
+
+/// What jumps to and fro in the other recording did not slip, even if it only jumped once in the first.
+TEST(Contradiction, WhatJumpsToAndFroInTheOtherRecordingDidNotSlip) {
+  proof::Case one = proof::make_case(5, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const auto shift = [](recording::Recording& run, double from_s, double to_s) {
+    for (std::size_t k = 0; k < run.rows(); ++k) {
+      if (run.time_s[k] >= from_s && run.time_s[k] < to_s) run.find("dZ_um")->values[k] += 6.0;
+    }
+  };
+  shift(one.recordings[0], 6000.0, 1e9);
+  const auto slipped = diagnose(*machine, one.recordings, {false});
+  ASSERT_TRUE(slipped.has_value());
+  ASSERT_FALSE(slipped->effects.empty());
+  EXPECT_EQ(slipped->effects[0].id, "bracket_slip");
+  for (const double from_s : {2000.0, 6000.0, 10000.0}) shift(one.recordings[1], from_s, from_s + 2000.0);
+  const auto loose = diagnose(*machine, one.recordings, {false});
+  ASSERT_TRUE(loose.has_value());
+  EXPECT_EQ(loose->verdict, Verdict::unexplained);
 }
 
 }  // namespace zerodrift::diagnosis

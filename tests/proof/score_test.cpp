@@ -52,17 +52,19 @@ TEST(Score, JudgesEachKindOfAnswer) {
   EXPECT_EQ(
       outcome(hiding({"coolant", "radiation"}), diagnosis_of("missing_effect", {{"radiation", 0.9}, {"coolant", 0.9}})),
       Outcome::right);
+  const auto twice = diagnosis_of("missing_effect", {{"contact_resistance", 0.9}, {"contact_resistance", 0.9}});
+  EXPECT_EQ(outcome(hiding({"contact_resistance"}), twice), Outcome::first_right);
   OpenedAnswer odd = hiding({"unlisted:creep"});
   odd.unlisted = true;
   EXPECT_EQ(outcome(odd, diagnosis_of("unexplained", {})), Outcome::right);
   EXPECT_EQ(outcome(odd, diagnosis_of("missing_effect", {{"coolant", 0.9}})), Outcome::wrong_name);
   EXPECT_EQ(outcome(odd, diagnosis_of("consistent", {})), Outcome::missed);
   EXPECT_EQ(score.add_failure(hiding({"coolant"}), "refused").outcome, Outcome::failed);
-  // Four of the 13 answers are whole; one more has the first name right.
-  EXPECT_EQ(value_of(score, "all_right"), "4/13 = 30.8");
-  EXPECT_EQ(value_of(score, "first_right"), "5/13 = 38.5");
+  // Four of the 14 answers are whole; two more have the first name right.
+  EXPECT_EQ(value_of(score, "all_right"), "4/14 = 28.6");
+  EXPECT_EQ(value_of(score, "first_right"), "6/14 = 42.9");
   EXPECT_EQ(value_of(score, "false_alarms"), "2/3 = 66.7");
-  EXPECT_EQ(value_of(score, "missed"), "1/7 = 14.3");
+  EXPECT_EQ(value_of(score, "missed"), "1/8 = 12.5");
   EXPECT_EQ(value_of(score, "pairs"), "1/1 = 100.0");
   EXPECT_EQ(value_of(score, "unlisted"), "1/3 = 33.3");
   EXPECT_EQ(value_of(score, "location_worst_mm"), "10.0");
