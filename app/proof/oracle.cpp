@@ -36,7 +36,7 @@ ModelPtr with_effect(const ModelPtr& base, const TrueEffect& hidden, const physi
       return off(a) < off(b);
     });
   }
-  constexpr std::size_t forms = 6;
+  constexpr std::size_t forms = 12;
   if (screened.size() > forms) screened.resize(forms);
   ModelPtr best;
   for (auto& candidate : screened) {

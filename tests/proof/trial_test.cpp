@@ -35,7 +35,7 @@ TEST(ConcealedCase, AMachineMayHideTwoEffects) {
 }
 
 TEST(Oracle, WhoIsToldTheEffectPredictsTheOtherRecordingToItsNoise) {
-  const ConcealedCase one = draw_case(8, 5, "coolant", false);
+  const ConcealedCase one = draw_case(8, 5, "cutting_heat", false);
   const fs::path folder = fs::path(testing::TempDir()) / ("zd_oracle_" + std::to_string(::getpid()));
   ASSERT_TRUE(write_case_files(one, folder));
   const auto machine = physics::read_machine(folder / "machine.json");
