@@ -24,6 +24,7 @@ struct FramePatch {
  private:
   void leave_out_bright(double further_px);
   std::vector<std::uint8_t> m_dark;  // 0 where the frame is saturated; empty if it is nowhere
+  Region m_bright;                   // of the patch, around all that is saturated
 };
 
 }  // namespace zerodrift::vision

@@ -33,6 +33,7 @@ constexpr double poor_residual = 4.0;  // grey levels at middle grey: no camera'
 constexpr int largest_rounds = 6;
 constexpr float seen_through = 0.02f;
 constexpr int within_outline_px = 8;
+constexpr double least_inside = 0.02;  // of the pixels
 constexpr double outline_share = 0.7;  // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
@@ -100,11 +101,16 @@ std::optional<TemplateSource> outline_of(const TemplateSource& source, const Tem
     }
   }
   double kept = 0.0, all = 0.0;
+  int left_out = 0;
   for (int k = 0; k < model.pixels; ++k) {
     const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
+    const bool keep = out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]] != 0;
     all += energy;
-    if (out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]]) kept += energy;
+    kept += keep ? energy : 0.0;
+    left_out += keep ? 0 : 1;
   }
+  // A target through which is seen everywhere is all outline: there is nothing to do without.
+  if (left_out < least_inside * model.pixels) return std::nullopt;
   return kept > outline_share * all ? std::optional(std::move(out)) : std::nullopt;
 }
 
@@ -134,7 +140,7 @@ class PatchOfFrame {
 };
 
 Registrar::Registrar(TemplateSource source)
-    : m_source(std::move(source)),
+    : m_source(completed(std::move(source))),
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
   find_noise_growth(m_model);
@@ -252,12 +258,17 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     const bool blurs = match_blur(solver.extra_blur_px2(), next);
     on_trial = !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;
     next.with_field = setup.with_field || (!blurs && (needs_field(out) || on_trial));
-    if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
-    solver.tell_uncertainty(out);
-    if (!blurs && next.with_field == setup.with_field) break;
+    const bool last = (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
+    // What only leads to a better matched blur need not be known so well.
+    if (last || !blurs) {
+      if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
+      solver.tell_uncertainty(out);
+    }
+    if (last) break;
     setup = next;
     if (blurs) remodel();
   }
+  out.converged = out.converged && out.covariance_px2(0, 0) > 0.0;
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;
 }

@@ -14,38 +14,16 @@ constexpr double length_px = registration_length_px;
 constexpr double linear_prior = 0.02;  // standard deviation of the affine part: keeps rings, which cannot see rotation
 constexpr double linear_prior_with_field = 0.006;  // beside a free field, shape is weak evidence of the linear part
 constexpr double field_prior_levels = 60.0;
-constexpr double middle_grey = 128.0;
-constexpr double usual_read_variance = 25.0;  // of the noise at black in units of that of one grey level: shot noise
-constexpr double least_read_variance = 5.0;
-constexpr double largest_read_variance = 500.0;  // practically the same noise at all levels
-constexpr double tukey_wide = 7.0;               // while the motion settles, and when there are no outliers
-constexpr double tukey_narrow = 4.7;             // 95 % efficient for normal noise
-constexpr double outlier_sigmas = 4.0;
-constexpr double outlier_share = 0.0015;  // of the pixels: normal noise has 0.00006 beyond 4 sigma
 constexpr double settled_px = 3e-5;
 constexpr double nearly_settled_px = 2e-3;
 constexpr double weight_change = 0.03;  // of the weights' sum: beyond it the normal matrix is made anew
 constexpr double scale_change = 0.1;
-constexpr double least_weight = 0.4;  // of the pixels' own weight must be left by their neighbours
 constexpr int light_rounds = 4;
 constexpr int settle_iterations = 5;
 constexpr int sampling_rounds = 7;
 constexpr int reweightings = 5;
 constexpr double negligible_sigmas = 0.03;
 constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was sampled needs no new sample
-constexpr std::size_t least_pixels = 100;
-constexpr int scale_samples = 4000;  // of the errors are enough for their median
-
-double median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// 1 / variance: that of shot noise and of noise at black, which counts as much as `read` grey levels.
-Eigen::VectorXf noise_weights(const Eigen::Ref<const Eigen::VectorXf>& levels, double read) {
-  return static_cast<float>(middle_grey + read) / (levels.array().max(0.0f) + static_cast<float>(read));
-}
 
 }  // namespace
 
@@ -61,16 +39,13 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
       m_linear(start.linear),
       m_prior(start.lens),
       m_lens(start.lens.per_px2),
-      m_judge(model, model.noise_correlation),
-      m_tukey(tukey_narrow) {
+      m_judge(model, model.noise_correlation) {
   const int n = model.pixels;
-  m_rows.setZero(row_length, n);
+  m_rows.resize(row_length, n);
   for (Eigen::VectorXf* one : {&m_frame, &m_error, &m_weight, &m_robust}) one->setZero(n);
   m_neighbours.setOnes(n);
   m_pixel_state.assign(static_cast<std::size_t>(n), FramePatch::seen);
-  const Eigen::Map<const Eigen::VectorXf> value(model.value.data(), n);
-  m_noise_weight = noise_weights(value, usual_read_variance);
-  m_noise_root = m_noise_weight.cwiseSqrt();
+  start_weights();
   m_light.setZero();
   m_light(0) = 1.0;
   if (start.light) m_light = *start.light;
@@ -91,6 +66,7 @@ void RegistrationSolver::fill_row(int k) {
   const float f = m_model.value[k];
   m_rows.col(k).head<column_count>() << fx, fy, fx * x, fx * y, fy * x, fy * y, 0.0f, f, f * x, f * y, 1.0f,
       m_model.fxx[k], m_model.fxy[k], m_model.fyy[k];
+  m_rows.col(k).tail<row_length - column_count>().setZero();
 }
 
 // The frame's value at each pixel of the template moved by the present motion.
@@ -152,53 +128,6 @@ void RegistrationSolver::predict(int count) {
   light.segment<light_count>(motion_count) = m_light.cast<float>();
   subtract_model(m_rows.data(), light.data(), count, m_frame.data(), m_error.data());
   if (m_field != nullptr) m_field->subtract_from(m_error, count, m_field_levels);
-}
-
-// How the noise grows with the level, from the errors themselves: their median square in classes of levels, fitted by
-// a straight line.
-void RegistrationSolver::find_noise_model(int count) {
-  constexpr int classes = 8;
-  std::array<std::vector<float>, classes> errors;
-  std::array<double, classes> level{};
-  for (int k = 0; k < count; ++k) {
-    if (m_pixel_state[k] != FramePatch::seen) continue;
-    const int at = std::clamp(static_cast<int>(m_model.value[k] * classes / 256.0f), 0, classes - 1);
-    errors[at].push_back(std::abs(m_error(k)));
-    level[at] += m_model.value[k];
-  }
-  // Least squares of variance = b (level + read), twice: the second time weighted with what the first found.
-  double read = usual_read_variance;
-  for (int round = 0; round < 2; ++round) {
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (int c = 0; c < classes; ++c) {
-      if (errors[c].size() < least_pixels / 2) continue;
-      const double n = static_cast<double>(errors[c].size());
-      const double variance = std::pow(1.4826 * median_of(errors[c]), 2);
-      const Eigen::Vector2d row(level[c] / n, 1.0);
-      const double weight = n / std::pow(row(0) + read, 2);
-      normal += weight * row * row.transpose();
-      right += weight * variance * row;
-    }
-    const double determinant = normal.determinant();
-    if (determinant < 1e-6 * normal(0, 0) * normal(1, 1)) return;  // one level only: nothing to learn
-    const Eigen::Vector2d fit = normal.inverse() * right;
-    if (!fit.allFinite() || fit.maxCoeff() <= 0.0) return;
-    read =
-        fit(0) <= 0.0 ? largest_read_variance : std::clamp(fit(1) / fit(0), least_read_variance, largest_read_variance);
-  }
-  m_noise_weight = noise_weights(Eigen::Map<const Eigen::VectorXf>(m_model.value.data(), m_model.pixels), read);
-  m_noise_root = m_noise_weight.cwiseSqrt();
-}
-
-// Robust standard deviation of the errors in units of the noise model; 0 when too few pixels are left.
-double RegistrationSolver::scale_of_errors(int count) {
-  m_scratch.clear();
-  const int stride = std::max(1, count / scale_samples);
-  for (int k = 0; k < count; k += stride) {
-    if (m_pixel_state[k] == FramePatch::seen) m_scratch.push_back(std::abs(m_error(k)) * m_noise_root(k));
-  }
-  return m_scratch.size() < least_pixels ? 0.0 : 1.4826 * median_of(m_scratch) + 1e-3;
 }
 
 // Robust start of the light alone (Cauchy weights), so that a shadow or a highlight does not throw the first motion
@@ -264,22 +193,6 @@ bool RegistrationSolver::settle(int count) {
     }
   }
   return m_last_step_px < 1e-2;
-}
-
-// The pixels' weights from the present errors.
-void RegistrationSolver::weigh(int count, bool ask_neighbours) {
-  const double tukey = m_iterations > settle_iterations ? m_tukey : tukey_wide;
-  const auto inverse = static_cast<float>(1.0 / (tukey * m_scale));
-  static_assert(FramePatch::seen == 0);
-  tukey_weights(m_error.data(), m_noise_root.data(), inverse, m_pixel_state.data(), count, m_robust.data());
-  if (ask_neighbours) {
-    const Eigen::VectorXf standard = m_error.cwiseProduct(m_noise_root) / static_cast<float>(m_scale);
-    m_judge.judge(standard, m_robust, m_neighbours);
-    // A model that fits nowhere has suspicious patches everywhere: then they say nothing.
-    if (m_neighbours.dot(m_robust) < least_weight * m_robust.sum()) m_neighbours.setOnes();
-  }
-  m_weight.head(count) =
-      m_robust.head(count).cwiseProduct(m_neighbours.head(count)).cwiseProduct(m_noise_weight.head(count));
 }
 
 bool RegistrationSolver::outdated(int count, bool light_only) const {
@@ -398,18 +311,8 @@ bool RegistrationSolver::run() {
   if (!glance()) return false;
   find_noise_model(m_model.pixels / 4);
   for (int k = m_model.pixels / 4; k < m_model.pixels; ++k) fill_row(k);
-  m_iterations = settle_iterations + 1;
+  m_all_pixels = true;
   return settle(m_model.pixels) && (m_shift - start).norm() < reach_px;
-}
-
-// Without outliers nothing need be paid for robustness.
-void RegistrationSolver::choose_tukey() {
-  const Eigen::ArrayXf standard = m_error.cwiseProduct(m_noise_root).array().abs() / static_cast<float>(m_scale);
-  const auto far = (standard > static_cast<float>(outlier_sigmas)).count();
-  const auto not_seen = std::count_if(m_pixel_state.begin(), m_pixel_state.end(),
-                                      [](std::uint8_t state) { return state != FramePatch::seen; });
-  const bool clean = static_cast<double>(far + not_seen) < outlier_share * m_model.pixels;
-  m_tukey = clean ? tukey_wide : tukey_narrow;
 }
 
 void RegistrationSolver::hand_over(RegistrationStart& start) const {

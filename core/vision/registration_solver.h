@@ -69,6 +69,8 @@ class RegistrationSolver {
   void sample(int count);
   void look_behind(int count);
   void predict(int count);
+  void start_weights();
+  void set_noise(double read_variance);
   void find_noise_model(int count);
   double scale_of_errors(int count);
   bool start_light(int count);
@@ -108,7 +110,8 @@ class RegistrationSolver {
   std::vector<int> m_place;             // in the frame's spline, of the pixels sampled
   std::vector<float> m_fx, m_fy, m_at;  // fractions there, and the values
   NeighbourWeights m_judge;
-  double m_tukey;
+  double m_tukey = 0.0;
+  bool m_all_pixels = false;  // after the glance
   double m_scale = 1.0;
   bool m_light_known = false;
   double m_last_step_px = 1.0;

@@ -26,6 +26,9 @@ FloatImage crop(const GrayImage& image, const Region& region);
 
 /// Gaussian blur with this covariance in px^2 (symmetric, positive); the border is repeated.
 FloatImage blurred(const FloatImage& image, const Eigen::Matrix2d& covariance_px2);
+/// One side of the discrete Gaussian, the middle first: exp(-t) I_n(t) has exactly the variance t, however small
+/// (Lindeberg, IEEE PAMI 12 (1990) 234).
+std::vector<float> gaussian_weights(double variance);
 /// The kernel of that blur as an image of odd size; its sum is 1.
 FloatImage blur_kernel(const Eigen::Matrix2d& covariance_px2);
 

@@ -12,6 +12,7 @@ constexpr int border_px = 3;           // of the region: its gradients use what 
 constexpr double energy_share = 0.98;  // of the gradient energy is worked on, the rest costs time and tells little
 constexpr float least_clear = 0.01f;
 constexpr double noise_energies = 4.0;  // a gradient's energy below so many of the noise's is mostly noise
+constexpr int growth_rows = 5;
 constexpr std::size_t sparse_step = 9;  // and every ninth of the flat pixels, for the light
 
 // Pixels of the region to work on.
@@ -114,24 +115,54 @@ double power_of(const Eigen::Matrix2d& blur_px2) {
   return power;
 }
 
+// Row y of the image blurred by the weights along both axes; the border is repeated.
+std::vector<float> blurred_row(const FloatImage& image, int y, const std::vector<float>& weights) {
+  const int reach = static_cast<int>(weights.size()) - 1;
+  const int width = image.width;
+  std::vector<float> down(static_cast<std::size_t>(width + 2 * reach), 0.0f);
+  for (int k = -reach; k <= reach; ++k) {
+    const float* from = image.row(std::clamp(y + k, 0, image.height - 1));
+    const float weight = weights[static_cast<std::size_t>(std::abs(k))];
+    for (int x = 0; x < width; ++x) down[x + reach] += weight * from[x];
+  }
+  std::fill_n(down.begin(), reach, down[reach]);
+  std::fill_n(down.end() - reach, reach, down[reach + width - 1]);
+  std::vector<float> out(static_cast<std::size_t>(width), 0.0f);
+  for (int k = 0; k <= 2 * reach; ++k) {
+    const float weight = weights[static_cast<std::size_t>(std::abs(k - reach))];
+    for (int x = 0; x < width; ++x) out[x] += weight * down[x + k];
+  }
+  return out;
+}
+
 // Variance of a shift estimated from blurred noise over that from independent noise of equal power: by each of the two
-// blurs, weighted by the noise that it lets through.
+// blurs, weighted by the noise that it lets through. Some of the rows tell it well enough.
 double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d, 2>& blurs_px2) {
   double with = 0.0;
   double plain = 0.0;
   for (const Eigen::Matrix2d& blur_px2 : blurs_px2) {
     // A round blur of the same size is near enough and separable.
-    const FloatImage twice = blurred(gradient, blur_px2.trace() * Eigen::Matrix2d::Identity());
+    const std::vector<float> weights = gaussian_weights(blur_px2.trace());
     const double power = power_of(blur_px2);
-    for (std::size_t k = 0; k < gradient.values.size(); ++k) {
-      with += double{gradient.values[k]} * twice.values[k];
-      plain += double{gradient.values[k]} * gradient.values[k] * power;
+    for (int y = 0; y < gradient.height; y += growth_rows) {
+      const std::vector<float> twice = blurred_row(gradient, y, weights);
+      const float* own = gradient.row(y);
+      for (int x = 0; x < gradient.width; ++x) {
+        with += double{own[x]} * twice[x];
+        plain += double{own[x]} * own[x] * power;
+      }
     }
   }
   return plain > 0.0 ? std::max(1.0, with / plain) : 1.0;
 }
 
 }  // namespace
+
+TemplateSource completed(TemplateSource source) {
+  if (source.backdrop) source.behind = behind_of(source);
+  source.noise_levels = noise_of_pixels(source.pixels);
+  return source;
+}
 
 TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
                                   const Eigen::Matrix2d& frame_blur_px2) {
@@ -144,7 +175,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     clear = blurred(source.backdrop->clear, blur_px2);
     // Blurred with the rest of the template; in the frame it is not: a moving target does not smear what stands behind,
     // and that is out of focus anyway.
-    behind = blurred(behind_of(source), blur_px2);
+    behind = blurred(source.behind, blur_px2);
     take_off_standing(behind, clear, fx, fy);
   }
   const FloatImage fxx = spline.derivative(2, 0);
@@ -167,8 +198,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   model.backdrop = source.backdrop;
   model.blur_px2 = blur_px2;
   model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
-  const double noise = noise_of_pixels(source.pixels);
-  const double noise_energy = 2.0 * noise * noise * gradient_noise(blur_px2);
+  const double noise_energy = 2.0 * source.noise_levels * source.noise_levels * gradient_noise(blur_px2);
   const std::vector<int> chosen = choose_pixels(source, energy, noise_energy);
   for (std::vector<int>* one : {&model.column, &model.row}) one->reserve(chosen.size());
   for (std::vector<float>* one :

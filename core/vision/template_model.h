@@ -38,12 +38,18 @@ struct TemplateSource {
   Region region;     // in the template's image
   std::shared_ptr<const Backdrop> backdrop;
   std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
+  // What every model made of it asks for; completed() finds them.
+  FloatImage behind;          // what stands behind each of the pixels; empty without a backdrop
+  double noise_levels = 0.0;  // standard deviation of the noise in the pixels
 };
 
-/// `frame_blur_px2` is the blur of the frame it will be compared with: both carry noise into the result.
+TemplateSource completed(TemplateSource source);
+
+/// The source must be completed. `frame_blur_px2` is the blur of the frame it will be compared with: both carry noise
+/// into the result.
 TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
                                   const Eigen::Matrix2d& frame_blur_px2);
-/// Takes as long as the model itself and matters for the uncertainty alone.
+/// Matters for the uncertainty alone.
 void find_noise_growth(TemplateModel& model);
 
 }  // namespace zerodrift::vision

@@ -11,6 +11,12 @@ namespace zerodrift::test_support {
 namespace {
 
 constexpr double machine_repeatability_um = 1.0;
+constexpr double usual_half_span_um = 800.0;
+constexpr double span_over_drift = 1.5;
+
+double range_px(Disturbance disturbance) {
+  return disturbance == Disturbance::large_motion ? 40.0 : 8.0;
+}
 
 double either_sign(Noise& noise, double low, double high) {
   const double size = noise.uniform(low, high);
@@ -131,7 +137,7 @@ double draw_rotation_rad(Noise& noise) {
 FrameSpec draw_frame(Disturbance disturbance, const Scene& scene, std::uint64_t seed, int number, int count,
                      Noise& noise) {
   const double um_per_px = scene.renderer.camera().um_per_px;
-  const double range_um = um_per_px * (disturbance == Disturbance::large_motion ? 40.0 : 8.0);
+  const double range_um = um_per_px * range_px(disturbance);
   FrameSpec spec;
   spec.noise = sensor_of(disturbance);
   spec.noise_seed = seed * 1000 + 100 + static_cast<std::uint64_t>(number);
@@ -194,7 +200,8 @@ std::string name_of(Disturbance disturbance) {
   return names[static_cast<std::size_t>(disturbance)];
 }
 
-Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t seed, int frame_count) {
+Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t seed, int frame_count,
+                     double half_span_px) {
   const std::uint64_t own_seed =
       seed * 10007 + static_cast<std::uint64_t>(kind) * 101 + static_cast<std::uint64_t>(disturbance);
   Noise noise(own_seed);
@@ -204,8 +211,10 @@ Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t se
   for (int i = 0; i < frame_count; ++i) {
     frames.push_back(draw_frame(disturbance, scene, own_seed, i, frame_count, noise));
   }
-  // The machine's repeatability is the noise of a calibration: its area is as wide as the picture easily holds.
-  const double span_um = scene.renderer.camera().um_per_px * (disturbance == Disturbance::large_motion ? 60.0 : 35.0);
+  const double um_per_px = scene.renderer.camera().um_per_px;
+  const double span_um = half_span_px > 0.0
+                             ? half_span_px * um_per_px
+                             : std::max(usual_half_span_um, span_over_drift * range_px(disturbance) * um_per_px);
   std::vector<CalibrationView> grid;
   for (int i = 0; i < 9; ++i) {
     const int column = i % 3 - 1;

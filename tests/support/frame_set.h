@@ -67,7 +67,10 @@ struct Session {
   std::vector<CalibrationView> two_move_views;  // home, right, up
 };
 
-Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t seed, int frame_count);
+/// The calibration's positions reach `half_span_px` from the middle; 0: as far as the calibrate page proposes, 0.8 mm
+/// or half as much again as the drift.
+Session make_session(PatternKind kind, Disturbance disturbance, std::uint64_t seed, int frame_count,
+                     double half_span_px = 0.0);
 FrameTruth truth_of(const Session& session, const FrameSpec& spec);
 
 /// Smallest standard deviation per axis, in px, that an unbiased estimate of the shift of this frame against the

@@ -21,6 +21,7 @@ struct Options {
   fs::path out;
   std::uint64_t seed = 1;
   int frames = 7;
+  double half_span_px = 0.0;
   bool bound = true;
   std::vector<std::string> targets;
   std::vector<std::string> sets;
@@ -117,7 +118,7 @@ void render_all(const Options& options) {
     if (!wanted(options.sets, name_of(disturbance))) continue;
     for (const PatternKind kind : target_kinds) {
       if (!wanted(options.targets, name_of(kind))) continue;
-      const Session session = make_session(kind, disturbance, options.seed, options.frames);
+      const Session session = make_session(kind, disturbance, options.seed, options.frames, options.half_span_px);
       write_session(options.out / name_of(disturbance) / name_of(kind), session, options.bound);
       std::cerr << name_of(disturbance) << ' ' << name_of(kind) << '\n';
     }
@@ -132,6 +133,9 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "folder to fill: SET/TARGET/...")->required();
   app.add_option("--seed", options.seed);
   app.add_option("--frames", options.frames, "frames a session")->check(CLI::PositiveNumber);
+  app.add_option("--half-span-px", options.half_span_px,
+                 "calibration positions so far from the middle; else as the calibrate page proposes")
+      ->check(CLI::PositiveNumber);
   app.add_option("--targets", options.targets, "only these, separated by commas")->delimiter(',');
   app.add_option("--sets", options.sets, "only these, separated by commas")->delimiter(',');
   app.add_flag("!--no-bound", options.bound, "leave out the Cramer-Rao bound (most of the time goes there)");

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int pictures_per_s = 12;
 constexpr double expected_drift_mm = 0.1;  // until a run has shown the real one
-constexpr double drift_margin = 1.25;      // of the calibrated area over what has been seen
+constexpr double drift_margin = 1.5;       // of the calibrated area over what has been seen
 constexpr double sharp_px = 1.0;           // sigma of the blur that pixels of a well set lens show
 constexpr double trail_enlargement = 1.0;
 constexpr int smallest_region_px = 24;
