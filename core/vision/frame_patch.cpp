@@ -21,8 +21,9 @@ double largest_spot_radius(const cv::Mat& saturated) {
 
 }  // namespace
 
-FramePatch::FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur)
-    : blur_px2(blur),
+FramePatch::FramePatch(const GrayImage& frame, const Region& region, const Eigen::Matrix2d& blur)
+    : at(region),
+      blur_px2(blur),
       spline(blurred(crop(frame, at), blur)),
       state(static_cast<std::size_t>(at.width) * at.height, seen) {
   int left = at.width, top = at.height, right = -1, bottom = -1;

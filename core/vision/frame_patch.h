@@ -13,10 +13,11 @@ namespace zerodrift::vision {
 struct FramePatch {
   enum State : std::uint8_t { seen, outside, too_bright };
 
-  FramePatch(const GrayImage& frame, const Region& at, const Eigen::Matrix2d& blur_px2);
+  FramePatch(const GrayImage& frame, const Region& region, const Eigen::Matrix2d& blur_px2);
   /// Leaves out the surroundings of bright spots as well, where their flank still falls steeply.
   void widen_glare();
 
+  Region at;  // in the frame, or beyond it
   Eigen::Matrix2d blur_px2;
   SplineImage spline;
   std::vector<std::uint8_t> state;  // one a pixel

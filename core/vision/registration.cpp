@@ -31,6 +31,7 @@ constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr double poor_residual = 4.0;  // grey levels at middle grey: no camera's noise is so large after the blur
 constexpr int largest_rounds = 6;
+constexpr int shared_patch_px = 24;  // further apart, two patches are less work than one around both
 constexpr float seen_through = 0.02f;
 constexpr int within_outline_px = 8;
 constexpr double least_inside = 0.02;  // of the pixels
@@ -154,12 +155,36 @@ Region Registrar::patch_at(int dx_px, int dy_px) const {
           region.height + 2 * patch_margin_px};
 }
 
-Registration Registrar::glance(const GrayImage& frame, int dx_px, int dy_px) const {
-  const FramePatch patch(frame, patch_at(dx_px, dy_px), m_model.blur_px2);
-  RegistrationStart start;
-  start.whole_px = {dx_px, dy_px};
-  RegistrationSolver solver(m_model, patch, nullptr, start);
-  return solver.glance() ? solver.fit(m_model.pixels / 4) : Registration{};
+// Places near each other share a patch: a pattern that repeats has many, a period apart.
+std::vector<Registration> Registrar::glances(const GrayImage& frame,
+                                             const std::vector<std::array<int, 2>>& places) const {
+  std::vector<Registration> out(places.size());
+  std::vector<bool> done(places.size(), false);
+  for (std::size_t first = 0; first < places.size(); ++first) {
+    if (done[first]) continue;
+    std::vector<std::size_t> together;
+    Region box = patch_at(places[first][0], places[first][1]);
+    for (std::size_t k = first; k < places.size(); ++k) {
+      const int dx = places[k][0] - places[first][0];
+      const int dy = places[k][1] - places[first][1];
+      if (done[k] || std::max(std::abs(dx), std::abs(dy)) > shared_patch_px) continue;
+      done[k] = true;
+      together.push_back(k);
+      const Region own = patch_at(places[k][0], places[k][1]);
+      const int right = std::max(box.x + box.width, own.x + own.width);
+      const int bottom = std::max(box.y + box.height, own.y + own.height);
+      box.x = std::min(box.x, own.x), box.y = std::min(box.y, own.y);
+      box.width = right - box.x, box.height = bottom - box.y;
+    }
+    const FramePatch patch(frame, box, m_model.blur_px2);
+    for (const std::size_t k : together) {
+      RegistrationStart start;
+      start.whole_px = {places[k][0], places[k][1]};
+      RegistrationSolver solver(m_model, patch, nullptr, start);
+      if (solver.glance()) out[k] = solver.fit(m_model.pixels / 4);
+    }
+  }
+  return out;
 }
 
 // Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only

@@ -4,7 +4,9 @@
 // blur along any direction. Weights are 1 / noise variance times Tukey's biweight; saturated pixels are out.
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "core/vision/image.h"
 #include "core/vision/lens_term.h"
@@ -49,8 +51,8 @@ class Registrar {
   /// Starts with the region displaced by whole pixels; the point may end up to 8 px from there.
   Registration run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens = {},
                    bool with_residual_map = false) const;
-  /// The same on a quarter of the pixels, in a tenth of the time: to choose among candidates.
-  Registration glance(const GrayImage& frame, int dx_px, int dy_px) const;
+  /// The same on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
+  std::vector<Registration> glances(const GrayImage& frame, const std::vector<std::array<int, 2>>& places) const;
 
   const TemplateModel& model() const { return m_model; }
   const TemplateSource& source() const { return m_source; }

@@ -77,6 +77,8 @@ void RegistrationSolver::sample(int count) {
   const Eigen::Vector2f way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
   const auto bent = static_cast<float>(m_lens / lens_unit);
   const int width = m_patch.spline.width();
+  const int left = m_model.region.x + static_cast<int>(m_whole_px(0)) - m_patch.at.x;
+  const int top = m_model.region.y + static_cast<int>(m_whole_px(1)) - m_patch.at.y;
   const int last_column = width - SplineImage::reach_after;
   const int last_row = m_patch.spline.height() - SplineImage::reach_after;
   m_place.resize(m_frame.size());
@@ -94,8 +96,8 @@ void RegistrationSolver::sample(int count) {
     const float uy = shift(1) + turn(1, 0) * x + turn(1, 1) * y + bent * bend_y;
     const float whole_x = std::floor(ux);
     const float whole_y = std::floor(uy);
-    const int column = m_model.column[k] + patch_margin_px + static_cast<int>(whole_x);
-    const int row = m_model.row[k] + patch_margin_px + static_cast<int>(whole_y);
+    const int column = m_model.column[k] + left + static_cast<int>(whole_x);
+    const int row = m_model.row[k] + top + static_cast<int>(whole_y);
     const bool known = column >= 2 && row >= 2 && column <= last_column && row <= last_row;
     m_place[k] = known ? row * width + column : SplineImage::first_place(width);
     m_fx[k] = ux - whole_x;
@@ -109,8 +111,8 @@ void RegistrationSolver::sample(int count) {
 // The model's values where the target lets through what now stands behind it.
 void RegistrationSolver::look_behind(int count) {
   const int width = m_patch.spline.width();
-  const float left = static_cast<float>(m_model.region.x + m_whole_px(0)) - patch_margin_px;
-  const float top = static_cast<float>(m_model.region.y + m_whole_px(1)) - patch_margin_px;
+  const auto left = static_cast<float>(m_patch.at.x);
+  const auto top = static_cast<float>(m_patch.at.y);
   for (std::size_t i = 0; i < m_model.shown.size() && m_model.shown[i] < count; ++i) {
     const int k = m_model.shown[i];
     if (m_pixel_state[k] == FramePatch::outside) continue;

@@ -88,16 +88,18 @@ double RegistrationSolver::scale_of_errors(int count) {
   const auto last = static_cast<float>(m_scale / robust_deviation);
   const float low = (1.0f - near_median) * last;
   const float high = (1.0f + near_median) * last;
-  m_scratch.clear();
-  std::size_t all = 0, below = 0;
   const int stride = std::max(1, count / scale_samples);
-  for (int k = 0; k < count; k += stride) {
-    if (m_pixel_state[k] != FramePatch::seen) continue;
+  m_scratch.resize(static_cast<std::size_t>(count / stride) + 1);
+  std::size_t all = 0, below = 0, near = 0;
+  for (int k = 0; k < count; k += stride) {  // without branches, which would be guessed wrongly
     const float size = std::abs(m_error(k)) * m_noise_root(k);
-    ++all;
-    below += size < low;
-    if (size >= low && size <= high) m_scratch.push_back(size);
+    const bool seen = m_pixel_state[k] == FramePatch::seen;
+    all += seen;
+    below += seen & (size < low);
+    m_scratch[near] = size;
+    near += seen & (size >= low) & (size <= high);
   }
+  m_scratch.resize(near);
   if (all < least_pixels) return 0.0;
   const std::size_t rank = all / 2;
   if (rank < below || rank - below >= m_scratch.size()) {

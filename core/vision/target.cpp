@@ -133,16 +133,24 @@ struct Target::Impl {
     std::vector<std::pair<double, Candidate>> rated;
     double best_merit = -1.0;
     double best_correlation = 1.0;  // if no glance converges, the fine registration is tried nevertheless
+    double most_saturated = 0.0;
     const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
+    std::vector<std::array<int, 2>> places;
     for (const Candidate& one : candidates) {
       if (one.correlation < candidates.front().correlation - behind) break;
-      const Registration seen = fine.glance(frame, one.dx_px, one.dy_px);
-      rated.emplace_back(merit(seen), one);
+      places.push_back({one.dx_px, one.dy_px});
+    }
+    const std::vector<Registration> glances = fine.glances(frame, places);
+    for (std::size_t k = 0; k < glances.size(); ++k) {
+      const Registration& seen = glances[k];
+      most_saturated = std::max(most_saturated, seen.saturated_share);
+      rated.emplace_back(merit(seen), candidates[k]);
       if (merit(seen) <= best_merit) continue;
       best_merit = merit(seen);
       best_correlation = seen.correlation;
     }
-    if (best_correlation < least_glance_correlation) return {};
+    // A glance does not know a halo from the target.
+    if (best_correlation < least_glance_correlation && most_saturated < some_glare) return {};
     std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Candidate> out;
     for (std::size_t k = 0; k < std::min<std::size_t>(rated.size(), candidates_refined); ++k) {
