@@ -34,7 +34,6 @@ constexpr int largest_rounds = 6;
 constexpr int shared_patch_px = 24;  // further apart, two patches are less work than one around both
 constexpr float seen_through = 0.02f;
 constexpr int within_outline_px = 8;
-constexpr double least_inside = 0.02;  // of the pixels
 constexpr double outline_share = 0.7;  // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
@@ -102,16 +101,12 @@ std::optional<TemplateSource> outline_of(const TemplateSource& source, const Tem
     }
   }
   double kept = 0.0, all = 0.0;
-  int left_out = 0;
   for (int k = 0; k < model.pixels; ++k) {
     const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
     const bool keep = out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]] != 0;
     all += energy;
     kept += keep ? energy : 0.0;
-    left_out += keep ? 0 : 1;
   }
-  // A target through which is seen everywhere is all outline: there is nothing to do without.
-  if (left_out < least_inside * model.pixels) return std::nullopt;
   return kept > outline_share * all ? std::optional(std::move(out)) : std::nullopt;
 }
 
