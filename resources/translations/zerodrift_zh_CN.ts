@@ -4693,11 +4693,11 @@
     </message>
     <message>
         <source>Modbus RTU %1, unit %2</source>
-        <translation>Modbus RTU %1，单元 %2</translation>
+        <translation>Modbus RTU %1, 单元 %2</translation>
     </message>
     <message>
         <source>Modbus TCP %1:%2, unit %3</source>
-        <translation>Modbus TCP %1:%2，单元 %3</translation>
+        <translation>Modbus TCP %1:%2, 单元 %3</translation>
     </message>
     <message>
         <source>d MMM yyyy, HH:mm</source>
