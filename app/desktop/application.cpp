@@ -18,7 +18,9 @@
 #include "app/desktop/steps/verify_presenter.h"
 #include "app/desktop/steps/warmup_presenter.h"
 #include "app/text/error_text.h"
+#include "core/acquisition/job_sink.h"
 #include "core/flow/flow.h"
+#include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
 namespace {
@@ -102,6 +104,9 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::machineLost, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::accessChanged, this, &Application::updateLamps);
   new IdleLock(*m_bench, this);
+  // Said when the job has been opened and its page stands.
+  connect(m_bench.get(), &Workbench::jobChanged, this, &Application::sayInterrupted, Qt::QueuedConnection);
+  connect(m_bench.get(), &Workbench::disconnectedFor, this, &Application::sayDisconnected, Qt::QueuedConnection);
   connect(m_bench.get(), &Workbench::controllerTold, this, &Application::updateLamps);
   connect(&m_lampTimer, &QTimer::timeout, this, &Application::updateLamps);
   m_lampTimer.start(lamp_period_ms);
@@ -187,6 +192,33 @@ void Application::changeAccess() {
     case Answer::no:
       return;
   }
+}
+
+void Application::sayDisconnected(unsigned connected_serial, unsigned job_serial) {
+  auto* open = presenter(m_open);
+  if (open == nullptr) return;
+  open->tell([connected_serial, job_serial] {
+    return ui::Problem{
+        ui::ProblemKind::warning,
+        tr("Disconnected from the machine %1: this job is of the machine %2.").arg(connected_serial).arg(job_serial),
+        tr("To go on with the connected machine open its own job, or begin a new one."),
+        {}};
+  });
+}
+
+/// A run that was broken off is the first thing to know of a job.
+void Application::sayInterrupted() {
+  auto* open = presenter(m_open);
+  const auto* job = m_bench->job();
+  if (open == nullptr || job == nullptr || m_bench->tasks().running() || m_bench->has("warmup")) return;
+  const auto interrupted = acquisition::interrupted_run(*job, "warm-up");
+  if (!interrupted || !*interrupted) return;
+  open->tell([after_s = (*interrupted)->run.last_time_s] {
+    return ui::Problem{ui::ProblemKind::note,
+                       tr("The warm-up run of this job was interrupted after %1.").arg(ui::durationText(after_s)),
+                       tr("On the Warm-up page it goes on, or is finished with what was recorded."),
+                       {}};
+  });
 }
 
 void Application::show() {

@@ -49,6 +49,8 @@ class Application : public QObject {
   /// What one page asks of another.
   void wireSteps();
   void switchCompensation();
+  void sayInterrupted();
+  void sayDisconnected(unsigned connected_serial, unsigned job_serial);
   /// The lamp of the lock: sets a PIN, unlocks or locks.
   void changeAccess();
   void openNext(const QString& after);

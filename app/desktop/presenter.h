@@ -32,6 +32,8 @@ class Presenter : public QObject {
   virtual void undo() {}
   /// What the tour does on this page: starts the step and calls `done` when it has ended. The default calls it at once.
   virtual void tour(std::function<void(bool good)> done) { done(true); }
+  /// Into the banner; asked again when the language changes.
+  void tell(std::function<ui::Problem()> problem);
 
  Q_SIGNALS:
   /// The user is done here: open the next page.
@@ -64,8 +66,6 @@ class Presenter : public QObject {
   void show(const Error& error);
   /// The same without a line in the log: where it was told already.
   void showOnly(const Error& error);
-  /// Into the banner; asked again when the language changes.
-  void tell(std::function<ui::Problem()> problem);
   /// Why nothing else can be done now: the task that runs.
   Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.

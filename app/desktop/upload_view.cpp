@@ -1,12 +1,11 @@
 #include "app/desktop/upload_view.h"
 
 #include <QCoreApplication>
-#include <QDateTime>
-#include <QLocale>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/desktop/moment.h"
 #include "app/text/core_text.h"
 #include "core/base/time_text.h"
 #include "core/compensation/sign.h"
@@ -157,12 +156,6 @@ QString stage_text(UploadState state) {
   return {};
 }
 
-QString local_time(const std::string& utc) {
-  if (utc.empty()) return {};
-  const auto time = QDateTime::fromString(QString::fromStdString(utc), Qt::ISODateWithMs);
-  return QLocale().toString(time.toLocalTime(), UploadView::tr("d MMM HH:mm", "date and time, as QLocale writes it"));
-}
-
 QString content_of(const controller::TableEntry& entry, const controller::Profile& profile) {
   if (!entry.words) return UploadView::tr("content not kept");
   const auto table = controller::decode_table(*entry.words, profile);
@@ -294,7 +287,7 @@ QVector<ui::TableVersion> history_of(const controller::TableLog& kept,
     ui::TableVersion row;
     row.id = QString::fromStdString(entry.id);
     row.version = entry.version;
-    row.when = local_time(entry.time);
+    row.when = shortMomentText(entry.time);
     row.who = QString::fromStdString(entry.who);
     row.how = how_active(entry, log);
     row.what = content_of(entry, profile);

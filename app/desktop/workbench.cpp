@@ -69,8 +69,10 @@ Status Workbench::useJob(Result<commissioning::Job> job) {
   const auto serial = tested.is_object() ? tested.value("identity", nlohmann::json::object()).value("serial", 0U) : 0U;
   if (connected() && serial != 0 && m_look && m_look->identity.serial != serial) {
     log(LogKind::warning, tr("Disconnected: this job is of another machine (serial %1).").arg(serial));
+    const unsigned from = m_look->identity.serial;
     disconnectMachine();
     m_profile.reset();
+    Q_EMIT disconnectedFor(from, serial);
   }
   // A job brings its machine: the profile it was made with.
   if (const auto machine = body("machine"); machine.is_object() && machine.contains("profile") && !m_profile) {

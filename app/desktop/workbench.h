@@ -91,6 +91,8 @@ class Workbench : public QObject {
   void machineSeen();
   void machineLost(const zerodrift::Error& error);
   void accessChanged();
+  /// A job of another machine than the connected one was opened, so the connection was given up.
+  void disconnectedFor(unsigned connected_serial, unsigned job_serial);
   /// A step has told how it stands with the controller.
   void controllerTold();
   void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);

@@ -8,7 +8,9 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 170> measuring = {{
+constexpr std::array<const char*, 172> measuring = {{
+    QT_TRANSLATE_NOOP("core", "an interrupted run"),
+    QT_TRANSLATE_NOOP("core", "recorded samples"),
     QT_TRANSLATE_NOOP("core", "a step of the flow"),
     QT_TRANSLATE_NOOP("core", "%1 (serial %2)"),
     QT_TRANSLATE_NOOP("core", "axis of a camera"),

@@ -114,7 +114,7 @@ std::vector<std::string> outside_valid_range(const Table& table, const Temperatu
     const auto at = temperatures.find(sensor);
     if (at == temperatures.end() || (at->second >= range.low_C && at->second <= range.high_C)) continue;
     outside.push_back(
-        fmt::format("{} {:.1f} C (valid {:.1f} to {:.1f})", sensor, at->second, range.low_C, range.high_C));
+        fmt::format("{} {:.2f} C (valid {:.2f} to {:.2f})", sensor, at->second, range.low_C, range.high_C));
   }
   return outside;
 }

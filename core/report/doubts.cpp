@@ -71,8 +71,8 @@ void about_head(const Source& source, Doubts& doubts) {
   doubts.about("head");
   if (!source.header().engineer.empty()) return;
   doubts.add(Verdict::doubtful, "engineer",
-             "Nobody is named as the engineer who did this work. Enter the name on the Report page, or give it to "
-             "commission as --engineer.");
+             "Nobody is named as the engineer who did this work. Enter the name on the Report page "
+             "(on the command line: --engineer).");
 }
 
 void about_machine(Doubts& doubts) {
@@ -141,7 +141,8 @@ void about_sensors(Doubts& doubts) {
   // Ridge holds what rises together; what a single coefficient says is lost all the same.
   if (condition > limits::condition_number) {
     doubts.add(Verdict::doubtful, "condition_number",
-               "The kept sensors are much alike: condition number {} (limit {}). Their single coefficients mean "
+               "The kept sensors are much alike: condition number {} (up to {} each coefficient is sure). Their single "
+               "coefficients mean "
                "little; what they predict together is judged by the error on unseen data.",
                shown(condition, 0), shown(limits::condition_number, 0));
   }

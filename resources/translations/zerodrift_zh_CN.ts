@@ -59,6 +59,19 @@
     </message>
 </context>
 <context>
+    <name>Moment</name>
+    <message>
+        <source>d MMM yyyy, HH:mm</source>
+        <comment>date and time, as QLocale writes it</comment>
+        <translation>yyyy年M月d日 HH:mm</translation>
+    </message>
+    <message>
+        <source>d MMM HH:mm</source>
+        <comment>date and time, as QLocale writes it</comment>
+        <translation>M月d日 HH:mm</translation>
+    </message>
+</context>
+<context>
     <name>PhysicsView</name>
     <message>
         <source> at %1 mm</source>
@@ -213,11 +226,6 @@
     <message>
         <source>%1, %2 registers</source>
         <translation>%1，%2 个寄存器</translation>
-    </message>
-    <message>
-        <source>d MMM HH:mm</source>
-        <comment>date and time, as QLocale writes it</comment>
-        <translation>M月d日 HH:mm</translation>
     </message>
     <message>
         <source>content not kept</source>
@@ -3517,6 +3525,118 @@
         <source>dead</source>
         <translation>失效</translation>
     </message>
+    <message>
+        <source>Connection refused</source>
+        <translation>连接被拒绝</translation>
+    </message>
+    <message>
+        <source>Connection timed out</source>
+        <translation>连接超时</translation>
+    </message>
+    <message>
+        <source>Connection reset by peer</source>
+        <translation>连接被对方重置</translation>
+    </message>
+    <message>
+        <source>No route to host</source>
+        <translation>没有到主机的路由</translation>
+    </message>
+    <message>
+        <source>Network is unreachable</source>
+        <translation>网络不可达</translation>
+    </message>
+    <message>
+        <source>Host is down</source>
+        <translation>主机已关闭</translation>
+    </message>
+    <message>
+        <source>Broken pipe</source>
+        <translation>连接已断开</translation>
+    </message>
+    <message>
+        <source>Address already in use</source>
+        <translation>地址已被占用</translation>
+    </message>
+    <message>
+        <source>Temporary failure in name resolution</source>
+        <translation>暂时无法解析名称</translation>
+    </message>
+    <message>
+        <source>Name or service not known</source>
+        <translation>未知的名称或服务</translation>
+    </message>
+    <message>
+        <source>No such file or directory</source>
+        <translation>没有该文件或文件夹</translation>
+    </message>
+    <message>
+        <source>Permission denied</source>
+        <translation>没有权限</translation>
+    </message>
+    <message>
+        <source>Operation not permitted</source>
+        <translation>不允许此操作</translation>
+    </message>
+    <message>
+        <source>No space left on device</source>
+        <translation>磁盘空间不足</translation>
+    </message>
+    <message>
+        <source>Read-only file system</source>
+        <translation>只读文件系统</translation>
+    </message>
+    <message>
+        <source>Is a directory</source>
+        <translation>是文件夹</translation>
+    </message>
+    <message>
+        <source>Not a directory</source>
+        <translation>不是文件夹</translation>
+    </message>
+    <message>
+        <source>Input/output error</source>
+        <translation>输入/输出错误</translation>
+    </message>
+    <message>
+        <source>No such device</source>
+        <translation>没有该设备</translation>
+    </message>
+    <message>
+        <source>No such device or address</source>
+        <translation>没有该设备或地址</translation>
+    </message>
+    <message>
+        <source>Device or resource busy</source>
+        <translation>设备或资源忙</translation>
+    </message>
+    <message>
+        <source>Too many open files</source>
+        <translation>打开的文件过多</translation>
+    </message>
+    <message>
+        <source>Resource temporarily unavailable</source>
+        <translation>资源暂时不可用</translation>
+    </message>
+    <message>
+        <source>Operation now in progress</source>
+        <translation>操作正在进行</translation>
+    </message>
+    <message>
+        <source>Bad file descriptor</source>
+        <translation>文件描述符无效</translation>
+    </message>
+    <message>
+        <source>Invalid argument</source>
+        <translation>参数无效</translation>
+    </message>
+    <message>
+        <source>an interrupted run</source>
+        <translation>一次中断的运行</translation>
+    </message>
+    <message>
+        <source>recorded samples</source>
+        <translation>已记录的采样</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4378,6 +4498,22 @@
         <source>%1 of %2 cameras</source>
         <translation>%2 台相机中的 %1 台</translation>
     </message>
+    <message>
+        <source>Disconnected from the machine %1: this job is of the machine %2.</source>
+        <translation>已断开机床 %1：此作业属于机床 %2。</translation>
+    </message>
+    <message>
+        <source>To go on with the connected machine open its own job, or begin a new one.</source>
+        <translation>要继续使用刚才连接的机床，请打开它自己的作业或新建作业。</translation>
+    </message>
+    <message>
+        <source>The warm-up run of this job was interrupted after %1.</source>
+        <translation>此作业的暖机运行在 %1 后中断。</translation>
+    </message>
+    <message>
+        <source>On the Warm-up page it goes on, or is finished with what was recorded.</source>
+        <translation>可在“暖机”页继续运行，或以已记录的数据结束。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::AxisErrorsPresenter</name>
@@ -4698,11 +4834,6 @@
     <message>
         <source>Modbus TCP %1:%2, unit %3</source>
         <translation>Modbus TCP %1:%2, 单元 %3</translation>
-    </message>
-    <message>
-        <source>d MMM yyyy, HH:mm</source>
-        <comment>date and time, as QLocale writes it</comment>
-        <translation>yyyy年M月d日 HH:mm</translation>
     </message>
     <message>
         <source>Something runs on the machine: what stands here was seen at %1.</source>
@@ -5234,6 +5365,10 @@
         <source>The model is out of date: %1 changed after it was fitted. </source>
         <translation>模型已过期：拟合之后“%1”有更改。</translation>
     </message>
+    <message>
+        <source>The controller does not answer.</source>
+        <translation>控制器没有应答。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::VerifyPresenter</name>
@@ -5291,6 +5426,14 @@
     <message>
         <source>Calibrate the camera first: without it no error can be measured.</source>
         <translation>请先标定相机：否则无法测量误差。</translation>
+    </message>
+    <message>
+        <source>No machine is connected, so none is stopped: look whether its spindle stands.</source>
+        <translation>未连接机床，因此不会停止任何机床：请到现场确认主轴已停止。</translation>
+    </message>
+    <message>
+        <source>Finishing the interrupted run</source>
+        <translation>正在结束中断的运行</translation>
     </message>
 </context>
 <context>
@@ -8163,6 +8306,14 @@ The sum of absolute values does not have this fault.</source>
         <source>Writes version %1 (%2) again, as a new version. The difference is shown and you are asked.</source>
         <translation>将版本 %1（%2）作为新版本重新写入。先显示差异并询问。</translation>
     </message>
+    <message>
+        <source>Version %1 was active in %2 as this job left it, %3.</source>
+        <translation>此作业最后记录时（%3），版本 %1 在 %2 中生效。</translation>
+    </message>
+    <message>
+        <source>Version %1 is active in %2, and its verification run is done.</source>
+        <translation>版本 %1 已在 %2 中生效，验证运行也已完成。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::VerifyPage</name>
@@ -8181,10 +8332,6 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Paused. Resume when the machine may run again.</source>
         <translation>已暂停。机床可以再次运行时请继续。</translation>
-    </message>
-    <message>
-        <source>Some parts of the error are above the threshold. Look at the proposed correction.</source>
-        <translation>部分误差超过阈值。请查看建议的修正。</translation>
     </message>
     <message>
         <source>Start verification</source>
@@ -8347,10 +8494,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>温度影响乘以该系数</translation>
     </message>
     <message>
-        <source>Evidence</source>
-        <translation>依据</translation>
-    </message>
-    <message>
         <source>Peak now</source>
         <translation>当前峰值</translation>
     </message>
@@ -8453,6 +8596,22 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Without is the warm-up run: other speeds, over the same minutes since the start of each run, as far as the shorter one goes.</source>
         <translation>“无补偿”为暖机运行：转速不同，各自从开始起取相同的时间，以较短的运行为准。</translation>
+    </message>
+    <message>
+        <source>The proof is complete: every axis keeps its limit. A correction for what is left is proposed.</source>
+        <translation>验证完成：各轴均在限值以内。对剩余误差提出了修正建议。</translation>
+    </message>
+    <message>
+        <source>Writes the corrected table. Asks first.</source>
+        <translation>写入修正后的补偿表。写入前会询问。</translation>
+    </message>
+    <message>
+        <source>At the end: mean of the last tenth.</source>
+        <translation>“末段”：最后十分之一的平均值。</translation>
+    </message>
+    <message>
+        <source>Offset</source>
+        <translation>偏移</translation>
     </message>
 </context>
 <context>

@@ -56,7 +56,7 @@ TEST(Table, MissingAndDeadSensorsAreNamed) {
   EXPECT_EQ(error_um(table, "Z", 0.0, Approach::up, {{"T3_C", 20.0}}).error().code, ErrorCode::channel_missing);
   EXPECT_EQ(error_um(table, "Z", 0.0, Approach::up, {{"T3_C", std::nan("")}}).error().code, ErrorCode::sensor_dead);
   EXPECT_EQ(outside_valid_range(table, {{"T3_C", 43.1}}),
-            (std::vector<std::string>{"T3_C 43.1 C (valid 18.0 to 41.0)"}));
+            (std::vector<std::string>{"T3_C 43.10 C (valid 18.00 to 41.00)"}));
   EXPECT_TRUE(outside_valid_range(table, {{"T3_C", 30.0}}).empty());
   EXPECT_EQ(sensors_of(table), (std::vector<std::string>{"T3_C", "ambient_C"}));
 }

@@ -3,15 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/acquisition/job_sink.h"
 #include "core/flow/steps/import_step.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/flow/steps/upload_step.h"
 #include "core/flow/steps/verify_compare.h"
+#include "core/flow/steps/warmup_step.h"
 
 namespace zerodrift::flow {
 namespace {
@@ -91,6 +94,45 @@ compensation::Table table_of(double um_per_K) {
   compensation::Table table;
   table.axes["Z"].terms = {{"T1_C", um_per_K, 20.0, 0.0}};
   return table;
+}
+
+/// A run that nobody ended is a warm-up as far as it went, without its machine.
+TEST_F(StepsTest, AnInterruptedRunIsEndedWithoutItsMachine) {
+  EXPECT_EQ(end_interrupted_warmup(*job).error().code, ErrorCode::step_blocked);  // no machine was tested
+  const auto machine = job->put(NewArtefact::of("machine", {{"health", json::array()}}, {}));
+  ASSERT_TRUE(machine);
+  ASSERT_TRUE(job->put(NewArtefact::of("calibration", {{"source", "camera"}}, {machine->id})));
+  EXPECT_EQ(end_interrupted_warmup(*job).error().code, ErrorCode::step_blocked);  // nothing was begun
+  acquisition::JobSink sink(*job);
+  acquisition::RunStart start;
+  start.name = "warm-up";
+  start.channels = {"T1_C", "dX_um", "dZ_um"};
+  start.plan.steps = {{3600.0, 3000.0, false, false}};
+  start.plan.sample_period_s = 10.0;
+  start.zero_um = std::array<double, 3>{1.0, 2.0, 3.0};
+  ASSERT_TRUE(sink.begin(start));
+  const double none = std::nan("");
+  // Six samples, a measurement of which one direction is missing, a hole of three periods, a whole measurement.
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(sink.append(10.0 * i, std::array{20.0 + i, none, none}));
+  ASSERT_TRUE(sink.append(80.0, std::array{26.0, none, 7.0}));
+  ASSERT_TRUE(sink.append(120.0, std::array{27.0, none, none}));
+  ASSERT_TRUE(sink.append(150.0, std::array{28.0, -2.0, 9.0}));
+  ASSERT_TRUE(sink.event({60.0, "problem", "sensor_dead", R"({"context": {"sensor": "T1_C"}})"}));
+  ASSERT_TRUE(sink.flush());
+  const auto made = end_interrupted_warmup(*job);
+  ASSERT_TRUE(made) << describe(made.error());
+  const json body = json::parse(made->body);
+  EXPECT_EQ(body["rows"], 9);
+  EXPECT_EQ(body["measurements"], 2);
+  EXPECT_EQ(body["refused"], 1);
+  EXPECT_EQ(body["lost_samples"], 3);
+  EXPECT_EQ(body["duration_s"], 150.0);
+  EXPECT_EQ(body["peak_um"]["Z"], 9.0);
+  EXPECT_EQ(body["zero_um"], json::array({1.0, 2.0, 3.0}));
+  ASSERT_EQ(body["happened"].size(), 1u);
+  EXPECT_EQ(body["source"], "camera");
+  EXPECT_FALSE(*acquisition::interrupted_run(*job, "warm-up"));
+  EXPECT_EQ(end_interrupted_warmup(*job).error().code, ErrorCode::step_blocked);  // it was ended
 }
 
 }  // namespace

@@ -294,7 +294,7 @@ class RichJob {
          {"crc32", "33d1a6b5"},
          {"registers", 206},
          {"largest_change_um", 3.19},
-         {"problems", {"T1_C 29.1 C (valid 21.4 to 28.6): the machine is outside the range the model was made in"}},
+         {"problems", {"T1_C 29.10 C (valid 21.40 to 28.60): the machine is outside the range the model was made in"}},
          {"table", {{"valid", {{"T1_C", {20.0, 30.0}}}}}},
          {"difference",
           {{{"what", "Z T1_C"}, {"old", "-"}, {"new", "5.912 um/K from 20.00 C"}},

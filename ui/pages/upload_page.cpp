@@ -121,8 +121,14 @@ QString UploadPage::title() const {
 QString UploadPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   if (m_state.writing) return tr("The table is being written. It becomes active as a whole or not at all.");
-  if (m_state.written)
-    return tr("Version %1 is active in %2. Now prove it.").arg(m_state.newVersion.value_or(0)).arg(m_state.machineName);
+  if (m_state.written) {
+    const QString version = QString::number(m_state.newVersion.value_or(0));
+    if (!m_state.asOf.isEmpty())
+      return tr("Version %1 was active in %2 as this job left it, %3.").arg(version, m_state.machineName, m_state.asOf);
+    return m_state.proved
+               ? tr("Version %1 is active in %2, and its verification run is done.").arg(version, m_state.machineName)
+               : tr("Version %1 is active in %2. Now prove it.").arg(version, m_state.machineName);
+  }
   return tr("Compare the old table with the new one, let the camera check the sign, then write.");
 }
 
@@ -131,6 +137,7 @@ PageAction UploadPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", text, false, m_state.blocked};
   if (m_state.written) return {"primary", text, true, {}};
   if (m_state.writing) return {"primary", text, false, tr("The table is being written.")};
+  if (!m_state.offline.isEmpty()) return {"primary", text, false, m_state.offline};
   if (m_state.compensationOn) {
     return {"primary", text, false, tr("The compensation is ON. Tables may only be written while it is off.")};
   }
@@ -145,8 +152,8 @@ PageAction UploadPage::primary() const {
 
 QVector<PageAction> UploadPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
-  const bool free = !m_state.writing;
-  const QString wait = tr("The table is being written.");
+  const QString wait = m_state.writing ? tr("The table is being written.") : m_state.offline;
+  const bool free = wait.isEmpty();
   return {{"export", tr("Export")}, {"dryRun", tr("Dry run"), free, wait}, {"sign", tr("Check sign"), free, wait}};
 }
 

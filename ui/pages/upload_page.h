@@ -75,6 +75,9 @@ struct UploadState {
   SignCheckResult sign{};
   QVector<TableVersion> history{};  // newest first
   QString rollbackBlocked{};        // why nothing can be brought back now
+  QString offline{};                // why nothing can be written or tried now; empty: connected
+  QString asOf{};                   // written, but away from the machine: when this was so
+  bool proved = false;              // the verification run with what is written is done
   bool compensationOn = false;
   bool writing = false;
   bool written = false;

@@ -59,10 +59,13 @@ QWidget* VerifyPage::makeCorrection() {
   m_tableCard->tools()->addWidget(m_thresholdName);
   m_tableCard->tools()->addWidget(m_threshold);
   m_table = new DataTable(m_tableCard);
+  m_table->setRowHeight(30);
+  m_table->setFitted(true);
   m_words = new WrapLabel(m_tableCard);
-  m_words->setContentsMargins(15, 4, 15, 0);
-  m_tableCard->body()->addWidget(m_table, 1);
+  m_words->setContentsMargins(15, 8, 15, 0);
+  m_tableCard->body()->addWidget(m_table);
   m_tableCard->body()->addWidget(m_words);
+  m_tableCard->body()->addStretch(1);
   auto* row = new QHBoxLayout(view);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(16);
@@ -131,8 +134,13 @@ QString VerifyPage::finishedSentence() const {
            QLatin1Char(' ') + what;
   }
   return m_state.correctionProposed
-             ? tr("Some parts of the error are above the threshold. Look at the proposed correction.")
+             ? tr("The proof is complete: every axis keeps its limit. A correction for what is left is proposed.")
              : tr("The proof is complete: every axis keeps its limit. Save the report next.");
+}
+
+/// Within the limits another table is the engineer's choice, not the next step.
+bool VerifyPage::correctionNeeded() const {
+  return m_state.correctionProposed && (!axesOverLimit().isEmpty() || !m_state.worseThanBefore.isEmpty());
 }
 
 PageAction VerifyPage::primary() const {
@@ -145,7 +153,7 @@ PageAction VerifyPage::primary() const {
     case VerifyPhase::paused:
       return {"primary", tr("Resume"), true, {}};
     case VerifyPhase::finished:
-      return {"primary", m_state.correctionProposed ? tr("Apply correction") : tr("Go on"), true, {}};
+      return {"primary", correctionNeeded() ? tr("Apply correction") : tr("Go on"), true, {}};
   }
   return {};
 }
@@ -163,7 +171,11 @@ QVector<PageAction> VerifyPage::secondary() const {
       break;
   }
   QVector<PageAction> actions = {{"again", tr("Verify again")}};
-  if (m_state.correctionProposed) actions.append({"skip", tr("Leave as it is")});
+  if (correctionNeeded()) {
+    actions.append({"skip", tr("Leave as it is")});
+  } else if (m_state.correctionProposed) {
+    actions.append({"correct", tr("Apply correction"), true, {}, tr("Writes the corrected table. Asks first.")});
+  }
   if (!m_state.worseThanBefore.isEmpty()) {
     actions.append({"rollback",
                     tr("Roll back to version %1").arg(m_state.versionBefore),
@@ -272,6 +284,7 @@ QStringList VerifyPage::words() const {
                 ? tr("Without is this same run less what was applied: the same speeds and the same minutes.")
                 : tr("Without is the warm-up run: other speeds, over the same minutes since the start of each run, as "
                      "far as the shorter one goes."));
+  lines.last() += QLatin1Char(' ') + tr("At the end: mean of the last tenth.");
   return lines;
 }
 
@@ -298,22 +311,29 @@ void VerifyPage::renderCorrection() {
   m_thresholdName->setText(tr("Threshold"));
   m_threshold->setValue(m_state.threshold_um);
   m_table->setColumns({{tr("Axis"), 52, false, {}},
-                       {QStringLiteral("κ"), 104, true, tr("The temperatures' effect is multiplied by this")},
-                       {tr("Evidence"), 0, false, {}},
-                       {tr("Peak now"), 74, true, {}},
-                       {tr("Then"), 74, true, tr("Predicted with the correction")}});
+                       {QStringLiteral("κ"), 130, true, tr("The temperatures' effect is multiplied by this")},
+                       {tr("Offset"), 0, true, {}},
+                       {tr("Peak now"), 100, true, {}},
+                       {tr("Then"), 100, true, tr("Predicted with the correction")}});
   QVector<QVector<DataCell>> rows;
+  QStringList reasons;
   for (const AxisCorrection& axis : m_state.corrections) {
     DataCell name{axis.axis};
     name.strong = axis.proposed;
-    DataCell kappa{fixedText(axis.kappa, 3)};
-    if (axis.kappaSigma > 0.0) kappa.text += QStringLiteral(" ± %1").arg(axis.kappaSigma, 0, 'f', 3);
     const auto um = [](double value) {
-      return DataCell{std::isnan(value) ? QStringLiteral("–") : fixedText(value, 1) + " µm"};
+      return DataCell{std::isnan(value) ? QStringLiteral("–") : fixedText(value, 1) + QStringLiteral(" µm")};
     };
-    DataCell evidence{axis.evidence};
-    evidence.tip = axis.evidence;  // a narrow window cuts the sentence
-    rows.append({name, kappa, evidence, um(axis.peakBefore_um), um(axis.peakAfter_um)});
+    DataCell kappa{QStringLiteral("–")};
+    DataCell offset = kappa;
+    DataCell then = kappa;
+    if (axis.proposed) {
+      kappa.text = fixedText(axis.kappa, 3);
+      if (axis.kappaSigma > 0.0) kappa.text += QStringLiteral(" ± %1").arg(axis.kappaSigma, 0, 'f', 3);
+      offset = um(axis.offset_um);
+      then = um(axis.peakAfter_um);
+    }
+    reasons.append(QStringLiteral("%1: %2").arg(axis.axis, axis.evidence));
+    rows.append({name, kappa, offset, um(axis.peakBefore_um), then});
   }
   m_table->setRows(rows);
   if (m_table->currentRow() < 0 && !rows.isEmpty()) {
@@ -321,14 +341,15 @@ void VerifyPage::renderCorrection() {
     while (first < rows.size() - 1 && !m_state.corrections[first].proposed) ++first;
     m_table->selectRow(m_state.corrections[first].proposed ? first : 0);
   }
-  m_words->setText(
+  const QString conclusion =
       m_state.corrections.isEmpty() ? tr("The correction is computed from the verification run when it is finished.")
       : m_state.correctionProposed
           ? tr("With the correction the table is written anew, as a new version. The old one stays for rollback.")
       : std::any_of(m_state.corrections.begin(), m_state.corrections.end(),
                     [](const AxisCorrection& one) { return one.proposed; })
           ? tr("A correction was proposed and left aside: the table stays as it is.")
-          : tr("All parts of the error are below the threshold. No correction is needed."));
+          : tr("All parts of the error are below the threshold. No correction is needed.");
+  m_words->setText((QStringList{conclusion} + reasons).join(QStringLiteral("\n\n")));
   m_filling = false;
   renderResiduals();
 }
@@ -341,7 +362,9 @@ void VerifyPage::renderResiduals() {
   if (row < 0 || row >= m_state.corrections.size()) return m_plot->clear();
   const AxisCorrection& axis = m_state.corrections[row];
   PartStyle style;
-  m_legend->setItems({{tr("as measured"), colors().bad}, {tr("with the correction"), colors().ok}});
+  QVector<LegendItem> legend = {{tr("as measured"), colors().bad}};
+  if (!axis.corrected_um.isEmpty()) legend.append({tr("with the correction"), colors().ok});
+  m_legend->setItems(legend);
   style.unit = "µm";
   style.tag = tr("%1, measured").arg(axis.axis);
   style.color = colors().bad;

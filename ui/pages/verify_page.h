@@ -88,9 +88,11 @@ class VerifyPage : public Page {
   QString sentence() const override;
   /// Start verification, Pause, Apply correction, Go on.
   PageAction primary() const override;
-  /// "finish", "abort", "again", "skip", "rollback".
+  /// "finish", "abort", "again", "skip", "correct", "rollback".
   QVector<PageAction> secondary() const override;
   bool steersWork() const override { return true; }
+  /// The proposed correction is the next step: an axis is over its limit or worse than with the version before.
+  bool correctionNeeded() const;
 
  Q_SIGNALS:
   void thresholdChanged(double threshold_um);

@@ -103,7 +103,7 @@ void VerifyResult::renderTable() {
 void VerifyResult::renderPlot() {
   m_plot->setPlaceholder(tr("Shown when the verification is finished"));
   m_plotCard->setSubtitle(QStringLiteral("µm"));
-  m_legend->setItems({{tr("without"), colors().muted}, {tr("with compensation"), colors().accent}});
+  m_legend->setItems({{tr("without"), colors().muted, true}, {tr("with compensation"), colors().accent}});
   const int row = m_table->currentRow();
   if (row < 0 || row >= m_results.size()) {
     m_plotCard->setTitle(tr("Without and with compensation"));

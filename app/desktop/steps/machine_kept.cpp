@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "app/desktop/moment.h"
 #include "app/desktop/steps/machine_presenter.h"
+#include "app/text/core_text.h"
 #include "ui/pages/machine_page.h"
 
 namespace zerodrift::desktop {
@@ -25,7 +27,7 @@ void MachinePresenter::fillKept(ui::MachineState& state) const {
     ui::SensorHealth health;
     health.id = text(sensor, "channel");
     health.tag = QString(health.id).remove(QStringLiteral("_C"));
-    health.label = text(sensor, "label");
+    health.label = coreText(text(sensor, "label"));
     health.place = text(sensor, "place");
     health.value_C = number(sensor, "value_C");
     health.noise_K = number(sensor, "noise_K");
@@ -38,8 +40,7 @@ void MachinePresenter::fillKept(ui::MachineState& state) const {
   state.rest.spread_K = number(body, "spread_K");
   state.roundTrip_ms = number(body, "round_trip_ms");
   state.clockDifference_s = std::round(10.0 * number(body, "clock_difference_s")) / 10.0 + 0.0;
-  const auto when = QDateTime::fromString(QString::fromStdString((*artefact)->created_utc), Qt::ISODateWithMs);
-  state.keptFrom = when.toLocalTime().toString(QStringLiteral("d MMM yyyy, HH:mm"));
+  state.keptFrom = momentText((*artefact)->created_utc);
 }
 
 }  // namespace zerodrift::desktop

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/desktop/moment.h"
 #include "app/text/core_text.h"
 #include "core/base/resources.h"
 #include "core/flow/devices.h"
@@ -298,9 +299,7 @@ void MachinePresenter::refresh() {
   const QStringList recent = recentJobs();
   for (const QString& path : recent) {
     const QFileInfo file(path);
-    state.recent.append(
-        {path, file.completeBaseName(),
-         QLocale().toString(file.lastModified(), tr("d MMM yyyy, HH:mm", "date and time, as QLocale writes it"))});
+    state.recent.append({path, file.completeBaseName(), momentText(file.lastModified())});
   }
   if (const auto& profile = bench().profile()) {
     state.profiles = {QString::fromStdString(profile->name)};
@@ -311,7 +310,7 @@ void MachinePresenter::refresh() {
     fillSensors(state);
     fillRest(state);
     if (lost) {
-      state.keptFrom = m_lookedAt.toString(QStringLiteral("d MMM yyyy, HH:mm:ss"));
+      state.keptFrom = momentText(m_lookedAt);
     } else {
       fillParts(state);
     }

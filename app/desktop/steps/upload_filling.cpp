@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <cmath>
 
+#include "app/desktop/moment.h"
 #include "app/desktop/steps/upload_presenter.h"
 #include "app/desktop/upload_view.h"
 #include "app/text/core_text.h"
@@ -75,6 +76,10 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
   state.written = isWritten() && !m_correction && !m_goingBack;  // another table, not written yet
+  const auto& job = *const_cast<UploadPresenter*>(this)->bench().job();
+  state.proved = flow::status_of(job, "verify").state == flow::StepState::current;
+  const auto upload = job.latest("upload");
+  if (!state.offline.isEmpty() && upload && *upload) state.asOf = momentText((*upload)->created_utc);
   const json record = body.value("record", json::object());
   if (!m_sign) state.sign = sign_of(body.value("sign_check", json()));
   if (showsPreview(state.written)) return;
@@ -103,7 +108,7 @@ void UploadPresenter::fillHistory(ui::UploadState& state) const {
     if (last) active = written;
   }
   state.history = history_of(m_log, active, *profile);
-  if (!workbench.connected()) state.rollbackBlocked = tr("No machine is connected: connect it on the Machine page.");
+  state.rollbackBlocked = state.offline;
 }
 
 void UploadPresenter::refresh() {
@@ -125,6 +130,10 @@ void UploadPresenter::refresh() {
     state.capacity = look->identity.table_capacity_registers;
   }
   state.writing = m_writing;
+  if (!bench().connected() || bench().lost()) {
+    state.offline = bench().connected() ? tr("The controller does not answer.")
+                                        : tr("No machine is connected: connect it on the Machine page.");
+  }
   state.machineName = profile ? QString::fromStdString(profile->name) : QString();
   state.stages = stages_of(m_steps, m_writing, m_failed);
   if (m_sign) {

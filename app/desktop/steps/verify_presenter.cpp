@@ -78,7 +78,7 @@ void VerifyPresenter::primary() {
     if (!warmup.is_object()) return;
     const auto plan = acquisition::plan_from_json(warmup.value("plan", json::object()), "the warm-up's plan");
     if (plan && agreed(flow::verification_plan(*plan))) start({});
-  } else if (m_page->state().correctionProposed) {
+  } else if (m_page->correctionNeeded()) {
     applyCorrection({});
   } else {
     Q_EMIT nextRequested();
@@ -88,6 +88,7 @@ void VerifyPresenter::primary() {
 void VerifyPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("again")) m_again = true;
   if (action == QStringLiteral("skip")) m_skipped = true;
+  if (action == QStringLiteral("correct")) return applyCorrection({});
   if (action == QStringLiteral("rollback")) {
     Q_EMIT rollbackWanted(m_page->state().versionBefore);
     return;

@@ -104,9 +104,17 @@ void WarmupPresenter::secondary(const QString& action) {
 
 /// An interrupted run is taken up only to be ended as it should: spindle off, series closed, what there is kept.
 void WarmupPresenter::finishInterrupted() {
-  if (m_page->state().phase != ui::RunPhase::interrupted ||
-      !ask(m_page, tr("Finish the interrupted run?"), tr("What was recorded until the interruption is kept and used."),
-           tr("Finish"))) {
+  if (m_page->state().phase != ui::RunPhase::interrupted) return;
+  const bool there = bench().connected() && !bench().lost();
+  const QString kept = tr("What was recorded until the interruption is kept and used.");
+  const QString away = tr("No machine is connected, so none is stopped: look whether its spindle stands.");
+  if (!ask(m_page, tr("Finish the interrupted run?"), there ? kept : kept + QLatin1Char(' ') + away, tr("Finish"))) {
+    return;
+  }
+  if (!there) {
+    auto* job = bench().job();
+    runStep(tr("Finishing the interrupted run"),
+            [job](const TaskContext&) { return flow::end_interrupted_warmup(*job); });
     return;
   }
   connect(

@@ -1,5 +1,6 @@
 #include "core/flow/steps/warmup_step.h"
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -51,6 +52,39 @@ Result<acquisition::RunSummary> run_or_resume(commissioning::Job& job, acquisiti
   out.plan = interrupted ? interrupted->run.start.plan : options.plan;
   out.series = sink.series();
   return summary;
+}
+
+/// What the rows themselves tell of a run that nobody ended.
+acquisition::RunSummary summary_of(const recording::Recording& run, const acquisition::Plan& plan) {
+  acquisition::RunSummary summary;
+  summary.rows = static_cast<std::int64_t>(run.rows());
+  if (run.rows() == 0) return summary;
+  summary.duration_s = run.time_s.back();
+  for (std::size_t r = 0; r < run.rows(); ++r) {
+    int seen = 0;
+    int directions = 0;
+    for (const char* channel : {"dX_um", "dY_um", "dZ_um"}) {
+      const auto* error = run.find(channel);
+      if (error == nullptr) continue;
+      ++directions;
+      if (!std::isnan(error->values[r])) ++seen;
+    }
+    if (seen > 0) ++summary.measurements;
+    if (seen > 0 && seen < directions) ++summary.refused;
+    // While the machine stands to be measured no sample is due.
+    if (r == 0 || seen > 0 || plan.sample_period_s <= 0.0) continue;
+    const auto periods = std::llround((run.time_s[r] - run.time_s[r - 1]) / plan.sample_period_s);
+    summary.lost_samples += std::max(0LL, periods - 1);
+  }
+  return summary;
+}
+
+Result<commissioning::NewArtefact> warmup_artefact(const commissioning::Job& job, const RecordedRun& run,
+                                                   const Input& machine, const Input& calibration) {
+  json body = run.body();
+  ZD_TRY(const auto recording, job.read_series(run.series));
+  for (const auto& [direction, size] : error_sizes(recording)) body["peak_um"][direction] = size.peak_um;
+  return commissioning::NewArtefact::of("warmup", body, {machine.id, calibration.id});
 }
 
 }  // namespace
@@ -110,10 +144,28 @@ Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Device
   if (calibration.body.value("source", "") == "camera") recorder_options.zero_um = std::array<double, 3>{};
   ZD_TRY(const RecordedRun run, record_run(job, devices, options, recorder_options, context));
   if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
-  json body = run.body();
+  return warmup_artefact(job, run, machine, calibration);
+}
+
+Result<commissioning::NewArtefact> end_interrupted_warmup(commissioning::Job& job) {
+  ZD_TRY(const Input machine, need(job, "warm-up", "machine"));
+  ZD_TRY(const Input calibration, need(job, "warm-up", "calibration"));
+  ZD_TRY(const auto interrupted, acquisition::interrupted_run(job, "warm-up"));
+  if (!interrupted) return fail(ErrorCode::step_blocked, {{"step", "warmup"}, {"needs", "an interrupted run"}});
+  RecordedRun run;
+  run.series = interrupted->series;
+  run.plan = interrupted->run.start.plan;
+  run.zero_um = interrupted->run.start.zero_um;
+  run.source = calibration.body.value("source", "");
   ZD_TRY(const auto recording, job.read_series(run.series));
-  for (const auto& [direction, size] : error_sizes(recording)) body["peak_um"][direction] = size.peak_um;
-  return commissioning::NewArtefact::of("warmup", body, {machine.id, calibration.id});
+  if (recording.rows() == 0) return fail(ErrorCode::step_blocked, {{"step", "warmup"}, {"needs", "recorded samples"}});
+  run.summary = summary_of(recording, run.plan);
+  acquisition::JobSink sink(job, run.series);
+  ZD_CHECK(sink.event({run.summary.duration_s, "end", "finished", R"({"machine": "away"})"}));
+  ZD_CHECK(sink.end(acquisition::RunEnd::finished));
+  ZD_CHECK(sink.flush());
+  ZD_TRY(run.happened, happened_in(job, run.series));
+  return warmup_artefact(job, run, machine, calibration);
 }
 
 }  // namespace zerodrift::flow

@@ -26,6 +26,10 @@ struct RunOptions {
 Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Devices& devices, const RunOptions& options,
                                                  const TaskContext& context);
 
+/// The interrupted warm-up run as far as it went, without its machine: the series is closed and what it holds is the
+/// artefact. Whether the spindle stands is for somebody at the machine to see. warmup blocked: nothing was interrupted.
+Result<commissioning::NewArtefact> end_interrupted_warmup(commissioning::Job& job);
+
 /// What warm-up and verification share: runs the recorder into the job and describes what was recorded.
 struct RecordedRun {
   commissioning::SeriesId series = 0;

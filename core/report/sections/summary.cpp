@@ -68,8 +68,8 @@ std::optional<Text> count_of_doubts(const Source& source) {
   if (doubts.empty()) return std::nullopt;
   const auto bad =
       std::count_if(doubts.begin(), doubts.end(), [](const Doubt& d) { return d.verdict == Verdict::bad; });
-  Text text{source.tell("{} points were refused or look doubtful, {} of them outside their limit; they are listed "
-                        "under \"Refused or doubtful\".",
+  Text text{source.tell("{} points were refused or look doubtful, {} of them so that a result is in question; they are "
+                        "listed under \"Refused or doubtful\".",
                         doubts.size(), bad),
             true};
   text.verdict = bad > 0 ? Verdict::bad : Verdict::doubtful;

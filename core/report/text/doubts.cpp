@@ -7,15 +7,15 @@ namespace zerodrift::report {
 std::vector<TextEntry> texts_of_doubts() {
   return {
       {"Calibrate", "标定"},
-      {"Warm-up", "热机"},
+      {"Warm-up", "暖机"},
       {"Fit", "拟合"},
       {"Physics", "物理分析"},
       {"Upload", "写入"},
       {"Verify", "验证"},
       {"Axis errors", "轴误差"},
-      {"Nobody is named as the engineer who did this work. Enter the name on the Report page, or give it to commission "
-       "as --engineer.",
-       "未填写完成此项工作的工程师。请在“报告”页填写姓名，或在 commission 命令中用 --engineer 给出。"},
+      {"Nobody is named as the engineer who did this work. Enter the name on the Report page (on the command "
+       "line: --engineer).",
+       "未填写完成此项工作的工程师。请在“报告”页填写姓名（命令行：--engineer）。"},
       {"At the start the sensors differed by {} K (limit {} K): as far as the machine was still settling, the drift "
        "that "
        "was under way already is not in the figures.",
@@ -35,9 +35,11 @@ std::vector<TextEntry> texts_of_doubts() {
        "{0}：{2} 个采样中丢失 {1} 个，其中一次长达机床时间 {3} s。期间机床的变化未计入模型。"},
       {"{}: {} of {} measurements of the error were refused or incomplete.",
        "{0}：{2} 次误差测量中有 {1} 次被拒绝或不完整。"},
-      {"The kept sensors are much alike: condition number {} (limit {}). Their single coefficients mean little; what "
+      {"The kept sensors are much alike: condition number {} (up to {} each coefficient is sure). Their single "
+       "coefficients mean little; what "
        "they predict together is judged by the error on unseen data.",
-       "采用的传感器彼此很相似：条件数 {}（限值 {}）。单个系数意义不大；应以未见数据上的误差评价其整体预测。"},
+       "采用的传感器彼此很相似：条件数 {}（不超过 {} "
+       "时各系数可靠）。单个系数意义不大；应以未见数据上的误差评价其整体预测。"},
       {"The kept sensors leave {} µm rms on unseen stretches (limit {} µm).",
        "采用的传感器在未见区段的残差均方根为 {} µm（限值 {} µm）。"},
       {"With all sensors the error on unseen stretches would be {} µm rms, with those kept it is {} µm: {} % lost "

@@ -149,7 +149,7 @@ std::vector<TextEntry> texts_of_figures() {
       {"from", "起"},
       {"to", "改为"},
       {"calibration", "标定"},
-      {"warmup", "热机运行"},
+      {"warmup", "暖机运行"},
       {"model", "模型"},
       {"physics", "物理分析"},
       {"upload", "写入"},

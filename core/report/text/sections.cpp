@@ -28,9 +28,9 @@ std::vector<TextEntry> texts_of_sections() {
        "本机床的热误差已测量、建模并补偿。在补偿开启的情况下再次运行，误差保持在限值以内。"},
       {"A second run with the compensation on did not stay within the limit; see Verification.",
        "在补偿开启的情况下再次运行，误差超出限值；见“验证”一节。"},
-      {"{} points were refused or look doubtful, {} of them outside their limit; they are listed under \"Refused or "
-       "doubtful\".",
-       "有 {} 项被拒绝或存疑，其中 {} 项超出限值；列于“被拒绝或存疑的项目”一节。"},
+      {"{} points were refused or look doubtful, {} of them so that a result is in question; they are listed under "
+       "\"Refused or doubtful\".",
+       "有 {} 项被拒绝或存疑，其中 {} 项使结果存在疑问；列于“被拒绝或存疑的项目”一节。"},
       {"Largest error left in {}", "{} 向剩余最大误差"},
       {"before {} µm", "补偿前 {} µm"},
       {"limit {} {}: kept", "限值 {} {}：满足"},
@@ -116,7 +116,7 @@ std::vector<TextEntry> texts_of_sections() {
       {"stated accuracy, rectangular, by the coefficients of the table", "标称准确度，矩形分布，乘以补偿表系数"},
       {"What the model leaves on unseen data", "模型在未见数据上的残差"},
       {"rms of data left out", "留出数据的均方根"},
-      {"Warm-up run", "热机运行"},
+      {"Warm-up run", "暖机运行"},
       {"Plan: {}", "计划：{}"},
       {"step", "步骤"},
       {"minutes", "分钟"},
@@ -166,7 +166,7 @@ std::vector<TextEntry> texts_of_sections() {
       {"Room, fastest change", "室温，最快变化"},
       {"Spindle and axes ran together in one warm-up: the ranges are formed as in the standard, but they are not those "
        "of its separate spindle and axis tests.",
-       "主轴与进给轴在同一次热机中同时运行：变动范围按标准计算，但不等同于标准中单独的主轴试验和线性轴试验。"},
+       "主轴与进给轴在同一次暖机中同时运行：变动范围按标准计算，但不等同于标准中单独的主轴试验和线性轴试验。"},
       {"No test of the environment alone (ETVE) is in this job: what the room contributes is not separated.",
        "本作业没有单独的环境试验（ETVE）：未区分环境的影响。"},
       {"Sensors", "传感器"},
