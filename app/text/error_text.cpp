@@ -50,7 +50,7 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "{file}, line {line}, column {column}: not valid JSON ({detail})."),
         QT_TRANSLATE_NOOP("errors", "Correct the file there.")},
     Row{ErrorCode::json_missing_key, QT_TRANSLATE_NOOP("errors", "{file}: \"{key}\" is missing; expected {expected}."),
-        QT_TRANSLATE_NOOP("errors", "Add the key.")},
+        QT_TRANSLATE_NOOP("errors", "Add this entry, if it is the right file.")},
     Row{ErrorCode::json_bad_value, QT_TRANSLATE_NOOP("errors", "{file}: \"{key}\" is {found}; expected {expected}."),
         QT_TRANSLATE_NOOP("errors", "Correct the value.")},
     Row{ErrorCode::wrong_format, QT_TRANSLATE_NOOP("errors", "{file} is {found}; expected {expected}."),

@@ -3749,10 +3749,6 @@
         <translation>{file}：缺少“{key}”；应为 {expected}。</translation>
     </message>
     <message>
-        <source>Add the key.</source>
-        <translation>请添加该键。</translation>
-    </message>
-    <message>
         <source>{file}: &quot;{key}&quot; is {found}; expected {expected}.</source>
         <translation>{file}：“{key}”为 {found}；应为 {expected}。</translation>
     </message>
@@ -4159,6 +4155,10 @@
     <message>
         <source>Load the machine&apos;s connection profile again; the job then holds what it needs.</source>
         <translation>请重新载入机床的连接配置；之后作业即包含所需内容。</translation>
+    </message>
+    <message>
+        <source>Add this entry, if it is the right file.</source>
+        <translation>如果文件选择正确，请补上此项。</translation>
     </message>
 </context>
 <context>

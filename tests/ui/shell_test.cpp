@@ -191,6 +191,9 @@ void ShellTest::helpClosesByEscapeAndLeavesTheConsentInSight() {
   QTest::keyClick(&window, Qt::Key_Escape);
   QVERIFY(!window.isHelpVisible());
   QTest::keyClick(&window, Qt::Key_Escape);  // does not open it again
+  window.setLogVisible(true);
+  QTest::keyClick(&window, Qt::Key_Escape);
+  QVERIFY(!window.isLogVisible());
   QVERIFY(!window.isHelpVisible());
 }
 

@@ -202,6 +202,7 @@ void UploadPage::render() {
   if (!m_state.expressed.isEmpty()) loss.append(tr("The controller takes %1.").arg(m_state.expressed));
   loss.append(m_state.lost.isEmpty() ? tr("Nothing is lost on the way.")
                                      : tr("Lost: %1.").arg(m_state.lost.join("; ")));
+  for (const QString& warning : m_state.warnings) loss.append(warning + QLatin1Char('.'));
   m_loss->setText(loss.join(' '));
   m_writeCard->setTitle(tr("Transaction"));
   m_side->setItems({tr("Write"), tr("History, roll back")});

@@ -62,6 +62,7 @@ struct UploadState {
   std::optional<int> newVersion{};  // nothing while the machine was not read yet
   QVector<AxisTable> axes{};
   QStringList lost{};   // what the controller cannot express
+  QStringList warnings{};  // of the transaction, whole sentences
   QString expressed{};  // "temperature terms and points; 412 of 2000 registers"
   double largestChange_um = std::numeric_limits<double>::quiet_NaN();
   double changeLimit_um = 200.0;

@@ -10,7 +10,7 @@ namespace zerodrift::ui {
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   setWindowTitle("Zerodrift");
   setMinimumSize(1280, 720);
-  resize(1440, 900);
+  resize(QSize(1440, 900).boundedTo(QGuiApplication::primaryScreen()->availableSize()).expandedTo(minimumSize()));
   setAcceptDrops(true);
   m_rail = new StepRail(this);
   m_stack = new QStackedWidget(this);
@@ -130,8 +130,11 @@ void MainWindow::makeShortcuts() {
   on(QKeySequence("F1"), [this] { toggleHelp(); });
   on(QKeySequence("Shift+F1"), [this] { openHelp("keys"); });
   m_escape = new QShortcut(QKeySequence("Esc"), this);
-  m_escape->setEnabled(false);  // on while the help is open, wherever the focus is
-  connect(m_escape, &QShortcut::activated, this, &MainWindow::toggleHelp);
+  m_escape->setEnabled(false);  // on while the help or the log is open, wherever the focus is
+  connect(m_escape, &QShortcut::activated, this, [this] {
+    if (m_help->isVisible()) return toggleHelp();
+    setLogVisible(false);
+  });
   on(QKeySequence("Ctrl+Q"), [this] { close(); });
   on(QKeySequence("Ctrl+Return"), [this] { m_primary->click(); });
   on(QKeySequence("Alt+Left"), [this] { m_back->click(); });
@@ -269,6 +272,11 @@ void MainWindow::appendLog(const QDateTime& time, Judgement judgement, const QSt
 
 void MainWindow::setLogVisible(bool visible) {
   m_log->setVisible(visible);
+  enableEscape();
+}
+
+void MainWindow::enableEscape() {
+  m_escape->setEnabled(!m_help->isHidden() || !m_log->isHidden());
 }
 
 bool MainWindow::isLogVisible() const {
@@ -284,8 +292,7 @@ void MainWindow::toggleHelp() {
   if (m_help->isVisible()) {
     keepFocusOff(m_help);
     m_help->hide();
-    m_escape->setEnabled(false);
-    return;
+    return enableEscape();
   }
   if (currentPage() != nullptr) openHelp(currentPage()->id());
 }
@@ -295,7 +302,7 @@ void MainWindow::openHelp(const QString& id) {
   placeHelp();
   m_help->show();
   m_help->raise();
-  m_escape->setEnabled(true);
+  enableEscape();
 }
 
 bool MainWindow::isHelpVisible() const {

@@ -58,6 +58,7 @@ class MainWindow : public QMainWindow {
   bool isLogVisible() const;
   /// Opens the help of the open page, or closes it.
   void toggleHelp();
+  void enableEscape();
   /// Another page of the help: "keys", "about".
   void openHelp(const QString& id);
   bool isHelpVisible() const;

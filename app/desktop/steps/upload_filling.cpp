@@ -71,7 +71,7 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
     state.stagesNote = tr("dry run %1").arg(m_dryRunAt.toString(QStringLiteral("HH:mm")));
   state.registers = static_cast<double>(record.new_words.size());
   state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
-  for (const auto& warning : record.warnings) state.lost << coreText(warning);
+  for (const auto& warning : record.warnings) state.warnings << coreText(warning);
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
