@@ -208,10 +208,12 @@ void SpindleBody::prepare_films(ThermalNetwork& network, const SpindleInputs& in
 }
 
 void SpindleBody::add_hidden_heat(ThermalNetwork& network, double position_mm, double heat_W) {
-  const CellShare share = share_of(position_mm - 8.0, position_mm + 8.0);
+  // Over the two nearest cells, so that its centre of gravity is where the answer says.
+  const double at = std::clamp(position_mm / (cell_m * 1000.0) - 0.5, 0.0, cells - 1.0);
   for (int cell = 0; cell < cells; ++cell) {
-    network.add_heat(node(cell, shaft_rings), 0.75 * heat_W * share[cell]);
-    network.add_heat(node(cell, shaft_rings - 1), 0.25 * heat_W * share[cell]);
+    const double share = std::max(0.0, 1.0 - std::abs(at - cell));
+    network.add_heat(node(cell, shaft_rings), 0.75 * heat_W * share);
+    network.add_heat(node(cell, shaft_rings - 1), 0.25 * heat_W * share);
   }
 }
 

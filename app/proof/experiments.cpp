@@ -38,11 +38,12 @@ double minutes_of(const std::vector<CaseStep>& steps) {
   return sum;
 }
 
-/// What somebody without advice would run: a few speeds, coolant now and then, for as long.
+/// What somebody without advice would run for as long: two to six parts at some speeds, coolant now and then.
 std::vector<CaseStep> random_steps(double minutes, Noise& noise) {
+  const double whole = minutes;
   std::vector<CaseStep> steps;
   while (minutes > 0.5) {
-    const double part = std::min(minutes, std::round(noise.uniform(30.0, 90.0)));
+    const double part = std::min(minutes, std::round(noise.uniform(whole / 6.0, whole / 2.0)));
     const double speed = std::round(noise.uniform(0.0, 1.0) * top_speed_rpm / 50.0) * 50.0;
     steps.push_back({part, speed, noise.uniform() < 0.3, 0.0});
     minutes -= part;

@@ -96,17 +96,16 @@ constexpr std::array<const char*, 286> models = {{
         "core", "A displacement is late against the temperature of its own component; heating and cooling disagree"),
     QT_TRANSLATE_NOOP("core", "%1 samples"),
     QT_TRANSLATE_NOOP("core", "at least one"),
-    QT_TRANSLATE_NOOP("core", "full speed for 1 h without coolant, then stop and record 1 h of cooling"),
     QT_TRANSLATE_NOOP(
-        "core", "two thirds of full speed for 50 min without coolant, 40 min with it, then stop and record 30 min"),
-    QT_TRANSLATE_NOOP("core", "full speed for 2 h without coolant, then stop and record 1.5 h of cooling"),
-    QT_TRANSLATE_NOOP("core", "half speed for 3 h without coolant"),
-    QT_TRANSLATE_NOOP("core", "25, 50, 75 and 100 % of full speed, 45 min each"),
-    QT_TRANSLATE_NOOP("core", "full speed for 40 min and stop for 40 min, twice"),
-    QT_TRANSLATE_NOOP("core", "full speed for 2.7 h, coolant on and off every 40 min"),
-    QT_TRANSLATE_NOOP("core",
-                      "half speed for 20 min cold, full speed for 1.5 h, half speed for 20 min hot, stop for 40 min"),
-    QT_TRANSLATE_NOOP("core", "half speed for 2.7 h, cutting on and off every 40 min"),
+        "core",
+        "two thirds of full speed, 40 % of the time without coolant, 35 % with it, then stop and record the cooling"),
+    QT_TRANSLATE_NOOP("core", "full speed without coolant for half of the time, then stop and record the cooling"),
+    QT_TRANSLATE_NOOP("core", "half speed without coolant"),
+    QT_TRANSLATE_NOOP("core", "25, 50, 75 and 100 % of full speed, a quarter of the time each"),
+    QT_TRANSLATE_NOOP("core", "full speed and stop in turn, four equal parts"),
+    QT_TRANSLATE_NOOP("core", "full speed, coolant off and on in turn, four equal parts"),
+    QT_TRANSLATE_NOOP("core", "half speed cold, full speed for half of the time, half speed hot, then stop"),
+    QT_TRANSLATE_NOOP("core", "half speed, no cutting and cutting in turn, four equal parts"),
     QT_TRANSLATE_NOOP("core", "µm per unit of its driver"),
     QT_TRANSLATE_NOOP("core", "all the time"),
     QT_TRANSLATE_NOOP("core", "in step with the spindle speed"),
@@ -286,7 +285,7 @@ constexpr std::array<const char*, 286> models = {{
     QT_TRANSLATE_NOOP("core",
                       "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): "
                       "it cannot be excluded."),
-    QT_TRANSLATE_NOOP("core", "To tell {@best} from {@rival}: {@run}."),
+    QT_TRANSLATE_NOOP("core", "To tell {@best} from {@rival}, {minutes} min in all: {@run}."),
     QT_TRANSLATE_NOOP("core", "The profile holds no machine description, so there is nothing to simulate."),
     QT_TRANSLATE_NOOP("core",
                       "The simulation differs most from the recording at {channel}: {rms} {unit} rms, {largest} {unit} "
@@ -330,7 +329,10 @@ constexpr std::array<const char*, 286> models = {{
                       "Something is missing that the library does not explain: {channel} is off the best simulation by "
                       "{um} µm (rms), {@regime}."),
     QT_TRANSLATE_NOOP("core", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."),
-    QT_TRANSLATE_NOOP("core", "To see whether there is {@rival}: {@run}."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."),
+    QT_TRANSLATE_NOOP("core", "To see whether there is {@rival}, {minutes} min in all: {@run}."),
 }};
 
 }  // namespace

@@ -89,10 +89,10 @@ double missed_by(const Diagnosis& diagnosis) {
 Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
                           const std::vector<recording::Recording>& recordings, const DiagnoseOptions& options,
                           const TaskContext& context) {
-  // A recording that shows by itself that something is missing was not too poor to show it.
-  if (first.verdict == Verdict::unexplained && !first.refuted) return first;
+  // A recording that shows by itself that something is missing may still be too poor to show what.
+  const bool unexplained_alone = first.verdict == Verdict::unexplained && !first.refuted;
   std::size_t worst = 0;
-  double missed = contradicted;
+  double missed = unexplained_alone ? 0.0 : contradicted;
   for (std::size_t i = 0; i < first.held_out.size(); ++i) {
     const double by = missed_by(first, first.held_out[i]);
     if (by <= missed) continue;
@@ -112,7 +112,7 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   // What happened once in the other recording cannot be borne out by the first, and the same explanation in both, of
   // which one makes the other worse, is not saved by the turn.
   const bool borne_out = other.verdict == Verdict::missing_effect && !happened_once(other) &&
-                         other.tried != first.tried && missed_by(other) < contradicted;
+                         other.tried != first.tried && missed_by(other) < (unexplained_alone ? in_order : contradicted);
   if (!borne_out) {
     const HeldOut& missed_one = first.held_out[worst - 1];
     if (fails_where_it_explains(first, missed_one) || hides_a_movement(first, missed_one)) {

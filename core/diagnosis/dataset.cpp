@@ -33,9 +33,7 @@ MeasuredChannel make_channel(const recording::Channel* source, const physics::Ob
     channel.present[k] = true;
     ++channel.samples;
   }
-  const double range = range_of(channel);
-  // The most that a good description leaves; how much this one leaves, the evidence says (ordinary_discrepancy).
-  channel.drift = seen.temperature ? std::hypot(0.02, 0.0015 * range) : std::hypot(0.2, 0.0015 * range);
+  channel.drift = ordinary_drift(seen.temperature, range_of(channel));
   return channel;
 }
 
@@ -75,6 +73,10 @@ void Dataset::prepare() {
   for (auto& channel : channels) {
     if (channel.samples > 0) set_gains(channel, time_s);
   }
+}
+
+double ordinary_drift(bool temperature, double range) {
+  return std::hypot(temperature ? 0.02 : 0.2, 0.0015 * range);
 }
 
 Dataset make_dataset(const recording::Recording& recording, const physics::Network& network) {

@@ -74,6 +74,7 @@ Result<Diagnosis> Diagnoser::run() {
   rivals();
   if (m_options.details) details();
   m_out.sentences.push_back(explain_verdict(m_out));
+  if (m_out.verdict != Verdict::unexplained) cannot_show();
   m_out.notes = m_selection.base->network().notes;
   notes();
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -278,6 +278,18 @@ void Diagnoser::details() {
   m_out.suggested = suggest_experiment(*m_selection.best, rivals);
 }
 
+/// What may be there although it is not named: no size that there can be would have shown.
+void Diagnoser::cannot_show() {
+  std::vector<std::string> unseen;
+  for (const Detectable& least : m_out.detectable) {
+    const bool named = std::any_of(m_out.effects.begin(), m_out.effects.end(),
+                                   [&](const auto& found) { return found.id == least.id; });
+    if (named || least.key.empty() || physics::log_prior_of(least.id) < 0.0) continue;
+    if (least.value > physics::find_effect(least.id)->parameter(least.key).high) unseen.push_back(least.id);
+  }
+  if (!unseen.empty()) m_out.sentences.push_back(explain_unseen(unseen));
+}
+
 void Diagnoser::notes() {
   const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
     double low = 1e300, high = -1e300;

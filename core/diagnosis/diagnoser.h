@@ -42,6 +42,7 @@ class Diagnoser {
   void slips_of_its_own(const physics::Machine& best, const recording::Recording& other, HeldOut& result) const;
   bool refuted() const;
   void details();
+  void cannot_show();
   void notes();
 
   const physics::Machine& m_machine;  // as described

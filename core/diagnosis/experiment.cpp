@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -13,47 +14,57 @@ namespace zerodrift::diagnosis {
 namespace {
 
 struct Step {
-  double hours;
+  double share;        // of the run's time
   double speed_share;  // of full speed
   bool coolant;
   double load_W;
 };
 
+/// One form of a run; how long it takes is chosen apart.
 struct Run {
   const char* id;
   const char* text;
   std::vector<Step> steps;
 };
 
-/// From short to long.
 const std::vector<Run>& library() {
   static const std::vector<Run> runs = {
-      {"hour_and_stop",
-       "full speed for 1 h without coolant, then stop and record 1 h of cooling",
-       {{1.0, 1.0, false, 0}, {1.0, 0.0, false, 0}}},
-      {"coolant_once",
-       "two thirds of full speed for 50 min without coolant, 40 min with it, then stop and record 30 min",
-       {{0.834, 0.67, false, 0}, {0.667, 0.67, true, 0}, {0.5, 0.0, false, 0}}},
       {"full_then_stop",
-       "full speed for 2 h without coolant, then stop and record 1.5 h of cooling",
-       {{2.0, 1.0, false, 0}, {1.5, 0.0, false, 0}}},
-      {"half_speed", "half speed for 3 h without coolant", {{3.0, 0.5, false, 0}}},
+       "full speed without coolant for half of the time, then stop and record the cooling",
+       {{0.5, 1.0, false, 0}, {0.5, 0.0, false, 0}}},
+      {"coolant_once",
+       "two thirds of full speed, 40 % of the time without coolant, 35 % with it, then stop and record the cooling",
+       {{0.4, 0.67, false, 0}, {0.35, 0.67, true, 0}, {0.25, 0.0, false, 0}}},
+      {"half_speed", "half speed without coolant", {{1.0, 0.5, false, 0}}},
       {"staircase",
-       "25, 50, 75 and 100 % of full speed, 45 min each",
-       {{0.75, 0.25, false, 0}, {0.75, 0.5, false, 0}, {0.75, 0.75, false, 0}, {0.75, 1.0, false, 0}}},
+       "25, 50, 75 and 100 % of full speed, a quarter of the time each",
+       {{0.25, 0.25, false, 0}, {0.25, 0.5, false, 0}, {0.25, 0.75, false, 0}, {0.25, 1.0, false, 0}}},
       {"start_stop",
-       "full speed for 40 min and stop for 40 min, twice",
-       {{0.667, 1.0, false, 0}, {0.667, 0.0, false, 0}, {0.667, 1.0, false, 0}, {0.667, 0.0, false, 0}}},
+       "full speed and stop in turn, four equal parts",
+       {{0.25, 1.0, false, 0}, {0.25, 0.0, false, 0}, {0.25, 1.0, false, 0}, {0.25, 0.0, false, 0}}},
       {"coolant_toggle",
-       "full speed for 2.7 h, coolant on and off every 40 min",
-       {{0.667, 1.0, false, 0}, {0.667, 1.0, true, 0}, {0.667, 1.0, false, 0}, {0.667, 1.0, true, 0}}},
+       "full speed, coolant off and on in turn, four equal parts",
+       {{0.25, 1.0, false, 0}, {0.25, 1.0, true, 0}, {0.25, 1.0, false, 0}, {0.25, 1.0, true, 0}}},
       {"hot_and_cold",
-       "half speed for 20 min cold, full speed for 1.5 h, half speed for 20 min hot, stop for 40 min",
-       {{0.334, 0.5, false, 0}, {1.5, 1.0, false, 0}, {0.334, 0.5, false, 0}, {0.667, 0.0, false, 0}}},
+       "half speed cold, full speed for half of the time, half speed hot, then stop",
+       {{0.125, 0.5, false, 0}, {0.5, 1.0, false, 0}, {0.125, 0.5, false, 0}, {0.25, 0.0, false, 0}}},
       {"cutting_toggle",
-       "half speed for 2.7 h, cutting on and off every 40 min",
-       {{0.667, 0.5, false, 0}, {0.667, 0.5, false, 2000}, {0.667, 0.5, false, 0}, {0.667, 0.5, false, 2000}}}};
+       "half speed, no cutting and cutting in turn, four equal parts",
+       {{0.25, 0.5, false, 0}, {0.25, 0.5, false, 2000}, {0.25, 0.5, false, 0}, {0.25, 0.5, false, 2000}}}};
   return runs;
+}
+
+constexpr std::array lengths_min{30, 45, 60, 90, 120, 180, 210};
+
+/// When each step of a run of this length ends, in whole minutes.
+std::vector<int> ends_of(const Run& run, int minutes) {
+  std::vector<int> ends;
+  double share = 0.0;
+  for (const auto& step : run.steps) {
+    share += step.share;
+    ends.push_back(static_cast<int>(std::lround(share * minutes)));
+  }
+  return ends;
 }
 
 /// Load of the spindle while it only turns, W per rpm, as the recording has it: the least that was measured there.
@@ -71,21 +82,20 @@ double idle_load_W_rpm(const recording::Recording& seen) {
   return std::max(0.0, *low);
 }
 
-recording::Recording inputs_of(const Run& run, const Model& model) {
+recording::Recording inputs_of(const Run& run, int minutes, const Model& model) {
   recording::Recording r;
   r.name = run.id;
   recording::Channel rpm{"spindle_rpm", {}}, coolant{"coolant_on", {}}, load{"spindle_load_W", {}};
   const double full_rpm = model.network().full_speed_rpm;
   const double idle_W_rpm = idle_load_W_rpm(*model.data().recording);
-  double start_s = 0.0;
-  for (const auto& step : run.steps) {
-    for (double t = start_s; t < start_s + 3600.0 * step.hours - 1.0; t += 60.0) {
-      r.time_s.push_back(t);
-      rpm.values.push_back(step.speed_share * full_rpm);
-      coolant.values.push_back(step.coolant ? 1.0 : 0.0);
-      load.values.push_back(step.load_W + idle_W_rpm * rpm.values.back());
-    }
-    start_s = r.time_s.back() + 60.0;
+  const std::vector<int> ends = ends_of(run, minutes);
+  for (int minute = 0, step = 0; minute <= minutes; ++minute) {
+    while (minute < minutes && minute >= ends[static_cast<std::size_t>(step)]) ++step;
+    const Step& now = run.steps[static_cast<std::size_t>(step)];
+    r.time_s.push_back(60.0 * minute);
+    rpm.values.push_back(now.speed_share * full_rpm);
+    coolant.values.push_back(now.coolant ? 1.0 : 0.0);
+    load.values.push_back(now.load_W + idle_W_rpm * rpm.values.back());
   }
   const physics::Room& room = model.machine().room;
   double air_C = 20.0;
@@ -105,19 +115,15 @@ recording::Recording inputs_of(const Run& run, const Model& model) {
   return r;
 }
 
-double hours_of(const Run& run) {
-  double sum = 0.0;
-  for (const auto& step : run.steps) sum += step.hours;
-  return sum;
-}
-
-nlohmann::json plan_of(const Run& run, double full_rpm) {
+nlohmann::json plan_of(const Run& run, int minutes, double full_rpm) {
   nlohmann::json plan = {{"name", run.id},
                          {"sample_period_s", 10},
                          {"measure_period_s", 60},
                          {"measure_position_mm", {{"X", 0}, {"Y", 0}, {"Z", 0}}}};
-  for (const auto& step : run.steps) {
-    plan["steps"].push_back({{"duration_s", std::round(3600.0 * step.hours)},
+  const std::vector<int> ends = ends_of(run, minutes);
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    const Step& step = run.steps[i];
+    plan["steps"].push_back({{"duration_s", 60 * (ends[i] - (i == 0 ? 0 : ends[i - 1]))},
                              {"spindle_rpm", std::round(step.speed_share * full_rpm)},
                              {"coolant_on", step.coolant},
                              {"path", "still"}});
@@ -134,7 +140,21 @@ struct Expectation {
   Eigen::MatrixXd precision;  // of the unknowns after the first recording; what is new in each recording at its prior
 };
 
-Expectation expectation_of(const Model& model, const recording::Recording& inputs) {
+/// A run that goes farther than the recording also shows more of what the description does not know.
+std::vector<double> noise_widths(const Model& model, const physics::Prediction& prediction) {
+  std::vector<double> widths;
+  for (std::size_t c = 0; c < prediction.channels.size() && c < model.data().channels.size(); ++c) {
+    const MeasuredChannel& channel = model.data().channels[c];
+    const auto& values = prediction.channels[c].values;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const double drift = std::max(channel.drift, ordinary_drift(channel.temperature, *high - *low));
+    widths.push_back(std::hypot(drift, channel.white / 4.0));
+  }
+  return widths;
+}
+
+/// In `widths` of noise, which the first model of a run sets.
+Expectation expectation_of(const Model& model, const recording::Recording& inputs, std::vector<double>& widths) {
   const physics::Network network = physics::build_network(model.machine(), inputs);
   std::vector<double> values = network.start_values();
   std::vector<int> parameters;
@@ -159,16 +179,16 @@ Expectation expectation_of(const Model& model, const recording::Recording& input
   if (!whole) parameters.clear();
   const physics::Prediction prediction =
       physics::predict(network, physics::make_inputs(network, inputs), values, parameters);
+  if (widths.empty()) widths = noise_widths(model, prediction);
   constexpr std::size_t stride = 15;
-  const std::size_t per_channel = (prediction.rows + stride - 1) / stride;
+  const std::size_t per_channel = (prediction.rows - 1) / stride;  // the start tells nothing
   expected.values.setZero(static_cast<Eigen::Index>(per_channel * prediction.channels.size()));
   expected.columns.setZero(expected.values.size(), static_cast<Eigen::Index>(parameters.size()));
-  for (std::size_t c = 0; c < prediction.channels.size() && c < model.data().channels.size(); ++c) {
-    const MeasuredChannel& channel = model.data().channels[c];
-    if (channel.samples == 0) continue;
-    const double sigma = std::hypot(channel.drift, channel.white / 4.0);
-    for (std::size_t k = 0; k < prediction.rows; k += stride) {
-      const auto row = static_cast<Eigen::Index>(c * per_channel + k / stride);
+  for (std::size_t c = 0; c < widths.size(); ++c) {
+    if (model.data().channels[c].samples == 0) continue;
+    const double sigma = widths[c];
+    for (std::size_t k = stride; k < prediction.rows; k += stride) {
+      const auto row = static_cast<Eigen::Index>(c * per_channel + k / stride - 1);
       expected.values[row] = prediction.channels[c].values[k] / sigma;
       for (std::size_t p = 0; p < parameters.size(); ++p) {
         expected.columns(row, static_cast<Eigen::Index>(p)) =
@@ -191,37 +211,64 @@ double evidence_against(const Expectation& model, const Eigen::VectorXd& differe
   return 0.5 * std::max(0.0, left);
 }
 
+/// How well a run would tell all pairs of these models apart.
+struct Contest {
+  double told = 0.0;     // sum over the pairs of the expected log evidence, of each as much as decides
+  double least = 1e300;  // of the pair that is told apart least
+  const Model* first = nullptr;
+  const Model* second = nullptr;
+};
+
+constexpr double decisive = 30.0;  // log evidence expected
+
+Contest contest_in(const Run& run, int minutes, const std::vector<const Model*>& models) {
+  const recording::Recording inputs = inputs_of(run, minutes, *models.front());
+  std::vector<double> widths;
+  std::vector<Expectation> expected;
+  for (const Model* model : models) expected.push_back(expectation_of(*model, inputs, widths));
+  Contest contest;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    for (std::size_t j = i + 1; j < models.size(); ++j) {
+      if (expected[i].values.size() != expected[j].values.size()) continue;
+      const Eigen::VectorXd difference = expected[i].values - expected[j].values;
+      const double apart =
+          std::min(evidence_against(expected[i], difference), evidence_against(expected[j], difference));
+      contest.told += std::min(apart, decisive);
+      if (apart >= contest.least) continue;
+      contest.least = apart;
+      contest.first = models[i];
+      contest.second = models[j];
+    }
+  }
+  return contest;
+}
+
+/// The effect in question; none where the model is the description as it is.
+std::string questioned(const Model& model) {
+  const auto& effects = model.machine().effects;
+  return !effects.empty() && effects.back().candidate ? effects.back().id : std::string();
+}
+
 }  // namespace
 
 SuggestedExperiment suggest_experiment(const Model& best, const std::vector<const Model*>& rivals) {
-  constexpr double decisive = 30.0;  // log evidence expected: a shorter run is not worth less certainty
+  std::vector<const Model*> models = {&best};
+  models.insert(models.end(), rivals.begin(), rivals.end());
   SuggestedExperiment suggestion;
-  double chosen_hours = 0.0;
-  for (const auto& run : library()) {
-    const recording::Recording inputs = inputs_of(run, best);
-    const Expectation expected = expectation_of(best, inputs);
-    double least = 1e300;
-    const Model* nearest = nullptr;
-    for (const Model* rival : rivals) {
-      const Expectation other = expectation_of(*rival, inputs);
-      if (other.values.size() != expected.values.size()) continue;
-      const Eigen::VectorXd difference = expected.values - other.values;
-      const double apart = std::min(evidence_against(expected, difference), evidence_against(other, difference));
-      if (apart >= least) continue;
-      least = apart;
-      nearest = rival;
+  double told = 0.0;
+  for (const int minutes : lengths_min) {
+    for (const auto& run : library()) {
+      const Contest contest = contest_in(run, minutes, models);
+      // Where all is decided, the surer one.
+      const double worth = contest.told + 1e-3 * std::min(contest.least, 1e3 * decisive);
+      if (contest.first == nullptr || worth <= told) continue;
+      told = worth;
+      suggestion.distance = contest.least;
+      suggestion.id = run.id;
+      suggestion.plan_json = plan_of(run, minutes, best.network().full_speed_rpm).dump();
+      suggestion.text = explain_experiment(questioned(*contest.first), questioned(*contest.second), run.text, minutes);
     }
-    if (nearest == nullptr || least <= suggestion.distance) continue;
-    if (suggestion.distance > decisive && hours_of(run) > chosen_hours) continue;
-    chosen_hours = hours_of(run);
-    suggestion.distance = least;
-    suggestion.id = run.id;
-    suggestion.plan_json = plan_of(run, best.network().full_speed_rpm).dump();
-    // A best model without any effect: nothing is missing, or the rival is.
-    const auto& effects = best.machine().effects;
-    const bool named = !effects.empty() && effects.back().candidate;
-    suggestion.text =
-        explain_experiment(named ? effects.back().id : std::string(), nearest->machine().effects.back().id, run.text);
+    if (suggestion.distance > decisive) break;
   }
   return suggestion;
 }

@@ -1,8 +1,8 @@
 #pragma once
-// Which short run would tell the best model from its rivals: from a library of runs the shortest that is expected to
-// decide, else the one that comes nearest to it. What counts is the difference of the predictions in noise widths that
-// neither model's unknowns, as well as the first recording fixes them, could absorb (T-optimality, Atkinson and Fedorov
-// 1975).
+// Which short run would tell the best model from its rivals: from a library of forms, each from half an hour to three
+// and a half, the shortest that is expected to decide, else the one that comes nearest to it. What counts is the
+// difference of the predictions in noise widths that neither model's unknowns, as well as the first recording fixes
+// them, could absorb (T-optimality, Atkinson and Fedorov 1975).
 
 #include <memory>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace zerodrift::diagnosis {
 
-/// Against the rival that is told apart least.
+/// Tells the best model and its rivals apart, each from each; said of the two that are told apart least.
 SuggestedExperiment suggest_experiment(const Model& best, const std::vector<const Model*>& rivals);
 
 }  // namespace zerodrift::diagnosis

@@ -34,6 +34,7 @@ constexpr std::array shown_parameters{Shown{"h_W_m2K", "h", "W/m²K"},
                                       Shown{"constant_share", "κ0", "%", 100.0},
                                       Shown{"power_W", "P", "W"},
                                       Shown{"resistance_m2K_W", "R", "mm²K/W", 1e6},
+                                      Shown{"half_width_mm", "b", "mm"},
                                       Shown{"um_per_K", "g", "µm/K"},
                                       Shown{"um_per_W", "g", "µm/W"},
                                       Shown{"room_um_per_K", "g(room)", "µm/K"},
@@ -166,9 +167,17 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
   return finished(std::move(s));
 }
 
-Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run) {
-  if (best_effect.empty()) return finished({"experiment_show", {{"rival", rival_effect}, {"run", run}}, ""});
-  return finished({"experiment_run", {{"best", best_effect}, {"rival", rival_effect}, {"run", run}}, ""});
+Sentence explain_unseen(const std::vector<std::string>& effects) {
+  return finished({"cannot_show", {{"effects", fmt::format("{}", fmt::join(effects, ","))}}, ""});
+}
+
+Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run,
+                            int minutes) {
+  Sentence s{"experiment_show", {{"rival", rival_effect}, {"run", run}, {"minutes", std::to_string(minutes)}}, ""};
+  if (best_effect.empty()) return finished(std::move(s));
+  s.id = "experiment_run";
+  s.facts["best"] = best_effect;
+  return finished(std::move(s));
 }
 
 }  // namespace zerodrift::diagnosis

@@ -12,7 +12,10 @@ Sentence explain_verdict(const Diagnosis& diagnosis);
 /// "h = 12.7 ± 0.7 W/m²K": a parameter of an effect with a sign that is the same in every language; sigma 0: unknown.
 /// Empty for what is not shown (cosines, logarithms).
 std::string parameter_in_words(const std::string& key, double value, double sigma);
-/// `run` in English words: "half speed for 3 h without coolant".
-Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run);
+/// Of effects that this recording would have shown only at an impossible size.
+Sentence explain_unseen(const std::vector<std::string>& effects);
+/// `run` in English words: "half speed without coolant"; how long it takes in all.
+Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run,
+                            int minutes);
 
 }  // namespace zerodrift::diagnosis

@@ -28,8 +28,11 @@ constexpr std::array catalogue{
           "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
           "excluded."},
     Entry{"rival_hidden", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."},
-    Entry{"experiment_show", "To see whether there is {@rival}: {@run}."},
-    Entry{"experiment_run", "To tell {@best} from {@rival}: {@run}."},
+    Entry{
+        "cannot_show",
+        "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."},
+    Entry{"experiment_show", "To see whether there is {@rival}, {minutes} min in all: {@run}."},
+    Entry{"experiment_run", "To tell {@best} from {@rival}, {minutes} min in all: {@run}."},
     Entry{"nothing_to_simulate", "The profile holds no machine description, so there is nothing to simulate."},
     Entry{"simulation_differs",
           "The simulation differs most from the recording at {channel}: {rms} {unit} rms, {largest} {unit} at the most "

@@ -2486,40 +2486,36 @@
         <translation>至少一个</translation>
     </message>
     <message>
-        <source>full speed for 1 h without coolant, then stop and record 1 h of cooling</source>
-        <translation>以最高转速运行 1 h，不开冷却液，然后停机并记录 1 h 冷却过程</translation>
+        <source>two thirds of full speed, 40 % of the time without coolant, 35 % with it, then stop and record the cooling</source>
+        <translation>以最高转速的三分之二运行：40 % 的时间不开冷却液，35 % 的时间开冷却液，然后停机并记录冷却过程</translation>
     </message>
     <message>
-        <source>two thirds of full speed for 50 min without coolant, 40 min with it, then stop and record 30 min</source>
-        <translation>以最高转速的三分之二运行：不开冷却液 50 min，开冷却液 40 min，然后停机并记录 30 min</translation>
+        <source>full speed without coolant for half of the time, then stop and record the cooling</source>
+        <translation>一半时间以最高转速运行，不开冷却液，然后停机并记录冷却过程</translation>
     </message>
     <message>
-        <source>full speed for 2 h without coolant, then stop and record 1.5 h of cooling</source>
-        <translation>以最高转速运行 2 h，不开冷却液，然后停机并记录 1.5 h 冷却过程</translation>
+        <source>half speed without coolant</source>
+        <translation>以最高转速的一半运行，不开冷却液</translation>
     </message>
     <message>
-        <source>half speed for 3 h without coolant</source>
-        <translation>以最高转速的一半运行 3 h，不开冷却液</translation>
+        <source>25, 50, 75 and 100 % of full speed, a quarter of the time each</source>
+        <translation>以最高转速的 25、50、75 和 100 % 运行，各占四分之一时间</translation>
     </message>
     <message>
-        <source>25, 50, 75 and 100 % of full speed, 45 min each</source>
-        <translation>以最高转速的 25、50、75 和 100 % 运行，各 45 min</translation>
+        <source>full speed and stop in turn, four equal parts</source>
+        <translation>最高转速与停机交替，共四个等长阶段</translation>
     </message>
     <message>
-        <source>full speed for 40 min and stop for 40 min, twice</source>
-        <translation>以最高转速运行 40 min、停机 40 min，重复两次</translation>
+        <source>full speed, coolant off and on in turn, four equal parts</source>
+        <translation>以最高转速运行，冷却液关、开交替，共四个等长阶段</translation>
     </message>
     <message>
-        <source>full speed for 2.7 h, coolant on and off every 40 min</source>
-        <translation>以最高转速运行 2.7 h，冷却液每 40 min 开关一次</translation>
+        <source>half speed cold, full speed for half of the time, half speed hot, then stop</source>
+        <translation>冷态下以半速运行，一半时间全速运行，热态下再以半速运行，然后停机</translation>
     </message>
     <message>
-        <source>half speed for 20 min cold, full speed for 1.5 h, half speed for 20 min hot, stop for 40 min</source>
-        <translation>冷态下以半速运行 20 min，全速运行 1.5 h，热态下再以半速运行 20 min，停机 40 min</translation>
-    </message>
-    <message>
-        <source>half speed for 2.7 h, cutting on and off every 40 min</source>
-        <translation>以半速运行 2.7 h，每 40 min 切削与停止交替一次</translation>
+        <source>half speed, no cutting and cutting in turn, four equal parts</source>
+        <translation>以半速运行，不切削与切削交替，共四个等长阶段</translation>
     </message>
     <message>
         <source>µm per unit of its driver</source>
@@ -3170,8 +3166,8 @@
         <translation>{@where}{@name}对本记录的解释几乎同样好（对数证据仅低 {behind}），不能排除。</translation>
     </message>
     <message>
-        <source>To tell {@best} from {@rival}: {@run}.</source>
-        <translation>为区分{@best}与{@rival}：{@run}。</translation>
+        <source>To tell {@best} from {@rival}, {minutes} min in all: {@run}.</source>
+        <translation>为区分{@best}与{@rival}（共 {minutes} min）：{@run}。</translation>
     </message>
     <message>
         <source>The profile holds no machine description, so there is nothing to simulate.</source>
@@ -3410,8 +3406,12 @@
         <translation>本次单一转速的运行几乎无法显示{@where}{@name}，不能排除。</translation>
     </message>
     <message>
-        <source>To see whether there is {@rival}: {@run}.</source>
-        <translation>为判断是否存在{@rival}：{@run}。</translation>
+        <source>This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown.</source>
+        <translation>本次记录无法判断是否存在{+effects}：只有超出可能范围的大小才会显示出来。</translation>
+    </message>
+    <message>
+        <source>To see whether there is {@rival}, {minutes} min in all: {@run}.</source>
+        <translation>为判断是否存在{@rival}（共 {minutes} min）：{@run}。</translation>
     </message>
     <message>
         <source>the offset is moved by %1 um; the run does not show that the temperature terms are wrong, so they stay</source>

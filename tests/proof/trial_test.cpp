@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "app/proof/concealed_case.h"
+#include "app/proof/diagnose_files.h"
 #include "app/proof/oracle.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -48,6 +49,44 @@ TEST(Oracle, WhoIsToldTheEffectPredictsTheOtherRecordingToItsNoise) {
   EXPECT_LT(told.reached.at("T5_C"), 2.0 * one.truth.floor.at("T5_C"));
   EXPECT_LT(told.reached.at("dZ_um"), 3.0 * one.truth.floor.at("dZ_um"));
   EXPECT_FALSE(told_the_truth(*machine, runs, {{"unlisted:creep", {}, "", ""}}).found);
+  fs::remove_all(folder);
+}
+
+/// Warmed up at one speed with no load of its own, heat of cutting is as good as a source at the nose.
+TEST(Experiments, WhereCuttingIsInDoubtARunThatCutsIsProposed) {
+  const ConcealedCase one = draw_case(1271204, 11, "single", true);
+  ASSERT_EQ(one.truth.words(), "cutting_heat");
+  const fs::path folder = fs::path(testing::TempDir()) / ("zd_proposed_" + std::to_string(::getpid()));
+  ASSERT_TRUE(write_case_files(one, folder));
+  const auto answer = diagnose_files(folder, {"recording.csv"}, "diagnosis.json", {});
+  ASSERT_TRUE(answer);
+  ASSERT_FALSE(answer->at("ambiguous_with").empty());
+  const auto& proposed = answer->at("suggested_experiment");
+  EXPECT_EQ(proposed.at("plan").at("name"), "cutting_toggle");
+  int seconds = 0;
+  for (const auto& step : proposed.at("plan").at("steps")) seconds += step.at("duration_s").get<int>();
+  EXPECT_GE(seconds, 30 * 60);
+  EXPECT_LT(seconds, 210 * 60);
+  const std::string words = proposed.at("text");
+  EXPECT_NE(words.find(std::to_string(seconds / 60) + " min in all"), std::string::npos) << words;
+  fs::remove_all(folder);
+}
+
+/// At one speed the first recording shows that something is missing, the second shows what, and predicts the first.
+TEST(ConcealedCase, WhatOneRecordingCannotNameTheOtherMay) {
+  const ConcealedCase one = draw_case(66021741, 22);
+  ASSERT_EQ(one.truth.words(), "contact_resistance");
+  const fs::path folder = fs::path(testing::TempDir()) / ("zd_turned_" + std::to_string(::getpid()));
+  ASSERT_TRUE(write_case_files(one, folder));
+  const auto alone = diagnose_files(folder, {"recording.csv"}, "alone.json", {});
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->at("verdict"), "unexplained");
+  const auto both = diagnose_files(folder, {"recording.csv", "second.csv"}, "both.json", {});
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->at("verdict"), "missing_effect");
+  ASSERT_EQ(both->at("effects").size(), 1u);
+  EXPECT_EQ(both->at("effects")[0].at("id"), "contact_resistance");
+  EXPECT_NEAR(both->at("effects")[0].at("position_mm").get<double>(), *one.truth.effects[0].position_mm, 6.0);
   fs::remove_all(folder);
 }
 

@@ -241,7 +241,8 @@ class RichJob {
                         {"facts",
                          {{"best", "structure_bending"},
                           {"rival", "structure_ambient"},
-                          {"run", "half speed for 3 h without coolant"}}}}}};
+                          {"minutes", "60"},
+                          {"run", "half speed without coolant"}}}}}};
     put("physics",
         {{"rmse", {{"before", {{"T1_C", 0.52}, {"dY_um", 7.4}}}}},
          {"diagnosis",

@@ -1,26 +1,61 @@
-// An imperfect joint at x: the heat flow across it needs a temperature step R q. The resistance is shared by the two
-// faces next to x, so that x is continuous.
+// An imperfect joint at x: the heat flow across it needs a temperature step R q. The resistance is spread evenly over
+// the joint's breadth - shaft and housing do not part in one plane - and what lies between two cells' middles is shared
+// by the faces next to it, so that x and the breadth are continuous.
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
 namespace contact_resistance {
 
+// A fit is a few to some tens of millimetres long where a spindle is some hundreds.
+constexpr double usual_half_width = 0.03;  // of the length
+constexpr double widest = 0.1;
+constexpr double narrow_cells = 1e-3;  // of a cell: a plane
+
+/// How much of what lies at u, in cells from a face, counts for that face.
+double hat(double u) {
+  return std::max(0.0, 1.0 - std::abs(u));
+}
+
+/// Integral of the hat from far left to u.
+double hat_until(double u) {
+  if (u <= -1.0) return 0.0;
+  if (u >= 1.0) return 1.0;
+  return u < 0.0 ? 0.5 * (1.0 + u) * (1.0 + u) : 1.0 - 0.5 * (1.0 - u) * (1.0 - u);
+}
+
+struct FaceShare {
+  double value = 0.0;
+  double by_place = 0.0;  // per cell
+  double by_half = 0.0;
+};
+
+/// Share of a joint from u - half to u + half, in cells from the face.
+FaceShare share_of_face(double u, double half) {
+  if (half < narrow_cells) return {hat(u), hat(u) == 0.0 ? 0.0 : u > 0.0 ? -1.0 : 1.0, 0.0};
+  FaceShare share;
+  share.value = (hat_until(u + half) - hat_until(u - half)) / (2.0 * half);
+  share.by_place = (hat(u + half) - hat(u - half)) / (2.0 * half);
+  share.by_half = ((hat(u + half) + hat(u - half)) / 2.0 - share.value) / half;
+  return share;
+}
+
 /// Change of one face's conductance k A / dx by the share of the joint that lies on it.
 Law face_law(double face, double cell_m, double section_m2) {
   return [=](const LawPoint& at) {
     Strength s;
-    const double u = 1e-3 * at.values[1] / cell_m - face;
-    const double share = std::max(0.0, 1.0 - std::abs(u));
-    if (share == 0.0) return s;
-    const double by_place = (u > 0.0 ? -1.0 : 1.0) * 1e-3 / cell_m;
+    const double by_mm = 1e-3 / cell_m;
+    const FaceShare share = share_of_face(by_mm * at.values[1] - face, by_mm * at.values[3]);
+    if (share.value == 0.0) return s;
     const double k = at.values[2];
     const double plain = k * section_m2 / cell_m;
-    const double resistance = 1.0 / plain + share * at.values[0] / section_m2;
+    const double resistance = 1.0 / plain + share.value * at.values[0] / section_m2;
     const double conductance = 1.0 / resistance;
+    const double by_share = -conductance * conductance * at.values[0] / section_m2;
     s.value = conductance - plain;
-    s.by_parameter[0] = -conductance * conductance * share / section_m2;
-    s.by_parameter[1] = -conductance * conductance * by_place * at.values[0] / section_m2;
+    s.by_parameter[0] = -conductance * conductance * share.value / section_m2;
+    s.by_parameter[1] = by_share * share.by_place * by_mm;
     s.by_parameter[2] = (conductance * conductance / plain - plain) / k;
+    s.by_parameter[3] = by_share * share.by_half * by_mm;
     return s;
   };
 }
@@ -35,6 +70,8 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   Parameter& p = builder.network().parameters[place];
   p.low = 0.04 * component.length_mm;
   p.high = 0.96 * component.length_mm;
+  const int half_width = builder.effect_parameter(spec, index, "half_width_mm", 0.0);
+  builder.network().parameters[half_width].high = widest * component.length_mm;
   const auto at = builder.place(id);
   const auto add_joint = [&](int first, double section_share) {
     for (int face = 1; face < at.count; ++face) {
@@ -43,7 +80,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
       term.law_kind = LawKind::constant;
       term.label = id + "/contact_resistance";
       term.links = {{first + face - 1, first + face, 1.0}};
-      term.parameters = {resistance, place, builder.conductivity(id)};
+      term.parameters = {resistance, place, builder.conductivity(id), half_width};
       term.law = face_law(face, at.cell_m, section_share * component.section_m2());
       builder.add(std::move(term));
     }
@@ -61,7 +98,8 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
                       true,
                       {{"resistance_m2K_W", 0.0},
                        {"position_mm", i / 9.0 * component.length_mm},
-                       {"position_mm_prior_sigma", 0.05 * component.length_mm}},
+                       {"position_mm_prior_sigma", 0.05 * component.length_mm},
+                       {"half_width_mm", usual_half_width * component.length_mm}},
                       {{"component", component.id}}});
     }
   }
@@ -77,7 +115,9 @@ const Effect contact_resistance_effect = {
     "metal joints in air 0.5e-4 to 5e-3 m2 K/W (Yovanovich 2005)",
     "Opposite errors on the two sides of one place: the heated side too cold, the other too hot in the simulation",
     "sensor_lag extra_heat_source heater_body",
-    {{"resistance_m2K_W", 4e-3, 0.0, 5e-2, true}, {"position_mm", 20.0, 0.0, 30000.0}},
+    {{"resistance_m2K_W", 4e-3, 0.0, 5e-2, true},
+     {"position_mm", 20.0, 0.0, 30000.0},
+     {"half_width_mm", 0.7, 0.0, 30000.0, false, 0.0, true}},
     {"resistance_m2K_W"},
     contact_resistance::add,
     contact_resistance::candidates};
