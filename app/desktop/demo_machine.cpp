@@ -7,6 +7,13 @@
 
 namespace zerodrift::desktop {
 
+std::optional<int> virtual_seed_of(unsigned serial) {
+  constexpr unsigned first_serial = 850000;
+  constexpr unsigned seeds = 10000;
+  if (serial < first_serial || serial >= first_serial + seeds) return std::nullopt;
+  return static_cast<int>(serial - first_serial);
+}
+
 DemoMachine::DemoMachine(QObject* parent) : QObject(parent) {
   m_process.setProcessChannelMode(QProcess::MergedChannels);
   end_with_parent(m_process);

@@ -4,6 +4,7 @@
 
 #include <QObject>
 #include <QProcess>
+#include <optional>
 
 #include "app/desktop/scratch_folder.h"
 
@@ -15,6 +16,9 @@ struct DemoOptions {
   QString conceal;  // effect id or "random"; empty: nothing is hidden
   QString program;  // empty: zerodrift-machine beside this program
 };
+
+/// The seed of the virtual machine that has this serial; nothing: no virtual machine has it (docs/virtual-machine.md).
+std::optional<int> virtual_seed_of(unsigned serial);
 
 class DemoMachine : public QObject {
   Q_OBJECT

@@ -6869,6 +6869,14 @@
         <source>Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: what was measured stays in the job, and version %1 in the machine.</source>
         <translation>重新检查机床并进入标定。不写入任何内容，也不丢失任何内容：已测数据保留在任务中，版本 %1 保留在机床中。</translation>
     </message>
+    <message>
+        <source>Start the virtual machine</source>
+        <translation>启动虚拟机床</translation>
+    </message>
+    <message>
+        <source>The machine of this job is a virtual one. It starts anew, cold; its tables are in this job.</source>
+        <translation>此作业的机床是虚拟机床。它将重新冷态启动；其补偿表保存在本作业中。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::MachineStart</name>

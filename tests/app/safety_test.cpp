@@ -187,6 +187,37 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(lamp("lamp-controller").contains(QStringLiteral("lost")));
   }
 
+  /// The virtual machine ends with its window; its job starts the same one again. With a job of another machine the
+  /// connection is given up, and the page says so.
+  void aJobFindsItsVirtualMachineAgain() {
+    const QString path = m_folder.filePath(QStringLiteral("again.zdj"));
+    {
+      Application application(m_theme);
+      DemoOptions demo;
+      demo.program = programs + QStringLiteral("/zerodrift-machine");
+      demo.seed = 4;
+      application.startDemo(demo, path);
+      bool tested = false;
+      application.presenter(QStringLiteral("machine"))->tour([&](bool good) { tested = good; });
+      QTRY_VERIFY_WITH_TIMEOUT(tested, 60000);
+      QTRY_VERIFY(!application.bench().tasks().running());
+    }
+    Application application(m_theme);
+    application.openJob(path);
+    auto* page = application.presenter(QStringLiteral("machine"))->page();
+    const auto actions = page->secondaryActions();
+    QVERIFY(std::any_of(actions.begin(), actions.end(), [](const auto& action) { return action.id == "virtual"; }));
+    Q_EMIT page->secondaryTriggered(QStringLiteral("virtual"));
+    auto& bench = application.bench();
+    QTRY_VERIFY_WITH_TIMEOUT(bench.connected(), 60000);
+    QCOMPARE(bench.look()->identity.serial, 850004U);
+
+    QVERIFY(
+        bench.openJob(QStringLiteral(ZERODRIFT_SOURCE_DIR "/resources/samples/sample.zdj").toStdString()).has_value());
+    QVERIFY(!bench.connected());
+    QTRY_VERIFY(page->problem().sentence.contains(QStringLiteral("850004")));
+  }
+
   void virtualMachineEndsWithTheWindow_data() {
     QTest::addColumn<bool>("hard");
     QTest::newRow("SIGTERM") << false;

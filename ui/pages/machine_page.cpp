@@ -188,6 +188,12 @@ QVector<PageAction> MachinePage::secondary() const {
   if (m_state.connected) {
     actions.append({"test", tr("Test again")});
     actions.append({"disconnect", tr("Disconnect")});
+  } else if (m_state.virtualOffered && !m_state.connecting) {
+    actions.append({"virtual",
+                    tr("Start the virtual machine"),
+                    true,
+                    {},
+                    tr("The machine of this job is a virtual one. It starts anew, cold; its tables are in this job.")});
   }
   return actions;
 }

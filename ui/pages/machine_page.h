@@ -58,6 +58,7 @@ struct MachineState {
   bool jobOpen = false;
   bool connected = false;
   bool connecting = false;
+  bool virtualOffered = false;  // the job's machine is a virtual one, which can be started here
   bool compensationOn = false;
   int writtenVersion = 0;  // of the table that this job has put into the machine; 0: none yet
   /// Not connected, but the job has kept how the machine stood: when that was. Sensors and figures are those.

@@ -61,9 +61,9 @@ struct UploadState {
   std::optional<int> oldVersion{};  // in the machine before; 0: none was there
   std::optional<int> newVersion{};  // nothing while the machine was not read yet
   QVector<AxisTable> axes{};
-  QStringList lost{};   // what the controller cannot express
+  QStringList lost{};      // what the controller cannot express
   QStringList warnings{};  // of the transaction, whole sentences
-  QString expressed{};  // "temperature terms and points; 412 of 2000 registers"
+  QString expressed{};     // "temperature terms and points; 412 of 2000 registers"
   double largestChange_um = std::numeric_limits<double>::quiet_NaN();
   double changeLimit_um = 200.0;
   double steepest_um_per_K = std::numeric_limits<double>::quiet_NaN();

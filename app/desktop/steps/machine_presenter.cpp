@@ -101,6 +101,11 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     }
     if (action == QStringLiteral("test")) this->bench().connectMachine();
     if (action == QStringLiteral("disconnect")) this->bench().disconnectMachine();
+    if (action == QStringLiteral("virtual")) {
+      DemoOptions options;
+      options.seed = virtualSeed().value_or(options.seed);
+      useVirtualMachine(options);
+    }
   });
   connect(&bench, &Workbench::machineSeen, this, &MachinePresenter::looked);
   connect(&bench, &Workbench::machineLost, this, [this](const Error& error) {
@@ -275,6 +280,15 @@ void MachinePresenter::looked() {
   if (m_whenReady && m_readings.size() >= 4) std::exchange(m_whenReady, nullptr)();
 }
 
+/// Of the job's machine, when it is a virtual one on this computer.
+std::optional<int> MachinePresenter::virtualSeed() const {
+  auto& workbench = const_cast<MachinePresenter*>(this)->bench();
+  const auto& profile = workbench.profile();
+  const auto machine = workbench.body("machine");
+  if (!profile || profile->controller.host != "127.0.0.1" || !machine.is_object()) return std::nullopt;
+  return virtual_seed_of(machine.value("identity", nlohmann::json::object()).value("serial", 0U));
+}
+
 QString MachinePresenter::connectionText() const {
   const auto& profile = const_cast<MachinePresenter*>(this)->bench().profile();
   if (!profile) return {};
@@ -296,6 +310,7 @@ void MachinePresenter::refresh() {
   if (const auto upload = bench().body("upload"); upload.is_object()) state.writtenVersion = upload.value("version", 0);
   state.sampleAvailable = find_resource("samples/sample.zdj").has_value();
   state.address = connectionText();
+  state.virtualOffered = virtualSeed().has_value();
   const QStringList recent = recentJobs();
   for (const QString& path : recent) {
     const QFileInfo file(path);

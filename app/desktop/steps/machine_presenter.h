@@ -47,6 +47,7 @@ class MachinePresenter : public Presenter {
   void sayWhenOld();
   void remember(const QString& path);
   QString connectionText() const;
+  std::optional<int> virtualSeed() const;
   void fillSensors(ui::MachineState& state);
   void fillRest(ui::MachineState& state) const;
   void fillParts(ui::MachineState& state) const;
