@@ -406,7 +406,7 @@ void Application::lightCamera() {
   const auto count = static_cast<int>(profile->cameras.size());
   const QString cameras = count == 1 ? tr("1 camera") : tr("%1 cameras").arg(count);
   const auto& open = m_bench->openCameras();
-  if (open.empty()) return light(tr("%1, not open").arg(cameras), ui::Judgement::none);
+  if (open.empty()) return light(tr("%1 off").arg(cameras), ui::Judgement::none);
   const auto alive = std::count_if(open.begin(), open.end(), [](const auto& one) { return one->newest().has_value(); });
   if (alive == count) return light(cameras, ui::Judgement::ok);
   light(count == 1 ? tr("No picture") : tr("%1 of %2 cameras").arg(alive).arg(count), ui::Judgement::bad);

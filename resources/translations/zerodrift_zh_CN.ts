@@ -4487,10 +4487,6 @@
         <translation>控制器最后应答 %1</translation>
     </message>
     <message>
-        <source>%1, not open</source>
-        <translation>%1，未打开</translation>
-    </message>
-    <message>
         <source>No picture</source>
         <translation>无图像</translation>
     </message>
@@ -4513,6 +4509,10 @@
     <message>
         <source>On the Warm-up page it goes on, or is finished with what was recorded.</source>
         <translation>可在“暖机”页继续运行，或以已记录的数据结束。</translation>
+    </message>
+    <message>
+        <source>%1 off</source>
+        <translation>%1未打开</translation>
     </message>
 </context>
 <context>

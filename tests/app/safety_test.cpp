@@ -169,7 +169,7 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
       return application.window().findChild<zerodrift::ui::Lamp*>(QString::fromLatin1(name))->accessibleName();
     };
     QTRY_VERIFY(lamp("lamp-controller").contains(QStringLiteral("connected")));
-    QVERIFY(lamp("lamp-camera").contains(QStringLiteral("not open")));  // nobody has asked for a picture
+    QVERIFY(lamp("lamp-camera").contains(QStringLiteral("off")));  // nobody has asked for a picture
     QVERIFY(lamp("lamp-compensation").contains(QStringLiteral("OFF")));
     int red = 0;
     connect(&bench, &Workbench::logged, this,
