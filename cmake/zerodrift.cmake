@@ -56,6 +56,8 @@ if(ZERODRIFT_FUZZ)
   target_compile_options(zerodrift_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 if(ZERODRIFT_SANITIZE)
+  # -O1 with line numbers alone: instrumented code takes a third of the time to build, and a stack still tells the line.
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
   target_compile_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(zerodrift_options INTERFACE -fsanitize=${ZERODRIFT_SANITIZE})
 endif()

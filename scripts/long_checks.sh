@@ -24,27 +24,30 @@ days() { # three days with a row each second, an hour of 200 channels
 fuzz() { # a minute for each reader
   "$root/tests/fuzz/run.sh" "${ZERODRIFT_FUZZ_SECONDS:-60}"
 }
-sanitized() { # sanitized NAME PRESET TARGET ...: the unit tests under a sanitizer, with the everyday amounts
-  local preset=$1
-  shift
-  cmake -S "$root" -B "$root/build/$preset" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DZERODRIFT_SANITIZE="$([ "$preset" = tsan ] && echo thread || echo address,undefined)" >/dev/null
-  cmake --build "$root/build/$preset" --target "$@"
-  local test
+# sanitized FOLDER SANITIZERS FUZZ TARGET ...: the unit tests under sanitizers, with the everyday amounts. Every test
+# program runs, even after one has failed, so that one run tells everything.
+sanitized() {
+  local folder="$root/build/$1" sanitizers=$2 fuzz=$3 test failed=()
+  shift 3
+  cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DZERODRIFT_SANITIZE="$sanitizers" -DZERODRIFT_FUZZ="$fuzz" >/dev/null
+  cmake --build "$folder" --target "$@"
   for test in "$@"; do
-    say "$preset $test"
-    env -u ZERODRIFT_LONG ZERODRIFT_BIN_DIR="$root/build/$preset/bin" \
-      ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
+    say "$sanitizers $test"
+    env -u ZERODRIFT_LONG ZERODRIFT_BIN_DIR="$folder/bin" \
+      ASAN_OPTIONS=detect_leaks=1:detect_odr_violation=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
+      LSAN_OPTIONS=suppressions="$root/tests/support/lsan.supp" \
       TSAN_OPTIONS=halt_on_error=1:suppressions="$root/tests/support/tsan.supp" \
-      QT_QPA_PLATFORM=offscreen "$root/build/$preset/bin/$test"
+      QT_QPA_PLATFORM=offscreen "$folder/bin/$test" || failed+=("$test")
   done
+  [ ${#failed[@]} -eq 0 ] || { echo "failed under $sanitizers: ${failed[*]}" >&2; return 1; }
 }
-asan() {
-  sanitized asan access_tests base_tests commissioning_tests recording_tests acquisition_tests analysis_tests \
-    physics_tests compensation_tests controller_tests vision_tests report_tests flow_tests
+asan() { # in the build of the fuzz targets: the same compiler and flags, so that core is built once for both
+  sanitized fuzz address,undefined ON access_tests base_tests commissioning_tests recording_tests acquisition_tests \
+    analysis_tests physics_tests compensation_tests controller_tests vision_tests report_tests flow_tests
 }
 tsan() {
-  sanitized tsan access_tests base_tests commissioning_tests acquisition_tests controller_tests vision_tests
+  sanitized tsan thread OFF access_tests base_tests commissioning_tests acquisition_tests controller_tests vision_tests
 }
 static() {
   cppcheck --enable=warning,performance,portability --inline-suppr --std=c++20 --language=c++ -q -I "$root" \

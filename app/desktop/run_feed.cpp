@@ -386,7 +386,7 @@ void RunFeed::noteSensors(const std::vector<Error>& problems) {
   for (const auto& problem : problems) {
     const auto sensor = problem.context.find("sensor");
     if (sensor == problem.context.end()) continue;
-    m_badSensors[sensor->second] = problem.code == ErrorCode::sensor_dead ? tr("dead") : tr("stuck");
+    m_badSensors[sensor->second] = markOf(problem.code);
   }
 }
 

@@ -26,6 +26,9 @@ constexpr std::array rows = {
     Row{"reply_in_pieces", QT_TRANSLATE_NOOP("happenings", "reply in pieces")},
     Row{"sensor_stuck", QT_TRANSLATE_NOOP("happenings", "sensor stuck")},
     Row{"sensor_dead", QT_TRANSLATE_NOOP("happenings", "sensor dead")},
+    Row{"sensor_spiking", QT_TRANSLATE_NOOP("happenings", "sensor with spikes")},
+    Row{"sensor_jumped", QT_TRANSLATE_NOOP("happenings", "sensor jumped")},
+    Row{"sensor_swapped", QT_TRANSLATE_NOOP("happenings", "sensors swapped")},
     Row{"camera_frozen", QT_TRANSLATE_NOOP("happenings", "camera frozen")},
     Row{"camera_silent", QT_TRANSLATE_NOOP("happenings", "camera silent")},
     Row{"camera_unreachable", QT_TRANSLATE_NOOP("happenings", "camera not reachable")},
@@ -54,6 +57,11 @@ QString textOf(const acquisition::Happening& happening) {
              ? QCoreApplication::translate("happenings", "%1, once").arg(text)
              : QCoreApplication::translate("happenings", "%1, %2 times").arg(text).arg(happening.count);
   return happening.overcome ? QCoreApplication::translate("happenings", "%1, asked again").arg(text) : text;
+}
+
+QString markOf(ErrorCode sensorFault) {
+  const std::string name(name_of(sensorFault));
+  return coreText(name.substr(name.find('_') + 1));
 }
 
 }  // namespace zerodrift

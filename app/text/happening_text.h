@@ -9,4 +9,7 @@ namespace zerodrift {
 
 QString textOf(const acquisition::Happening& happening);
 
+/// One word beside a sensor's reading: "dead" of sensor_dead.
+QString markOf(ErrorCode sensorFault);
+
 }  // namespace zerodrift

@@ -109,8 +109,8 @@ std::string figures_of(const Diagnosis& d) {
   for (const auto& other : d.held_out) {
     rows.clear();
     for (const auto& [channel, rms] : other.explained) {
-      const auto at = [&](const std::map<std::string, double>& m) {
-        return m.count(channel) != 0 ? m.at(channel) : std::nan("");
+      const auto at = [&name = channel](const std::map<std::string, double>& m) {
+        return m.count(name) != 0 ? m.at(name) : std::nan("");
       };
       rows += fmt::format("<tr><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></tr>", escaped(channel),
                           at(other.nominal), at(other.refitted), rms);

@@ -3637,6 +3637,18 @@
         <source>recorded samples</source>
         <translation>已记录的采样</translation>
     </message>
+    <message>
+        <source>spiking</source>
+        <translation>出现尖峰</translation>
+    </message>
+    <message>
+        <source>jumped</source>
+        <translation>读数跳变</translation>
+    </message>
+    <message>
+        <source>swapped</source>
+        <translation>位置互换</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4206,6 +4218,18 @@
     <message>
         <source>sensor dead</source>
         <translation>传感器失效</translation>
+    </message>
+    <message>
+        <source>sensor with spikes</source>
+        <translation>传感器出现尖峰</translation>
+    </message>
+    <message>
+        <source>sensor jumped</source>
+        <translation>传感器读数跳变</translation>
+    </message>
+    <message>
+        <source>sensors swapped</source>
+        <translation>传感器位置互换</translation>
     </message>
     <message>
         <source>camera frozen</source>
@@ -5118,14 +5142,6 @@
     <message>
         <source>Spindle speed</source>
         <translation>主轴转速</translation>
-    </message>
-    <message>
-        <source>dead</source>
-        <translation>失效</translation>
-    </message>
-    <message>
-        <source>stuck</source>
-        <translation>卡死</translation>
     </message>
     <message>
         <source>%1 of %2 measurements without all directions</source>

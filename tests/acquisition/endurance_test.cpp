@@ -131,4 +131,60 @@ TEST(Endurance, TwoHundredChannelsAtTenHertz) {
   EXPECT_LT(growth_MB, 20.0);
 }
 
+// The same rate by the wall: the recorder itself, a row of 200 channels each tenth of a second, for an hour. Only in
+// the long check; what the shorter ones can tell is told by the test above.
+TEST(Endurance, AnHourByTheWall) {
+  if (amount(0, 1) == 0) GTEST_SKIP() << "an hour long: done by ./check --long";
+  const auto folder = fresh_folder();
+  SystemClock clock;
+  FakeMachine machine(clock, 187);  // with speed, feeds, coolant, load, ambient and the errors 200 channels
+  FakeErrors errors(clock);
+  machine.move_s = 0.2;
+  errors.measure_s = 0.3;
+  Plan plan;
+  plan.sample_period_s = 0.1;
+  plan.measure_period_s = 600.0;
+  plan.steps = {{3600.0, 3000.0, true, true}};
+  RecorderOptions options;
+  double first_MB = 0.0;
+  double largest_MB = 0.0;
+  double last_s = 0.0;
+  double widest_s = 0.0;
+  bool measured = true;
+  options.observer = [&](const RunUpdate& update) {
+    if (update.phase == RunPhase::measuring) measured = true;
+    if (update.row.empty()) return;
+    if (!measured) widest_s = std::max(widest_s, update.time_s - last_s);
+    measured = update.measured.has_value();
+    last_s = update.time_s;
+    if (update.time_s < 600.0) return;
+    if (first_MB == 0.0) first_MB = resident_MB();
+    largest_MB = std::max(largest_MB, resident_MB());
+  };
+  RunSummary summary;
+  std::size_t channels = 0;
+  {
+    auto job = commissioning::Job::create(folder / "hour.zdj");
+    ASSERT_TRUE(job) << describe(job.error());
+    JobSink sink(*job);
+    Recorder recorder(machine, errors, clock, sink, options);
+    const auto done = recorder.run(plan, {});
+    ASSERT_TRUE(done) << describe(done.error());
+    summary = *done;
+    channels = job->series()->front().channels.size();
+    EXPECT_EQ(job->series()->front().rows, summary.rows);
+    EXPECT_TRUE(job->check()->ok());
+  }
+  std::filesystem::remove_all(folder);
+  std::printf(
+      "an hour by the wall: %lld rows of %zu channels, %lld lost, widest step %.0f ms, memory grew %.1f MB after the "
+      "first ten minutes\n",
+      static_cast<long long>(summary.rows), channels, static_cast<long long>(summary.lost_samples), 1e3 * widest_s,
+      largest_MB - first_MB);
+  EXPECT_EQ(channels, 200U);
+  EXPECT_GE(summary.rows, 35900);  // less what each of the seven measurements takes
+  EXPECT_EQ(summary.lost_samples, 0);
+  EXPECT_LT(largest_MB - first_MB, 20.0);
+}
+
 }  // namespace zerodrift::acquisition

@@ -301,6 +301,33 @@ TEST_F(RecorderTest, NamesDeadAndStuckSensors) {
   EXPECT_TRUE(std::isnan(sink.value(sink.rows.size() - 1, "T2_C")));
 }
 
+// Named once each, in the events and in what happened; the run goes on.
+TEST_F(RecorderTest, NamesSpikingJumpedAndSwappedSensors) {
+  machine.change = [&](MachineSample& sample) {
+    auto& value = sample.temperature_C;
+    const double now = machine.now_s();
+    if (std::fmod(now, 200.0) < 10.0 && now > 200.0) value[1] += 40.0;
+    value[2] += now > 400.0 ? 15.0 : 5.0;
+    value[3] -= 10.0;
+    if (now > 600.0) std::swap(value[0], value[3]);
+  };
+  std::vector<Happening> happened;
+  options.observer = [&](const RunUpdate& update) { happened = update.happened; };
+  ASSERT_TRUE(run());
+  EXPECT_EQ(sink.count("problem", "sensor_spiking"), 1);
+  EXPECT_EQ(sink.count("problem", "sensor_jumped"), 1);
+  EXPECT_EQ(sink.count("problem", "sensor_swapped"), 2);
+  const auto told = [&](const std::string& name) {
+    for (const auto& one : happened) {
+      if (one.name == name) return one.what;
+    }
+    return std::vector<std::string>();
+  };
+  EXPECT_EQ(told("sensor_spiking"), std::vector<std::string>{"T2_C"});
+  EXPECT_EQ(told("sensor_jumped"), std::vector<std::string>{"T3_C"});
+  EXPECT_EQ(told("sensor_swapped"), (std::vector<std::string>{"T1_C", "T4_C"}));
+}
+
 TEST_F(RecorderTest, KeepsRowsWhileTheDiskIsFull) {
   at(300.0, [&] { sink.full = true; });
   at(600.0, [&] { sink.full = false; });

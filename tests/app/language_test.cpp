@@ -10,6 +10,7 @@
 
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
+#include "app/text/happening_text.h"
 #include "core/diagnosis/sentences.h"
 #include "core/physics/effects/effect.h"
 
@@ -255,6 +256,17 @@ class LanguageTest : public QObject {
     QCOMPARE(coreText(english), QStringLiteral("T3_C 始终不变（始终为 20.1）；未予采用"));
     QCOMPARE(coreText(std::string("ridge on 5 sensors and the inputs")), QStringLiteral("岭回归，5 个传感器及输入量"));
     QCOMPARE(coreText(std::string("/home/user/laser.csv")), QStringLiteral("/home/user/laser.csv"));
+    // Every fault of a sensor or camera that a run can name, in the list of what happened and beside the reading.
+    static const QRegularExpression latin(QStringLiteral("[a-z]"));
+    for (const ErrorCode code :
+         {ErrorCode::sensor_dead, ErrorCode::sensor_stuck, ErrorCode::sensor_spiking, ErrorCode::sensor_jumped,
+          ErrorCode::sensor_swapped, ErrorCode::camera_frozen, ErrorCode::camera_silent, ErrorCode::camera_unreachable,
+          ErrorCode::target_refused, ErrorCode::target_partly_covered}) {
+      const std::string name(name_of(code));
+      const QString happened = textOf({name, {}, 2, false});
+      QVERIFY2(!happened.contains(latin), qPrintable(happened));
+      if (name.starts_with("sensor_")) QVERIFY2(!markOf(code).contains(latin), qPrintable(markOf(code)));
+    }
     const ErrorText blocked = textOf({ErrorCode::step_blocked, {{"step", "verify"}, {"needs", "model, upload"}}});
     QCOMPARE(blocked.sentence, QStringLiteral("步骤“验证”尚不能执行：需要模型、上传。"));
     diagnosis::Sentence said;

@@ -186,6 +186,9 @@ TEST(ReportLanguage, BothLanguagesSayTheSameFigures) {
 TEST(ReportLanguage, SentencesThatCoreComposedAreSaid) {
   const auto said = [](const char* text) { return translated(Language::chinese, text); };
   EXPECT_EQ(said("sensor stuck (T2_C), 2 times"), "传感器卡死（T2_C），2 次");
+  for (const char* name : {"sensor spiking", "sensor jumped", "sensor swapped", "camera silent", "target refused"}) {
+    EXPECT_TRUE(is_known(Language::chinese, name)) << name;
+  }
   EXPECT_EQ(said("T2_C stopped during the run (no samples from 3000 s); it is not used"),
             "T2_C 在运行中停止（自 3000 s 起无采样）；未采用");
   EXPECT_EQ(said("a sentence of nobody"), "a sentence of nobody");

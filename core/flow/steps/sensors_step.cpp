@@ -62,7 +62,8 @@ Result<json> budget_of(const analysis::TrainingSet& training, const TaskContext&
   return list;
 }
 
-/// Sensors that the run named stuck or dead, with what it said of them: none of these is proposed.
+/// Sensors that the run named (stuck, dead, spiking, jumped, swapped), with what it said of them: none of these is
+/// proposed.
 std::map<std::string, std::string> named_by(const json& warmup) {
   std::map<std::string, std::string> named;
   const auto happened = warmup.find("happened");

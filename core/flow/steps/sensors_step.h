@@ -7,7 +7,7 @@
 //   a kept one is dropped or a left one is added}}, "budget": [{sensors, added, held_out_rms_um, held_out_peak_um}],
 //   "condition_number": {..., chosen (of the fit, its penalty included), chosen_temperatures},
 //   "table": [{channel, label, note, cluster, correlation_sum, kept}],
-//   "left_out": [{channel, label, reason}]: sensors the run named stuck or dead; taken only by hand
+//   "left_out": [{channel, label, reason}]: sensors whose fault the run named; taken only by hand
 
 #include <string>
 #include <vector>

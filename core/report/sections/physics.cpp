@@ -188,7 +188,7 @@ Table rmse_table(const Source& source, const json& body) {
   for (const auto& [channel, value] : before.items()) {
     if (!value.is_number()) continue;
     const std::string name = channel.substr(0, channel.find('_'));
-    const auto part = [&](const json& of, const char* key) {
+    const auto part = [&, &channel = channel](const json& of, const char* key) {
       return cell(number_of(of, channel), 2, fmt::format("rmse_{}_{}", key, name),
                   source.at("physics", fmt::format("/diagnosis/rmse/{}/{}", key, channel)));
     };
