@@ -58,7 +58,7 @@ std::vector<AxisAgainstBefore> against_before(const ResidualSamples& samples, co
     Size size_before;
     for (const auto& sample : measured) {
       if (std::isnan(sample.residual_um)) continue;
-      const auto error_of = [&](const compensation::Table& table) -> double {
+      const auto error_of = [&sample, &axis = axis](const compensation::Table& table) -> double {
         if (!table.axes.contains(axis)) return 0.0;
         return compensation::error_um(table, axis, sample.position_mm, compensation::Approach::up, sample.temperatures)
             .value_or(std::nan(""));
