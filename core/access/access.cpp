@@ -54,7 +54,7 @@ std::string_view name_of(Role role) {
 
 fs::path access_file() {
   std::error_code ignored;
-  const fs::path everybody = "/etc/zerodrift/access.json";
+  fs::path everybody = "/etc/zerodrift/access.json";
   if (fs::exists(everybody, ignored)) return everybody;
   const char* config = std::getenv("XDG_CONFIG_HOME");
   if (config != nullptr && *config != '\0') return fs::path(config) / "zerodrift" / "access.json";

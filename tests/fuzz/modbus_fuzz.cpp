@@ -5,11 +5,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstdint>
 #include <cstdlib>
-#include <span>
+#include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "core/controller/link.h"
 
@@ -31,18 +32,27 @@ class Server {
     std::thread([this] { serve(); }).detach();
   }
 
+  /// A copy: when the host is too busy to be answered in time, the answer comes while the next input is on.
+  void answer_with(std::vector<std::uint8_t> bytes) {
+    const std::scoped_lock lock(m_mutex);
+    m_answer = std::move(bytes);
+  }
+
   int port = 0;
-  std::atomic<const std::uint8_t*> bytes{nullptr};
-  std::atomic<std::size_t> size{0};
 
  private:
+  std::vector<std::uint8_t> answer() {
+    const std::scoped_lock lock(m_mutex);
+    return m_answer;
+  }
+
   void serve() {
     for (;;) {
       const int peer = ::accept(m_listener, nullptr, nullptr);
       if (peer < 0) continue;
       std::uint8_t request[260];
       const auto got = ::recv(peer, request, sizeof request, 0);
-      std::vector<std::uint8_t> reply(bytes.load(), bytes.load() + size.load());
+      std::vector<std::uint8_t> reply = answer();
       // The envelope is made right half of the time, so that what is behind it is reached.
       if (got >= 8 && reply.size() >= 9 && reply[0] % 2 == 0) {
         reply[0] = request[0];
@@ -58,6 +68,8 @@ class Server {
   }
 
   int m_listener = -1;
+  std::mutex m_mutex;
+  std::vector<std::uint8_t> m_answer;
 };
 
 }  // namespace
@@ -66,8 +78,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   namespace controller = zerodrift::controller;
   static auto* server = new Server;
   if (size > 300) size = 300;
-  server->bytes = bytes;
-  server->size = size;
+  server->answer_with({bytes, bytes + size});
   controller::ControllerSettings settings;
   settings.port = server->port;
   settings.timeout_ms = 500;
