@@ -76,9 +76,10 @@ class Run {
   RunSummary m_summary;
 
   bool m_has_reading = false;
-  double m_time_s = 0.0;       // of the last reading
-  Seconds m_read_at{0.0};      // when it was taken, by m_clock
-  double m_last_row_s = -1.0;  // of the last row
+  double m_time_s = 0.0;          // of the last reading
+  Seconds m_read_at{0.0};         // when it was taken, by m_clock
+  double m_last_row_s = -1.0;     // of the last row
+  double m_measured_to_s = -1.0;  // the last sample that was due while measuring
   double m_next_sample_s = 0.0;
   double m_next_measure_s = 0.0;  // of plan time
   double m_paused_s = 0.0;

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -19,7 +20,9 @@ namespace zerodrift::acquisition {
 namespace {
 
 /// Runs the victim for so long, kills it, and returns the last number of rows it had acknowledged; -1 if none.
-std::int64_t run_and_kill(const std::filesystem::path& job, std::chrono::milliseconds life) {
+/// Without a life it is killed at its first line; `started` is told how long that took.
+std::int64_t run_and_kill(const std::filesystem::path& job, std::optional<std::chrono::milliseconds> life,
+                          std::chrono::milliseconds* started = nullptr) {
   int ends[2];
   EXPECT_EQ(pipe(ends), 0);
   const pid_t child = fork();
@@ -31,14 +34,20 @@ std::int64_t run_and_kill(const std::filesystem::path& job, std::chrono::millise
     _exit(127);
   }
   close(ends[1]);
+  const auto begin = std::chrono::steady_clock::now();
   std::thread killer([&] {
-    std::this_thread::sleep_for(life);
+    if (!life) return;
+    std::this_thread::sleep_for(*life);
     kill(child, SIGKILL);
   });
   std::string text;
   char buffer[4096];
   for (ssize_t size = 0; (size = read(ends[0], buffer, sizeof buffer)) > 0;) {
     text.append(buffer, static_cast<std::size_t>(size));
+    if (life) continue;
+    *started = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
+    kill(child, SIGKILL);
+    break;
   }
   killer.join();
   close(ends[0]);
@@ -58,8 +67,12 @@ TEST(Kill, AgainAndAgainLosesNothingAcknowledged) {
   std::mt19937 random(20);
   std::int64_t acknowledged = 0;
   const int kills = amount(20, 200);
+  // From before its first row to half a second after it, however long this computer takes to start a program.
+  std::chrono::milliseconds start{0};
+  run_and_kill(folder / "first.zdj", std::nullopt, &start);
   for (int round = 0; round < kills; ++round) {
-    const std::int64_t said = run_and_kill(file, std::chrono::milliseconds(60 + random() % 600));
+    const std::int64_t said =
+        run_and_kill(file, start / 2 + std::chrono::milliseconds(random() % 600) + start * (random() % 100) / 100);
     acknowledged = std::max(acknowledged, said);
     if (!std::filesystem::exists(file)) continue;  // killed before it had made the file
     auto job = commissioning::Job::open(file);

@@ -76,6 +76,29 @@ TEST_F(RecorderTest, WorksThroughThePlan) {
   EXPECT_GT(summary->trend.largest_error_um, 10.0);
 }
 
+// A measurement takes five of these periods: none of them counts as lost, and one that really is lost does.
+TEST_F(RecorderTest, MeasuringLosesNothingAtAShortPeriod) {
+  plan.sample_period_s = 1.0;
+  const auto summary = run();
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->lost_samples, 0);
+  EXPECT_EQ(summary->measurements, 31);
+  EXPECT_GE(sink.times.size(), 1800U - 31U * 5U);
+}
+
+TEST_F(RecorderTest, CountsWhatASlowReadingLoses) {
+  plan.sample_period_s = 1.0;
+  machine.change = [&, slow = false](MachineSample&) mutable {
+    if (slow || machine.now_s() < 730.5) return;
+    slow = true;
+    clock.advance(Seconds(4.0));
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary);
+  EXPECT_GE(summary->lost_samples, 3);
+  EXPECT_LE(summary->lost_samples, 4);
+}
+
 TEST_F(RecorderTest, HasTheContractsChannels) {
   options.with_compensation = true;
   ASSERT_TRUE(run());
