@@ -150,7 +150,7 @@ Status Run::keep(const MachineSample& sample, const ErrorSample* error, bool exp
   // The row of a measurement lies in its middle; the periods up to its end have passed with it and are not lost.
   const double since_s = std::max(m_last_row_s, m_measured_to_s);
   const auto periods = std::llround((time_s - since_s) / m_start.plan.sample_period_s) - 1;
-  if (expected_late) m_measured_to_s = m_next_sample_s - m_start.plan.sample_period_s;
+  if (expected_late && !m_link_was_lost) m_measured_to_s = m_next_sample_s - m_start.plan.sample_period_s;
   if (m_link_was_lost) {
     ++m_summary.gaps;
     m_happened.add("gap", {});
