@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 174> measuring = {{
+constexpr std::array<const char*, 175> measuring = {{
     QT_TRANSLATE_NOOP("core", "an interrupted run"),
     QT_TRANSLATE_NOOP("core", "recorded samples"),
     QT_TRANSLATE_NOOP("core", "a step of the flow"),
