@@ -30,6 +30,25 @@ Result<RollbackPreview> preview_roll_back(const commissioning::Job& job, const c
   return preview;
 }
 
+namespace {
+
+/// A controller's registers hold no range of validity: it is in the job that has written them.
+auto valid_range_of(const commissioning::Job& job, const std::vector<std::uint16_t>& words)
+    -> decltype(compensation::Table::valid) {
+  const auto uploads = job.history("upload");
+  if (!uploads) return {};
+  for (const auto& one : *uploads) {
+    const auto body = one.document();
+    if (!body || !body->contains("record") || !body->contains("table")) continue;
+    if (body->at("record").value("new_words", std::vector<std::uint16_t>{}) != words) continue;
+    const auto table = compensation::table_from_json(body->at("table"), "upload");
+    if (table && !table->valid.empty()) return table->valid;
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile, access::Permit permit,
                               const controller::RollbackTarget& target,
                               const std::function<void(const controller::UploadStep&)>& observer,
@@ -44,6 +63,7 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   entry.action = "roll back table";
   entry.subject = "compensation table";
   table.version = target.table.version;  // which one was brought back
+  table.valid = valid_range_of(job, target.table.words.value_or(std::vector<std::uint16_t>{}));
   entry.old_value = fmt::format("version {}, {} registers", target.active.sequence, target.active.words.size());
   entry.new_value = compensation::to_json(table).dump();
   controller::UploadOptions options;

@@ -6,6 +6,7 @@ namespace zerodrift::desktop {
 
 Presenter::Presenter(Workbench& bench, ui::Page* page) : QObject(page), m_bench(bench), m_page(page) {
   connect(page, &ui::Page::cancelRequested, this, [this] { m_bench.tasks().cancel(); });
+  connect(&bench, &Workbench::jobChanged, page, [page] { page->clearProblem(); });  // it was of the job before
 }
 
 void Presenter::showOnly(const Error& error) {
@@ -60,6 +61,11 @@ void Presenter::endTask(QObject* progress) {
   progress->deleteLater();
   progress->disconnect();
   m_page->clearProgress();
+}
+
+QString Presenter::offlineReason() const {
+  if (!m_bench.connected()) return tr("No machine is connected: connect it on the Machine page.");
+  return m_bench.lost() ? tr("The controller does not answer.") : QString();
 }
 
 Error Presenter::busy() const {

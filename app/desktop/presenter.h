@@ -66,6 +66,8 @@ class Presenter : public QObject {
   void show(const Error& error);
   /// The same without a line in the log: where it was told already.
   void showOnly(const Error& error);
+  /// Why nothing can be asked of the machine now; empty: it is there.
+  QString offlineReason() const;
   /// Why nothing else can be done now: the task that runs.
   Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.

@@ -274,9 +274,11 @@ void RunFeed::abort() {
   if (m_shared->control != nullptr) m_shared->control->abort();
 }
 
-void RunFeed::note(const QString& text) {
+bool RunFeed::note(const QString& text, double time_s) {
   const std::scoped_lock lock(m_shared->mutex);
-  if (m_shared->control != nullptr) m_shared->control->note(text.toStdString());
+  if (m_shared->control == nullptr) return false;
+  m_shared->control->note(text.toStdString(), time_s);
+  return true;
 }
 
 bool RunFeed::paused() const {

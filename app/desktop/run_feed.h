@@ -51,7 +51,8 @@ class RunFeed : public QObject {
   void resume();
   void finish();
   void abort();
-  void note(const QString& text);
+  /// A note of this moment of the run; false: there is no run any more.
+  bool note(const QString& text, double time_s);
   bool paused() const;
 
   /// The newest update, with the fields a page shows; rows are emptied already.

@@ -110,8 +110,15 @@ bool RunPresenter::steer(const QString& action) {
     return true;
   }
   if (action != QStringLiteral("note")) return false;
+  const double now_s = m_feed->now().time_s;  // the run goes on while somebody writes
   const QString text = QInputDialog::getText(page(), tr("Note"), tr("What happened?"));
-  if (!text.isEmpty()) m_feed->note(text);
+  if (text.isEmpty() || m_feed->note(text, now_s)) return true;
+  tell([text] {
+    return ui::Problem{ui::ProblemKind::warning,
+                       tr("The run ended before this note was kept: %1").arg(text),
+                       tr("Copy it from here if it matters."),
+                       {}};
+  });
   return true;
 }
 

@@ -82,7 +82,9 @@ double Run::plan_time_s(double time_s) const {
 }
 
 Status Run::obey_controls() {
-  for (const std::string& note : m_control.take_notes()) event("note", note);
+  for (const auto& note : m_control.take_notes()) {
+    m_log.event({std::max(0.0, note.time_s.value_or(m_time_s)), "note", note.text, "{}"});
+  }
   if (m_control.paused() && !m_paused_since_s) {
     m_paused_since_s = time_now_s();
     m_commanded_step.reset();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -21,16 +22,20 @@ class RunControl {
     m_abort = true;
     m_stop.request_stop();
   }
-  void note(std::string text) {
+  struct Note {
+    std::string text;
+    std::optional<double> time_s;  // of the run, when it was begun; nothing: now
+  };
+  void note(std::string text, std::optional<double> time_s = {}) {
     const std::scoped_lock lock(m_mutex);
-    m_notes.push_back(std::move(text));
+    m_notes.push_back({std::move(text), time_s});
   }
 
   bool paused() const { return m_paused; }
   bool finish_requested() const { return m_finish; }
   bool abort_requested() const { return m_abort; }
   std::stop_source& stop() { return m_stop; }
-  std::vector<std::string> take_notes() {
+  std::vector<Note> take_notes() {
     const std::scoped_lock lock(m_mutex);
     return std::exchange(m_notes, {});
   }
@@ -41,7 +46,7 @@ class RunControl {
   std::atomic<bool> m_abort = false;
   std::stop_source m_stop;
   std::mutex m_mutex;
-  std::vector<std::string> m_notes;
+  std::vector<Note> m_notes;
 };
 
 }  // namespace zerodrift::acquisition

@@ -5069,6 +5069,14 @@
         <source>%1 is still running</source>
         <translation>“%1”仍在进行</translation>
     </message>
+    <message>
+        <source>No machine is connected: connect it on the Machine page.</source>
+        <translation>未连接机床：请在“机床”页连接。</translation>
+    </message>
+    <message>
+        <source>The controller does not answer.</source>
+        <translation>控制器没有应答。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::ReportPresenter</name>
@@ -5213,6 +5221,14 @@
     <message>
         <source>%1 on the wall</source>
         <translation>实际用时 %1</translation>
+    </message>
+    <message>
+        <source>The run ended before this note was kept: %1</source>
+        <translation>运行在保存此备注之前已结束：%1</translation>
+    </message>
+    <message>
+        <source>Copy it from here if it matters.</source>
+        <translation>如有需要，请从此处复制。</translation>
     </message>
 </context>
 <context>
@@ -5374,16 +5390,16 @@
         <translation>版本 %1 的补偿表将作为版本 %2 重新写入，取代版本 %3。%4 开关保持原状；历史中不会删除任何内容。</translation>
     </message>
     <message>
-        <source>No machine is connected: connect it on the Machine page.</source>
-        <translation>未连接机床：请在“机床”页面连接。</translation>
-    </message>
-    <message>
         <source>The model is out of date: %1 changed after it was fitted. </source>
         <translation>模型已过期：拟合之后“%1”有更改。</translation>
     </message>
     <message>
-        <source>The controller does not answer.</source>
-        <translation>控制器没有应答。</translation>
+        <source>The machine holds no table: what this job wrote is not in it any more.</source>
+        <translation>机床中没有补偿表：此作业写入的内容已不在其中。</translation>
+    </message>
+    <message>
+        <source>Write it again, or bring a version back in the history.</source>
+        <translation>请重新写入，或在历史中恢复某个版本。</translation>
     </message>
 </context>
 <context>
@@ -6878,20 +6894,20 @@
         <translation>未连接；显示 %1 时的状态</translation>
     </message>
     <message>
-        <source>Version %1 is in the machine. Starting again measures anew, with the compensation off; the table stays until you write another one.</source>
-        <translation>机床中为版本 %1。重新开始将在补偿断开时重新测量；在写入另一个补偿表之前，该表保持不变。</translation>
-    </message>
-    <message>
-        <source>Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: what was measured stays in the job, and version %1 in the machine.</source>
-        <translation>重新检查机床并进入标定。不写入任何内容，也不丢失任何内容：已测数据保留在任务中，版本 %1 保留在机床中。</translation>
-    </message>
-    <message>
         <source>Start the virtual machine</source>
         <translation>启动虚拟机床</translation>
     </message>
     <message>
         <source>The machine of this job is a virtual one. It starts anew, cold; its tables are in this job.</source>
         <translation>此作业的机床是虚拟机床。它将重新冷态启动；其补偿表保存在本作业中。</translation>
+    </message>
+    <message>
+        <source>This job has written version %1. Starting again measures anew, with the compensation off; what the machine holds stays until you write another table.</source>
+        <translation>此作业已写入版本 %1。重新开始将在补偿断开的状态下重新测量；机床中的补偿表在写入另一补偿表之前保持不变。</translation>
+    </message>
+    <message>
+        <source>Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: what was measured stays in the job, and the machine keeps its table.</source>
+        <translation>再次检查机床并继续标定。不写入任何内容，也不丢失任何内容：测量结果保留在作业中，机床保留其补偿表。</translation>
     </message>
 </context>
 <context>
@@ -8636,6 +8652,10 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Offset</source>
         <translation>偏移</translation>
+    </message>
+    <message>
+        <source>Which of the last two versions is better changes from run to run: record a further warm-up run and update the fit with it.</source>
+        <translation>最近两个版本孰优因运行而异：请再记录一次暖机运行，并用它更新拟合。</translation>
     </message>
 </context>
 <context>

@@ -96,6 +96,41 @@ compensation::Table table_of(double um_per_K) {
   return table;
 }
 
+/// Back and forth between two tables does not end: when an earlier run found the opposite, it is said.
+TEST_F(StepsTest, RunsThatDisagreeAboutTwoTablesAreTold) {
+  const auto table_of = [](double offset_um, int version) {
+    compensation::Table table;
+    table.version = version;
+    table.axes["Z"].offset_um = offset_um;
+    return table;
+  };
+  const auto write = [&](double offset_um, int version, std::uint16_t word) {
+    const json body = {{"table", compensation::to_json(table_of(offset_um, version))},
+                       {"version", version},
+                       {"record", {{"new_words", {1, 2, word}}}}};
+    return job->put(NewArtefact::of("upload", body, {}))->id;
+  };
+  ResidualSamples samples;
+  const auto left = [&](double residual_um) {
+    compensation::ResidualSample sample;
+    sample.residual_um = residual_um;
+    samples["Z"].assign(20, sample);
+  };
+  write(0.0, 1, 10);
+  const auto second = write(4.0, 2, 11);
+  left(-4.0);  // without the second table's 4 um nothing would be left
+  const json first_look = version_before(*job, second, samples, table_of(4.0, 2));
+  ASSERT_TRUE(first_look.is_object());
+  EXPECT_TRUE(first_look["axes"][0]["worse"]);
+  EXPECT_FALSE(first_look["contradicted"]);
+  ASSERT_TRUE(job->put(NewArtefact::of("verification", {{"version_before", first_look}}, {})));
+  const auto back = write(0.0, 3, 10);  // the first table again
+  left(4.0);                            // and now the second one would have been right
+  const json second_look = version_before(*job, back, samples, table_of(0.0, 3));
+  EXPECT_TRUE(second_look["axes"][0]["worse"]);
+  EXPECT_TRUE(second_look["contradicted"]);
+}
+
 /// A run that nobody ended is a warm-up as far as it went, without its machine.
 TEST_F(StepsTest, AnInterruptedRunIsEndedWithoutItsMachine) {
   EXPECT_EQ(end_interrupted_warmup(*job).error().code, ErrorCode::step_blocked);  // no machine was tested

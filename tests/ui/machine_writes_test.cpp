@@ -98,6 +98,13 @@ void MachineWritesTest::proofIsOnlyCompleteWithinTheLimit() {
   state.worseThanBefore = {{"X", 1.2, 2.4}};
   page.setState(state);
   QVERIFY(page.sentence().contains("X") && page.sentence().contains("version 1"));
+  QVERIFY(page.rollbackNeeded());
+  QCOMPARE(page.primaryAction().text, QString("Roll back to version 1"));
+  // An earlier run said the opposite: going back and forth would not end.
+  state.runsDisagree = true;
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Go on"));
+  QVERIFY(page.sentence().contains("run to run"));
   const auto actions = page.secondaryActions();
   QVERIFY(std::any_of(actions.begin(), actions.end(), [](const PageAction& a) { return a.id == "rollback"; }));
 }

@@ -197,6 +197,7 @@ PageAction CalibratePage::primary() const {
   }
   if (m_state.accepted) return {"primary", tr("Go on"), true, {}};
   const bool moving = m_state.running && !m_state.waiting;
+  if (!moving && !m_state.offline.isEmpty()) return {"primary", tr("Measure positions"), false, m_state.offline};
   return {"primary", tr("Measure positions"), m_clear->isChecked() && !moving,
           moving ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")};
 }
@@ -205,8 +206,10 @@ QVector<PageAction> CalibratePage::secondary() const {
   if (!m_state.blocked.isEmpty() || !m_state.templateTaken) return {};
   // Every measurement begins with a new template at rest.
   if (!m_state.solved) return {};
-  return {{"repeat", tr("Measure again"), m_clear->isChecked() && !m_state.running,
-           m_state.running ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")}};
+  return {{"repeat", tr("Measure again"), m_clear->isChecked() && !m_state.running && m_state.offline.isEmpty(),
+           !m_state.offline.isEmpty() ? m_state.offline
+           : m_state.running          ? tr("The positions are being measured.")
+                                      : tr("Confirm first that the axes may move.")}};
 }
 
 QVector<Figure> CalibratePage::figures() const {

@@ -37,6 +37,7 @@ struct CalibrationPoint {
 };
 
 struct CalibrateState {
+  QString offline{};  // why nothing can be measured now; empty: it can
   QString blocked{};  // why the page cannot be used yet; empty: it can
   QStringList cameras{};
   int camera = 0;

@@ -159,8 +159,9 @@ QString MachinePage::sentence() const {
         .arg(std::abs(rest.apart_K), 0, 'f', 1);
   }
   if (m_state.writtenVersion > 0) {
-    return tr("Version %1 is in the machine. Starting again measures anew, with the compensation off; the table stays "
-              "until you write another one.")
+    return tr("This job has written version %1. Starting again measures anew, with the compensation off; what the "
+              "machine "
+              "holds stays until you write another table.")
         .arg(m_state.writtenVersion);
   }
   return tr("Check that every sensor is alive and the machine is at rest and of even temperature.");
@@ -177,8 +178,7 @@ PageAction MachinePage::primary() const {
           tr("The compensation is ON. Measuring for the model is locked until it is switched off."),
           m_state.writtenVersion > 0
               ? tr("Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: "
-                   "what was measured stays in the job, and version %1 in the machine.")
-                    .arg(m_state.writtenVersion)
+                   "what was measured stays in the job, and the machine keeps its table.")
               : QString()};
 }
 

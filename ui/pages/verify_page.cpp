@@ -120,6 +120,11 @@ QStringList VerifyPage::axesOverLimit() const {
 /// What matters most comes first: an axis that got worse, then one over its limit, then a correction to look at.
 QString VerifyPage::finishedSentence() const {
   const QStringList over = axesOverLimit();
+  if (m_state.runsDisagree) {
+    return tr(
+        "Which of the last two versions is better changes from run to run: record a further warm-up run and update "
+        "the fit with it.");
+  }
   if (!m_state.worseThanBefore.isEmpty()) {
     QStringList axes;
     for (const WorseThanBefore& axis : m_state.worseThanBefore) axes.append(axis.axis);
@@ -140,19 +145,31 @@ QString VerifyPage::finishedSentence() const {
 
 /// Within the limits another table is the engineer's choice, not the next step.
 bool VerifyPage::correctionNeeded() const {
-  return m_state.correctionProposed && (!axesOverLimit().isEmpty() || !m_state.worseThanBefore.isEmpty());
+  return m_state.correctionProposed && m_state.worseThanBefore.isEmpty() && !axesOverLimit().isEmpty();
+}
+
+/// The version before was better, and no earlier run says otherwise.
+bool VerifyPage::rollbackNeeded() const {
+  return !m_state.worseThanBefore.isEmpty() && !m_state.runsDisagree;
 }
 
 PageAction VerifyPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start verification"), false, m_state.blocked};
   switch (m_state.phase) {
     case VerifyPhase::ready:
-      return {"primary", tr("Start verification"), true, {}};
+      return {"primary", tr("Start verification"), m_state.offline.isEmpty(), m_state.offline};
     case VerifyPhase::running:
       return {"primary", tr("Pause"), true, {}};
     case VerifyPhase::paused:
       return {"primary", tr("Resume"), true, {}};
     case VerifyPhase::finished:
+      if (rollbackNeeded()) {
+        return {"primary",
+                tr("Roll back to version %1").arg(m_state.versionBefore),
+                true,
+                {},
+                tr("Opens the history in Upload with that version chosen; it asks before it writes.")};
+      }
       return {"primary", correctionNeeded() ? tr("Apply correction") : tr("Go on"), true, {}};
   }
   return {};
@@ -176,7 +193,7 @@ QVector<PageAction> VerifyPage::secondary() const {
   } else if (m_state.correctionProposed) {
     actions.append({"correct", tr("Apply correction"), true, {}, tr("Writes the corrected table. Asks first.")});
   }
-  if (!m_state.worseThanBefore.isEmpty()) {
+  if (!m_state.worseThanBefore.isEmpty() && !rollbackNeeded()) {
     actions.append({"rollback",
                     tr("Roll back to version %1").arg(m_state.versionBefore),
                     true,

@@ -60,6 +60,8 @@ struct VerifyState {
   bool sameRun = false;   // "without" is the same run less what was applied; else the warm-up run
   int versionBefore = 0;  // of the table that was active before this one; 0: none is known
   QVector<WorseThanBefore> worseThanBefore{};
+  bool runsDisagree = false;  // an earlier run found that version worse than this one
+  QString offline{};          // why no run can be started now; empty: it can
   double compared_s = std::numeric_limits<double>::quiet_NaN();
   double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most
   double rmsBefore_um = std::numeric_limits<double>::quiet_NaN();
@@ -93,6 +95,7 @@ class VerifyPage : public Page {
   bool steersWork() const override { return true; }
   /// The proposed correction is the next step: an axis is over its limit or worse than with the version before.
   bool correctionNeeded() const;
+  bool rollbackNeeded() const;
 
  Q_SIGNALS:
   void thresholdChanged(double threshold_um);

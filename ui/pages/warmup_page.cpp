@@ -161,6 +161,10 @@ QString WarmupPage::sentence() const {
 PageAction WarmupPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start"), false, m_state.blocked};
   const QString locked = tr("The compensation is ON. Measuring for the model is locked until it is switched off.");
+  const bool starts = m_state.phase == RunPhase::planning || m_state.phase == RunPhase::interrupted;
+  if (starts && !m_state.offline.isEmpty()) {
+    return {"primary", m_state.phase == RunPhase::planning ? tr("Start") : tr("Resume"), false, m_state.offline};
+  }
   switch (m_state.phase) {
     case RunPhase::planning:
       if (m_state.plan.isEmpty()) return {"primary", tr("Start"), false, tr("The plan has no steps yet.")};

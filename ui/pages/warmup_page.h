@@ -28,6 +28,7 @@ enum class RunPhase {
 };
 
 struct WarmupState {
+  QString offline{};  // why no run can be started now; empty: it can
   QString blocked{};  // why the page cannot be used yet; empty: it can
   RunPhase phase = RunPhase::planning;
   QStringList presets{};

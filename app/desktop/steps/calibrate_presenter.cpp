@@ -303,6 +303,7 @@ void CalibratePresenter::refresh() {
   }
   for (const auto& camera : profile->cameras) state.cameras << QString::fromStdString(camera.id);
   state.camera = m_camera;
+  state.offline = offlineReason();
   state.running = m_running;
   fillMoves(state);
   if (state.waiting) m_page->setProgress(tr("Waiting for your word: camera %1").arg(state.moveCamera), -1.0);

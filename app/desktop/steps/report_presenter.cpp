@@ -70,6 +70,7 @@ constexpr std::array offered = {report::Language::english, report::Language::chi
 }  // namespace
 
 ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Presenter(bench, page), m_page(page) {
+  connect(&bench, &Workbench::jobChanged, this, [this] { m_savedTo.clear(); });
   m_redraw.setSingleShot(true);
   m_redraw.setInterval(rest_ms);
   connect(&m_redraw, &QTimer::timeout, this, &ReportPresenter::drawPreview);

@@ -75,7 +75,8 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
-  state.written = isWritten() && !m_correction && !m_goingBack;  // another table, not written yet
+  state.written =
+      isWritten() && !m_correction && !m_goingBack && !machineHoldsAnother();  // another table, not written yet
   const auto& job = *const_cast<UploadPresenter*>(this)->bench().job();
   state.proved = flow::status_of(job, "verify").state == flow::StepState::current;
   const auto upload = job.latest("upload");
@@ -130,10 +131,7 @@ void UploadPresenter::refresh() {
     state.capacity = look->identity.table_capacity_registers;
   }
   state.writing = m_writing;
-  if (!bench().connected() || bench().lost()) {
-    state.offline = bench().connected() ? tr("The controller does not answer.")
-                                        : tr("No machine is connected: connect it on the Machine page.");
-  }
+  state.offline = offlineReason();
   state.machineName = profile ? QString::fromStdString(profile->name) : QString();
   state.stages = stages_of(m_steps, m_writing, m_failed);
   if (m_sign) {

@@ -25,7 +25,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int sign_stands_min = 60;  // so long a sign check on the same machine is not repeated
+constexpr std::size_t empty_table = 2;  // registers of a table without an axis
+constexpr int sign_stands_min = 60;     // so long a sign check on the same machine is not repeated
 
 QString axes_text(const compensation::Table& table) {
   QStringList axes;
@@ -110,17 +111,29 @@ void UploadPresenter::preview(Done done) {
       });
 }
 
-void UploadPresenter::tellForeign() {
-  const json body = bench().body("upload");
-  if (!body.is_object() || !m_preview) return;
+/// What is active in the machine is not what this job has written: another one wrote, or it was started anew.
+bool UploadPresenter::machineHoldsAnother() const {
+  const json body = const_cast<UploadPresenter*>(this)->bench().body("upload");
+  if (!body.is_object() || !m_preview) return false;
   const auto own = body.at("record").value("new_words", std::vector<std::uint16_t>{});
   const auto& now = m_preview->record.old_words;
-  if (own == now || (own.size() <= 2 && now.size() <= 2)) return;
-  tell([version = m_preview->record.old_sequence] {
-    return ui::Problem{ui::ProblemKind::warning,
-                       tr("The machine holds version %1, which is not the table of this job.").arg(version),
-                       tr("It was written from elsewhere. Compare before you write; it is kept in the history then."),
-                       {}};
+  return own != now && (own.size() > empty_table || now.size() > empty_table);
+}
+
+void UploadPresenter::tellForeign() {
+  if (!machineHoldsAnother()) return;
+  const auto& record = m_preview->record;
+  const bool none = record.old_words.size() <= empty_table;
+  tell([version = record.old_sequence, none] {
+    return none ? ui::Problem{ui::ProblemKind::warning,
+                              tr("The machine holds no table: what this job wrote is not in it any more."),
+                              tr("Write it again, or bring a version back in the history."),
+                              {}}
+                : ui::Problem{
+                      ui::ProblemKind::warning,
+                      tr("The machine holds version %1, which is not the table of this job.").arg(version),
+                      tr("It was written from elsewhere. Compare before you write; it is kept in the history then."),
+                      {}};
   });
 }
 

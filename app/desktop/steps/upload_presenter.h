@@ -49,6 +49,7 @@ class UploadPresenter : public Presenter {
   void checkSign();
   void dryRun();
   void tellForeign();
+  bool machineHoldsAnother() const;
   void noteSign(const controller::SignCheckRecord& record);
   /// The sign was checked on this machine a short while ago and was right.
   bool signStands() const;

@@ -78,6 +78,8 @@ void VerifyPresenter::primary() {
     if (!warmup.is_object()) return;
     const auto plan = acquisition::plan_from_json(warmup.value("plan", json::object()), "the warm-up's plan");
     if (plan && agreed(flow::verification_plan(*plan))) start({});
+  } else if (m_page->rollbackNeeded()) {
+    Q_EMIT rollbackWanted(m_page->state().versionBefore);
   } else if (m_page->correctionNeeded()) {
     applyCorrection({});
   } else {
@@ -196,6 +198,7 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   fillAxes(state, body);
   if (const json before = body.value("version_before", json()); before.is_object()) {
     state.versionBefore = before.value("version", 0);
+    state.runsDisagree = before.value("contradicted", false);
     for (const auto& axis : before.value("axes", json::array())) {
       if (!axis.value("worse", false)) continue;
       state.worseThanBefore.append({QString::fromStdString(axis.value("axis", "")), axis.value("rms_before_um", 0.0),
@@ -263,6 +266,14 @@ void VerifyPresenter::fillCurves(const std::string& axis, ui::AxisCorrection& ro
   }
 }
 
+/// The table was written anew since: what was proved is not what runs.
+bool VerifyPresenter::ofAnotherTable() {
+  const auto status = flow::status_of(*bench().job(), "verify");
+  return std::any_of(status.reasons.begin(), status.reasons.end(), [](const flow::Reason& reason) {
+    return reason.kind == "upload" && reason.cause == flow::Cause::changed;
+  });
+}
+
 void VerifyPresenter::refresh() {
   ui::VerifyState state;
   const auto* job = bench().job();
@@ -271,6 +282,7 @@ void VerifyPresenter::refresh() {
     m_page->setState(state);
     return;
   }
+  state.offline = offlineReason();
   state.threshold_um = m_threshold_um;
   state.peakLimit_um = flow::VerifyOptions().limit_um;
   state.compensationOn = bench().compensationOn();
@@ -279,7 +291,7 @@ void VerifyPresenter::refresh() {
   const json body = bench().body("verification");
   if (running()) {
     fillRun(state);
-  } else if (body.is_object() && !m_again) {
+  } else if (body.is_object() && !m_again && !ofAnotherTable()) {
     fillResult(state, body);
   }
   m_page->setState(state);

@@ -37,6 +37,7 @@ class VerifyPresenter : public RunPresenter {
   void fillCurves(const std::string& axis, ui::AxisCorrection& row) const;
   /// The correction of the kept run by the threshold that is set now, into the job: page and report say the same.
   void judgeAgain();
+  bool ofAnotherTable();
 
   ui::VerifyPage* m_page;
   QTimer m_judging;       // the threshold rests before it is used

@@ -195,6 +195,7 @@ void WarmupPresenter::refresh() {
     m_page->setState(state);
     return;
   }
+  state.offline = offlineReason();
   for (const auto& preset : m_presets) state.presets << coreText(preset.name);
   state.preset = m_preset;
   state.plan = rows_of(m_plan);

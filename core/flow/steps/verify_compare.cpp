@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 namespace zerodrift::flow {
 
@@ -76,14 +78,52 @@ std::vector<AxisAgainstBefore> against_before(const ResidualSamples& samples, co
   return axes;
 }
 
+namespace {
+
+using Words = std::vector<std::uint16_t>;
+
+/// The registers of every table that this job has put into the machine, by artefact.
+std::map<commissioning::ArtefactId, Words> words_of(const std::vector<commissioning::Artefact>& uploads) {
+  std::map<commissioning::ArtefactId, Words> words;
+  for (const auto& one : uploads) {
+    const auto body = one.document();
+    if (body && body->contains("record")) words[one.id] = body->at("record").value("new_words", Words{});
+  }
+  return words;
+}
+
+/// An earlier verification that found the table of now worse than the one before it.
+bool was_judged_otherwise(const commissioning::Job& job, const std::map<commissioning::ArtefactId, Words>& words,
+                          commissioning::ArtefactId now, commissioning::ArtefactId before) {
+  const auto same = [&](const json& id, commissioning::ArtefactId other) {
+    const auto at = id.is_number_integer() ? words.find(id.get<commissioning::ArtefactId>()) : words.end();
+    return at != words.end() && !at->second.empty() && at->second == words.at(other);
+  };
+  const auto verifications = job.history("verification");
+  if (!verifications) return false;
+  for (const auto& one : *verifications) {
+    const auto body = one.document();
+    const json judged = body ? body->value("version_before", json()) : json();
+    if (!judged.is_object() || !judged.contains("uploads") || judged["uploads"].size() != 2) continue;
+    const json axes = judged.value("axes", json::array());
+    const bool worse =
+        std::any_of(axes.begin(), axes.end(), [](const json& axis) { return axis.value("worse", false); });
+    if (worse && same(judged["uploads"][0], before) && same(judged["uploads"][1], now)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 json version_before(const commissioning::Job& job, commissioning::ArtefactId upload, const ResidualSamples& samples,
                     const compensation::Table& now) {
   const auto uploads = job.history("upload");
   if (!uploads) return nullptr;
   std::optional<json> former;
+  commissioning::ArtefactId former_id = 0;
   for (const auto& one : *uploads) {
     if (one.id >= upload) break;
-    if (auto body = one.document()) former = std::move(*body);
+    if (auto body = one.document()) former = std::move(*body), former_id = one.id;
   }
   if (!former || !former->contains("table")) return nullptr;
   const auto table = compensation::table_from_json(former->at("table"), "the table before");
@@ -97,7 +137,13 @@ json version_before(const commissioning::Job& job, commissioning::ArtefactId upl
                     {"peak_now_um", axis.peak_now_um},
                     {"worse", axis.worse}});
   }
-  return {{"version", former->value("version", 0)}, {"axes", std::move(axes)}};
+  const auto words = words_of(*uploads);
+  const bool contradicted =
+      words.contains(upload) && words.contains(former_id) && was_judged_otherwise(job, words, upload, former_id);
+  return {{"version", former->value("version", 0)},
+          {"uploads", {upload, former_id}},
+          {"contradicted", contradicted},
+          {"axes", std::move(axes)}};
 }
 
 }  // namespace zerodrift::flow

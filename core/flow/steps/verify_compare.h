@@ -38,8 +38,9 @@ struct AxisAgainstBefore {
 std::vector<AxisAgainstBefore> against_before(const ResidualSamples& samples, const compensation::Table& now,
                                               const compensation::Table& before);
 
-/// {"version", "axes": [{axis, rms_before_um, rms_now_um, peak_before_um, peak_now_um, worse}]} for the table that this
-/// job wrote before the upload `upload`; null when there is none.
+/// {"version", "uploads": [of now, before], "contradicted": an earlier verification found the table before worse than
+/// the one of now, "axes": [{axis, rms_before_um, rms_now_um, peak_before_um, peak_now_um, worse}]} for the table that
+/// this job wrote before the upload `upload`; null when there is none.
 nlohmann::json version_before(const commissioning::Job& job, commissioning::ArtefactId upload,
                               const ResidualSamples& samples, const compensation::Table& now);
 
