@@ -20,7 +20,7 @@ constexpr std::array rows = {
 }  // namespace
 
 Error Error::with(std::string key, std::string value) && {
-  context.try_emplace(std::move(key), std::move(value));
+  context.emplace(std::move(key), std::move(value));
   return std::move(*this);
 }
 

@@ -41,7 +41,7 @@ fs::path find_resource_beside(const fs::path& program, std::string_view name) {
   // Programs stand in bin/ (installed), build/<preset>/bin/ (built); six levels cover both and no more of the disk.
   for (int level = 0; level < 6 && !folder.empty(); ++level) {
     for (const char* below : {"resources", "share/zerodrift/resources"}) {
-      const fs::path candidate = folder / below / name;
+      fs::path candidate = folder / below / name;
       if (fs::exists(candidate, ignored)) return candidate;
     }
     if (folder == folder.root_path()) break;

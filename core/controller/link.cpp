@@ -289,16 +289,19 @@ Status Link::write(int address, std::span<const std::uint16_t> words, const std:
     request[5] = static_cast<std::uint8_t>(2 * words.size());
   }
   for (std::size_t i = 0; i < words.size(); ++i) put_word(request, (one ? 3 : 6) + 2 * i, words[i]);
-  ZD_TRY(const Pdu reply, exchange(request, what, retry));
   // Function 16 echoes address and count. Function 6 echoes address and value, but a register that clears itself is
-  // answered with its new value by some devices, so there only the address must agree.
-  const std::ptrdiff_t echoed = words.size() == 1 ? 3 : 5;
-  if (reply.size() != 5 || !std::equal(reply.begin() + 1, reply.begin() + echoed, request.begin() + 1)) {
+  // answered with its new value, nought, by some devices. Any other value is not what was meant to be written.
+  const auto echoed = [&](const Pdu& reply) {
+    if (reply.size() != 5 || !std::equal(reply.begin() + 1, reply.begin() + 3, request.begin() + 1)) return false;
+    return word_at(reply, 3) == word_at(request, 3) || (one && word_at(reply, 3) == 0);
+  };
+  for (int attempt = 0;; ++attempt) {
+    ZD_TRY(const Pdu reply, exchange(request, what, retry));
+    if (echoed(reply)) return {};
     ++m_health.faults[std::string(name_of(ErrorCode::machine_bad_reply))];
     m_wire.reset();
-    return fail(bad_reply(what, "echo of a write differs"));
+    if (retry == Retry::no || attempt + 1 >= m_attempts) return fail(bad_reply(what, "echo of a write differs"));
   }
-  return {};
 }
 
 }  // namespace zerodrift::controller

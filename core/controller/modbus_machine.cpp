@@ -70,6 +70,10 @@ std::vector<std::string> present(const RegisterMap& map, const std::vector<std::
   return out;
 }
 
+bool refuses_address(const Error& error) {
+  return error.code == ErrorCode::machine_exception && error.context.at("exception") == "2";
+}
+
 }  // namespace
 
 Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* warnings) {
@@ -118,12 +122,12 @@ Result<RegisterValues> ModbusMachine::read_values(const std::vector<std::string>
   strict.max_read = m_map.max_read;
   RegisterValues values;
   for (const ReadSpan& span : plan_reads(m_single_reads ? strict : m_map, entries)) {
-    const auto words =
-        read_span(span, names.size() == 1 ? names.front() : fmt::format("registers from {}", span.address));
+    const std::string what = names.size() == 1 ? names.front() : fmt::format("registers from {}", span.address);
+    auto words = read_span(span, what);
+    // Asked again: one refusal may be of a request that was spoilt on its way, a gap is refused each time.
+    if (!words && refuses_address(words.error())) words = read_span(span, what);
     if (!words) {
-      const auto& context = words.error().context;
-      const bool gap_refused = words.error().code == ErrorCode::machine_exception && context.at("exception") == "2";
-      if (!gap_refused || m_single_reads || names.size() == 1) return fail(words.error());
+      if (!refuses_address(words.error()) || m_single_reads || names.size() == 1) return fail(words.error());
       m_single_reads = true;  // a device that answers only for the registers it names
       return read_values(names);
     }

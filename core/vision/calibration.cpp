@@ -70,7 +70,7 @@ std::string refusal_of(const Points& pixels, const Points& machine_um, const Cal
   }
   const auto extents = [](const Points& points) {
     const Points centred = points.rowwise() - points.colwise().mean();
-    const Eigen::JacobiSVD<Points> svd(centred, Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Points> svd(centred, Eigen::ComputeFullV);
     const Points along = centred * svd.matrixV();
     return Eigen::Vector2d(along.col(0).maxCoeff() - along.col(0).minCoeff(),
                            along.col(1).maxCoeff() - along.col(1).minCoeff());

@@ -119,6 +119,48 @@ TEST_P(BadCableOperation, IsNamedAndEndsInTime) {
               longest_s);
 }
 
+/// A machine behind a cable, with what it has been asked once.
+struct Wired {
+  Wired() : cable(device.profile().controller.port) {
+    Profile profile = device.profile();
+    profile.controller.port = cable.port();
+    profile.controller.timeout_ms = 80;
+    machine = std::move(*ModbusMachine::open(profile, engineer()));
+  }
+  long bytes_of_a_sample() {
+    cable.strike(Fault::cut, -1);
+    EXPECT_TRUE(machine->read());
+    return cable.passed();
+  }
+  Device device;
+  BadCable cable;
+  std::unique_ptr<ModbusMachine> machine;
+};
+
+// A doubled byte shifts the value of a write: the echo tells, and it is written again before anybody relies on it.
+TEST(BadCable, AWriteWhoseEchoDiffersIsWrittenAgain) {
+  Wired wired;
+  ASSERT_TRUE(wired.machine->switch_compensation(false));
+  wired.cable.strike(Fault::duplicate, 9);  // the low byte of the address
+  const auto start = std::chrono::steady_clock::now();
+  const Status done = wired.machine->switch_compensation(false);
+  ASSERT_TRUE(done) << describe(done.error());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_TRUE(wired.cable.struck());
+  EXPECT_EQ(wired.device.word(76), 0);
+  EXPECT_EQ(wired.device.word(17), 0);
+}
+
+// A spoilt address is refused once; that does not make the device one that refuses gaps for good.
+TEST(BadCable, ASpoiltRequestIsNoRefusalOfGaps) {
+  Wired wired;
+  const long before = wired.bytes_of_a_sample();
+  wired.cable.strike(Fault::corrupt, 8);  // the high byte of the address: beyond the device's registers
+  ASSERT_TRUE(wired.machine->read());
+  EXPECT_TRUE(wired.cable.struck());
+  EXPECT_EQ(wired.bytes_of_a_sample(), before);
+}
+
 INSTANTIATE_TEST_SUITE_P(Cable, BadCableOperation,
                          testing::Values(Fault::cut, Fault::corrupt, Fault::duplicate, Fault::delay, Fault::stall,
                                          Fault::drop, Fault::reorder, Fault::split));

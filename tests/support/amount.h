@@ -10,17 +10,17 @@ inline int amount(int everyday, int at_length) {
   return value != nullptr && *value != '\0' && *value != '0' ? at_length : everyday;
 }
 
-/// Under a sanitizer that keeps freed memory aside, what a process holds says nothing about the program.
+/// Built with a sanitizer, whose checks and kept memory are no figures of the program's time and memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool memory_tells = false;
+inline constexpr bool instrumented = true;
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-inline constexpr bool memory_tells = false;
+inline constexpr bool instrumented = true;
 #else
-inline constexpr bool memory_tells = true;
+inline constexpr bool instrumented = false;
 #endif
 #else
-inline constexpr bool memory_tells = true;
+inline constexpr bool instrumented = false;
 #endif
 
 }  // namespace zerodrift
