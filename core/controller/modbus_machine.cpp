@@ -301,9 +301,14 @@ Result<bool> ModbusMachine::compensation_on() {
 }
 
 Status ModbusMachine::switch_compensation(bool on) {
-  ZD_CHECK(write_values("command_compensation", {on ? 1.0 : 0.0}));
   const auto end = after(host_seconds(10.0));
+  auto command_again = std::chrono::steady_clock::now();
   for (;;) {
+    // Once a second: a command that came over spoilt is not waited for in vain, and one that came over means the same.
+    if (std::chrono::steady_clock::now() >= command_again) {
+      ZD_CHECK(write_values("command_compensation", {on ? 1.0 : 0.0}));
+      command_again = after(1.0);
+    }
     ZD_TRY(const bool is_on, compensation_on());
     if (is_on == on) return {};
     if (std::chrono::steady_clock::now() > end) {

@@ -151,6 +151,19 @@ TEST(BadCable, AWriteWhoseEchoDiffersIsWrittenAgain) {
   EXPECT_EQ(wired.device.word(17), 0);
 }
 
+// Nought may be the echo of a register that clears itself; here it is what came over of a command to switch on.
+TEST(BadCable, ACommandThatCameOverSpoiltIsGivenAgain) {
+  Wired wired;
+  ASSERT_TRUE(wired.machine->switch_compensation(false));
+  wired.cable.strike(Fault::duplicate, 10);  // the high byte of the value
+  const auto start = std::chrono::steady_clock::now();
+  const Status done = wired.machine->switch_compensation(true);
+  ASSERT_TRUE(done) << describe(done.error());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_TRUE(wired.cable.struck());
+  EXPECT_EQ(wired.device.word(17), 1);
+}
+
 // A spoilt address is refused once; that does not make the device one that refuses gaps for good.
 TEST(BadCable, ASpoiltRequestIsNoRefusalOfGaps) {
   Wired wired;
