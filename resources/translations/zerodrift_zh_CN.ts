@@ -6890,10 +6890,6 @@
         <translation>保存映射并使用</translation>
     </message>
     <message>
-        <source>Not connected; as it stood on %1</source>
-        <translation>未连接；显示 %1 时的状态</translation>
-    </message>
-    <message>
         <source>Start the virtual machine</source>
         <translation>启动虚拟机床</translation>
     </message>
@@ -6908,6 +6904,10 @@
     <message>
         <source>Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: what was measured stays in the job, and the machine keeps its table.</source>
         <translation>再次检查机床并继续标定。不写入任何内容，也不丢失任何内容：测量结果保留在作业中，机床保留其补偿表。</translation>
+    </message>
+    <message>
+        <source>As of %1</source>
+        <translation>截至 %1</translation>
     </message>
 </context>
 <context>

@@ -248,7 +248,7 @@ void MachinePage::render() {
 void MachinePage::renderMachine() {
   // The name stands in the list of profiles beside it.
   m_drawingCard->setTitle(m_state.connected ? m_state.address.section(QStringLiteral(", "), 0, 0)
-                          : m_state.known() ? tr("Not connected; as it stood on %1").arg(m_state.keptFrom)
+                          : m_state.known() ? tr("As of %1").arg(m_state.keptFrom)
                                             : tr("Not connected"));
   m_drawingCard->setToolTip(m_state.address);
   m_view->setItems({tr("Drawing"), tr("Registers")});

@@ -86,6 +86,12 @@ void fillMachine(Page* page, const QString& scene) {
       {"probe_um", "probes X1 X2 Y1 Y2 Z, um", 162, "input", "float32", 5, "-1", "CDAB", "refused", "", true}};
   s.registerNames = {"ambient_C", "compensation_state", "temperature_C"};
   s.mapNotes = "zerodrift-virtual";
+  if (scene == "kept") {
+    s.connected = false;
+    s.virtualOffered = true;
+    s.keptFrom = "30 Sep 2026, 13:06";
+    s.writtenVersion = 4;
+  }
   machine->setState(s);
   machine->selectSensor("T1_C");
   machine->showView(scene == "registers" ? 1 : 0);

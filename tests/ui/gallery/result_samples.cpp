@@ -80,6 +80,12 @@ void fillUpload(Page* page, const QString& scene) {
   s.history[0].blocked = "Version 5 is active; choose a former one.";
   s.history[2].blocked = "Version 3 is the same table as the active one.";
   s.history[3].proposed = true;
+  if (scene == "away") {
+    s.offline = s.rollbackBlocked = "No machine is connected: connect it on the Machine page.";
+    s.written = true;
+    s.asOf = "30 Sep 2026, 13:06";
+    s.warnings = {"T1_C 24.53 °C (valid 20.91 to 24.50): the machine is outside the range the model was made in"};
+  }
   upload->setState(s);
   if (scene == "history") upload->showHistory(2);
 }
