@@ -14,6 +14,7 @@ constexpr int tiles_a_side = 8;
 constexpr int tiles = tiles_a_side * tiles_a_side;
 constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
 constexpr double most_of_tile = 0.95;
+constexpr double least_rim_energy = 0.05;  // of the gradient energy: with less the rim says nothing
 
 }  // namespace
 
@@ -42,8 +43,14 @@ int RegistrationSolver::tile_of(int k) const {
   return m_model.row[k] * tiles_a_side / m_height * tiles_a_side + m_model.column[k] * tiles_a_side / m_width;
 }
 
+bool RegistrationSolver::in_rim(int k) const {
+  const int row = tile_of(k) / tiles_a_side;
+  const int column = tile_of(k) % tiles_a_side;
+  return std::min(row, column) == 0 || std::max(row, column) == tiles_a_side - 1;
+}
+
 void RegistrationSolver::tell_fit(int count, Registration& out) const {
-  double sum_w = 0.0, sum_m = 0.0, sum_g = 0.0, energy = 0.0, kept_energy = 0.0;
+  double sum_w = 0.0, sum_m = 0.0, sum_g = 0.0, energy = 0.0, kept_energy = 0.0, rim_energy = 0.0, rim_kept = 0.0;
   int inliers = 0, seen = 0, bright = 0;
   // The smooth field is taken off the frame first: it is no part of the target.
   const auto light_of_target = [&](int k) {
@@ -59,6 +66,10 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
     const double e = double{m_model.fx[k]} * m_model.fx[k] + double{m_model.fy[k]} * m_model.fy[k];
     energy += e;
     if (w > 0.25) kept_energy += e;
+    if (m_pixel_state[k] == FramePatch::seen && in_rim(k)) {
+      rim_energy += e;
+      if (w > 0.25) rim_kept += e;
+    }
     inliers += w > 0.25;
     seen += m_pixel_state[k] != FramePatch::outside;
     bright += m_pixel_state[k] == FramePatch::too_bright;
@@ -75,6 +86,7 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
   out.correlation = mg / std::sqrt(mm * gg + 1e-9);
   out.inlier_share = static_cast<double>(inliers) / count;
   out.informed_share = kept_energy / energy;
+  out.rim_share = rim_energy > least_rim_energy * energy ? rim_kept / rim_energy : 1.0;
   out.seen_share = static_cast<double>(seen) / count;
   out.saturated_share = static_cast<double>(bright) / count;
 }

@@ -86,6 +86,7 @@ class RegistrationSolver {
   void tell_fit(int count, Registration& out) const;
   double tell_structure(int count, Registration& out) const;
   int tile_of(int k) const;
+  bool in_rim(int k) const;
   Scores scores_of_tiles(int count) const;
   Eigen::Vector2d jackknife(const Scores& scores) const;
 

@@ -36,6 +36,9 @@ constexpr double least_informed = 0.50;
 constexpr double least_informed_in_glare = 0.12;
 constexpr double glare_correlation = 0.999;
 constexpr double glare_explained = 0.9;
+// A pattern that looks the same at any size, as spokes do, fits within the smaller of two targets alone: nothing of
+// the rim is left then. Chips leave some of it.
+constexpr double least_rim = 0.25;
 constexpr double least_fine_correlation = 0.95;
 constexpr double least_contrast = 0.2;
 constexpr double largest_contrast = 3.0;
@@ -65,6 +68,7 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   if (r.structure > largest_structure) return r.saturated_share > 0.02 ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
   if (r.covariance_px2.diagonal().maxCoeff() > largest_sigma_px * largest_sigma_px) return Refusal::too_different;
+  if (r.rim_share < least_rim && !bent_by_glare) return Refusal::wrong_target;
   const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;
   if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {
     if (r.saturated_share > 0.10) return Refusal::glare;

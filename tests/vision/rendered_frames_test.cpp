@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "core/vision/image_quality.h"
 #include "core/vision/target.h"
@@ -95,6 +96,25 @@ TEST(RenderedFrames, BlurIsToldWhateverThePattern) {
       EXPECT_NEAR(found.blur_px, blur_px, 0.25 * blur_px) << test_support::name_of(kind);
     }
   }
+}
+
+// Spokes look the same at any size: within the smaller of two stars everything fits, and only its rim tells. The seeds
+// draw 14 to 21 spokes, so some of these stars have as many as the template's.
+TEST(RenderedFrames, AStarOfAnotherSizeIsNotTheTarget) {
+  const test_support::Session session = test_support::make_session(PatternKind::siemens_star, Disturbance::clean, 5, 1);
+  const auto target = Target::create(image_of(session.renderer.render(session.template_spec)), region_of(session.roi),
+                                     std::nullopt, "template");
+  ASSERT_TRUE(target);
+  const double half_um = session.renderer.stage().target.half_um();
+  for (const double size : {0.84, 1.19}) {
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+      test_support::FrameSpec spec = session.frames.front();
+      spec.other_target = std::make_shared<test_support::Pattern>(PatternKind::siemens_star, size * half_um, seed);
+      const Location at = target->locate(image_of(session.renderer.render(spec)));
+      EXPECT_FALSE(at.ok) << "size " << size << ", seed " << seed;
+    }
+  }
+  EXPECT_TRUE(target->locate(image_of(session.renderer.render(session.frames.front()))).ok);
 }
 
 }  // namespace zerodrift::vision
