@@ -5398,8 +5398,8 @@
         <translation>机床中没有补偿表：此作业写入的内容已不在其中。</translation>
     </message>
     <message>
-        <source>Write it again, or bring a version back in the history.</source>
-        <translation>请重新写入，或在历史中恢复某个版本。</translation>
+        <source>Bring the last version back in the history; Write puts in the model&apos;s own table, without later corrections.</source>
+        <translation>请在历史中恢复最后的版本；“写入”写入的是模型自身的补偿表，不含之后的修正。</translation>
     </message>
 </context>
 <context>

@@ -127,7 +127,8 @@ void UploadPresenter::tellForeign() {
   tell([version = record.old_sequence, none] {
     return none ? ui::Problem{ui::ProblemKind::warning,
                               tr("The machine holds no table: what this job wrote is not in it any more."),
-                              tr("Write it again, or bring a version back in the history."),
+                              tr("Bring the last version back in the history; Write puts in the model's own table, "
+                                 "without later corrections."),
                               {}}
                 : ui::Problem{
                       ui::ProblemKind::warning,
