@@ -46,6 +46,7 @@ class Eye {
     if (!m_first) m_first = {after, seen.sample.machine_time_s};
     const double host_s = seconds_between(m_first->host, after) * m_profile.time_factor;
     seen.clock_difference_s = (seen.sample.machine_time_s - m_first->machine_s) - host_s;
+    if (auto mark = controller::read_active_mark(*m_machine)) seen.table = *mark;
     if (watched != nullptr) seen.registers = controller::read_all(m_machine->link(), *watched);
     return seen;
   }

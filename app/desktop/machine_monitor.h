@@ -10,6 +10,7 @@
 
 #include "app/tasks/aside.h"
 #include "core/acquisition/machine_io.h"
+#include "core/controller/active_table.h"
 #include "core/controller/profile.h"
 #include "core/controller/register_view.h"
 
@@ -20,6 +21,7 @@ struct MachineLook {
   acquisition::MachineSample sample;
   double round_trip_ms = 0.0;
   double clock_difference_s = 0.0;                   // machine clock gained on the host's since the first look
+  std::optional<controller::ActiveMark> table;       // nothing: this controller cannot tell
   std::vector<controller::RegisterValue> registers;  // of the map that is watched
 };
 

@@ -42,6 +42,7 @@ class Presenter : public QObject {
 
  protected:
   Workbench& bench() { return m_bench; }
+  const Workbench& bench() const { return m_bench; }
   /// Runs a step that makes an artefact: progress in the page, errors in its banner, the artefact into the job.
   void runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
                std::function<void(bool good)> done = {});

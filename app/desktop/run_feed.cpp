@@ -100,7 +100,7 @@ void RunFeed::nameChannels() {
   m_view->setChannels(temperatures, errors, inputs);
 }
 
-void RunFeed::begin() {
+void RunFeed::forget() {
   {
     const std::scoped_lock lock(m_shared->mutex);
     m_shared->updates.clear();
@@ -116,6 +116,10 @@ void RunFeed::begin() {
   m_received = false;
   m_view->clear();
   m_view->setTrouble({});
+}
+
+void RunFeed::begin() {
+  forget();
   nameChannels();
   m_timer.start();
 }

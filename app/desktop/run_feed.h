@@ -28,6 +28,8 @@ class RunFeed : public QObject {
   RunFeed(Workbench& bench, ui::RunView* view, QObject* parent);
 
   /// Channels of the profile's machine, and an empty run.
+  /// Nothing is shown and nothing known any more.
+  void forget();
   void begin();
   /// A compensated run: beside what is left, what is applied and what there would be without it.
   void setCompensated(bool compensated) { m_compensated = compensated; }

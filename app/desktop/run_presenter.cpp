@@ -122,6 +122,11 @@ bool RunPresenter::steer(const QString& action) {
   return true;
 }
 
+void RunPresenter::forgetRun() {
+  m_feed->forget();
+  m_shown = 0;
+}
+
 void RunPresenter::showKept(const nlohmann::json& body) {
   if (!body.is_object()) return;
   const auto series = body.at("series").get<long long>();
@@ -135,7 +140,7 @@ void RunPresenter::showKept(const nlohmann::json& body) {
 }
 
 QString RunPresenter::wallTime(double machine_s) const {
-  const auto& profile = const_cast<RunPresenter*>(this)->bench().profile();
+  const auto& profile = bench().profile();
   if (!profile || profile->time_factor <= 1.0 || !(machine_s >= 0.0)) return {};
   return tr("%1 on the wall").arg(ui::durationText(machine_s / profile->time_factor));
 }

@@ -32,6 +32,8 @@ class RunPresenter : public Presenter {
   bool steer(const QString& action);
   /// Draws the run that this artefact names, once.
   void showKept(const nlohmann::json& body);
+  /// The plots of the run shown are cleared.
+  void forgetRun();
   /// Pause, finish and abort end a run as it should; stopping the work as such has no place beside them.
   bool cancellable() const override { return false; }
   /// How far the run goes, in machine time and, when that differs, in time on the wall.

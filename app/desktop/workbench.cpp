@@ -19,12 +19,14 @@ Workbench::Workbench(QObject* parent)
     } else if (!m_look || m_lost) {
       log(LogKind::good, tr("Connected to %1").arg(name));
     }
+    const HeldTable held = heldTable();
     m_look = look;
     m_lost = false;
     m_seenAt = QDateTime::currentDateTime();
     m_lastProblem.reset();
     m_attempts = 0;
     Q_EMIT machineSeen();
+    if (heldTable() != held) Q_EMIT heldTableChanged();
   });
   connect(&m_monitor, &MachineMonitor::failed, this, [this](const Error& error) {
     m_lost = m_lost || m_look != nullptr;
@@ -112,6 +114,11 @@ Status Workbench::keep(const commissioning::NewArtefact& made) {
   if (!m_job) return fail(ErrorCode::step_blocked, {{"step", made.kind}, {"needs", "a job"}});
   ZD_TRY(const auto kept, m_job->put(made));
   log(LogKind::good, tr("Kept %1 #%2").arg(stepName(kept.kind)).arg(kept.id));
+  if (kept.kind == "upload" && m_look) {  // what was seen before is no longer so
+    auto look = std::make_shared<MachineLook>(*m_look);
+    look->table.reset();
+    m_look = look;
+  }
   Q_EMIT artefactsChanged();
   return {};
 }
@@ -180,6 +187,15 @@ void Workbench::disconnectMachine() {
   m_lastProblem.reset();
   m_attempts = 0;
   Q_EMIT profileChanged();
+}
+
+HeldTable Workbench::heldTable() const {
+  if (!m_look || m_lost || !m_look->table) return HeldTable::unknown;
+  if (controller::is_empty_table(static_cast<std::size_t>(m_look->table->registers))) return HeldTable::none;
+  const auto upload = body("upload");
+  if (!upload.is_object()) return HeldTable::another;
+  const auto words = upload.at("record").value("new_words", std::vector<std::uint16_t>{});
+  return controller::is_marked(*m_look->table, words) ? HeldTable::own : HeldTable::another;
 }
 
 const std::vector<std::shared_ptr<vision::Camera>>& Workbench::cameras() {

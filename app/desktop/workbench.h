@@ -18,6 +18,14 @@
 
 namespace zerodrift::desktop {
 
+/// What a machine holds beside what the job has written into it last.
+enum class HeldTable {
+  unknown,  // no machine, or it cannot tell
+  own,
+  none,  // nothing is compensated; or what the job wrote was empty, too
+  another,
+};
+
 enum class LogKind {
   note,
   good,
@@ -66,6 +74,8 @@ class Workbench : public QObject {
   /// When it answered last; not valid: never.
   const QDateTime& seenAt() const { return m_seenAt; }
   const std::shared_ptr<const MachineLook>& look() const { return m_look; }
+  /// As the machine stood when it was last looked at, since the job wrote.
+  HeldTable heldTable() const;
   bool compensationOn() const { return m_look && !m_lost && m_look->sample.compensation_on; }
   /// Live cameras of the profile, for the pictures; opened at the first call after a person has connected. A job that
   /// was merely opened reaches nothing.
@@ -89,6 +99,7 @@ class Workbench : public QObject {
   void artefactsChanged();
   void profileChanged();
   void machineSeen();
+  void heldTableChanged();
   void machineLost(const zerodrift::Error& error);
   void accessChanged();
   /// A job of another machine than the connected one was opened, so the connection was given up.

@@ -8,7 +8,15 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 311> machines = {{
+constexpr std::array<const char*, 319> machines = {{
+    QT_TRANSLATE_NOOP("core", "no table"),
+    QT_TRANSLATE_NOOP("core", "axes"),
+    QT_TRANSLATE_NOOP("core", "controller's heartbeat"),
+    QT_TRANSLATE_NOOP("core", "position %1, mm"),
+    QT_TRANSLATE_NOOP("core", "position %1, degrees"),
+    QT_TRANSLATE_NOOP("core", "feed %1, mm/min"),
+    QT_TRANSLATE_NOOP("core", "probes X1 X2 Y1 Y2 Z, um"),
+    QT_TRANSLATE_NOOP("core", "ramp, %"),
     QT_TRANSLATE_NOOP("core", "segments or points of the axis"),
     QT_TRANSLATE_NOOP("core", "the axis table near %1 mm"),
     QT_TRANSLATE_NOOP("core", "positions or images that fall"),

@@ -3649,6 +3649,38 @@
         <source>swapped</source>
         <translation>位置互换</translation>
     </message>
+    <message>
+        <source>no table</source>
+        <translation>无补偿表</translation>
+    </message>
+    <message>
+        <source>axes</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>controller&apos;s heartbeat</source>
+        <translation>控制器心跳</translation>
+    </message>
+    <message>
+        <source>position %1, mm</source>
+        <translation>位置 %1，mm</translation>
+    </message>
+    <message>
+        <source>position %1, degrees</source>
+        <translation>位置 %1，度</translation>
+    </message>
+    <message>
+        <source>feed %1, mm/min</source>
+        <translation>进给 %1，mm/min</translation>
+    </message>
+    <message>
+        <source>probes X1 X2 Y1 Y2 Z, um</source>
+        <translation>测头 X1 X2 Y1 Y2 Z，µm</translation>
+    </message>
+    <message>
+        <source>ramp, %</source>
+        <translation>渐变，%</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4171,6 +4203,14 @@
     <message>
         <source>Add this entry, if it is the right file.</source>
         <translation>如果文件选择正确，请补上此项。</translation>
+    </message>
+    <message>
+        <source>The machine does not hold version {version}, the table of this job: it holds {found}.</source>
+        <translation>机床中不是本作业的补偿表版本 {version}，而是：{found}。</translation>
+    </message>
+    <message>
+        <source>Write it, or bring it back in the history, then verify.</source>
+        <translation>请写入该表或从历史记录中恢复，然后再验证。</translation>
     </message>
 </context>
 <context>
@@ -5003,6 +5043,11 @@
         <source>The profile holds no machine description, so there is nothing to simulate.</source>
         <translation>配置文件不含机床描述，无法仿真。</translation>
     </message>
+    <message>
+        <source>%1.</source>
+        <comment>a whole sentence</comment>
+        <translation>%1。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::PinDialog</name>
@@ -5398,8 +5443,8 @@
         <translation>机床中没有补偿表：此作业写入的内容已不在其中。</translation>
     </message>
     <message>
-        <source>Bring the last version back in the history; Write puts in the model&apos;s own table, without later corrections.</source>
-        <translation>请在历史中恢复最后的版本；“写入”写入的是模型自身的补偿表，不含之后的修正。</translation>
+        <source>Write puts the last one back, with its corrections; the history has them all.</source>
+        <translation>“写入”将恢复最后一个补偿表（含修正）；历史记录中有全部版本。</translation>
     </message>
 </context>
 <context>
@@ -5415,6 +5460,14 @@
     <message>
         <source>Write the table to the machine first; then the run shows what is left.</source>
         <translation>请先将补偿表写入机床；之后的运行显示残余误差。</translation>
+    </message>
+    <message>
+        <source>The machine holds no table: write it in Upload, or bring it back.</source>
+        <translation>机床中没有补偿表：请在“上传”步骤中写入或恢复。</translation>
+    </message>
+    <message>
+        <source>The machine holds another table than this job&apos;s: compare them in Upload.</source>
+        <translation>机床中的补偿表不是本作业的：请在“上传”步骤中比较。</translation>
     </message>
 </context>
 <context>
@@ -6909,6 +6962,10 @@
         <source>As of %1</source>
         <translation>截至 %1</translation>
     </message>
+    <message>
+        <source>The machine does not hold version %1, which this job has written: bring it back in Upload, or start again.</source>
+        <translation>机床中不再有本作业写入的版本 %1：请在“上传”步骤中恢复，或重新开始。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::MachineStart</name>
@@ -8353,6 +8410,15 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Version %1 is active in %2, and its verification run is done.</source>
         <translation>版本 %1 已在 %2 中生效，验证运行也已完成。</translation>
+    </message>
+    <message>
+        <source>%1 holds no compensation: version %2 is empty.</source>
+        <translation>%1 中没有补偿：版本 %2 为空表。</translation>
+    </message>
+    <message>
+        <source>%1.</source>
+        <comment>a whole sentence</comment>
+        <translation>%1。</translation>
     </message>
 </context>
 <context>

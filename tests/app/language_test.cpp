@@ -11,6 +11,7 @@
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "app/text/happening_text.h"
+#include "core/controller/register_names.h"
 #include "core/diagnosis/sentences.h"
 #include "core/physics/effects/effect.h"
 
@@ -216,6 +217,18 @@ class LanguageTest : public QObject {
     for (const std::string& text : diagnosis::sentence_texts()) {
       QVERIFY2(phrases.contains(QString::fromStdString(text)), text.c_str());
     }
+  }
+
+  /// Of the program's own register names, in the map on the machine page.
+  void meaningsOfRegistersAreSaidInChinese() {
+    QTranslator translator;
+    QVERIFY(translator.load(QStringLiteral(ZERODRIFT_CHINESE_QM)));
+    QCoreApplication::installTranslator(&translator);
+    for (const auto& one : controller::register_names()) {
+      const std::string meaning(one.meaning);
+      QVERIFY2(coreText(meaning) != QString::fromStdString(meaning), meaning.c_str());
+    }
+    QCoreApplication::removeTranslator(&translator);
   }
 
   void fingerprintsOfEffectsArePhrases() {

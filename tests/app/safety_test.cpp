@@ -15,15 +15,18 @@
 #include "tests/app/test_home.h"
 #include "ui/pages/calibrate_page.h"
 #include "ui/pages/machine_page.h"
+#include "ui/pages/verify_page.h"
 #include "ui/shell/lamp.h"
 #include "ui/widgets/camera_view.h"
 
 using zerodrift::desktop::Application;
 using zerodrift::desktop::DemoOptions;
+using zerodrift::desktop::HeldTable;
 using zerodrift::desktop::LogKind;
 using zerodrift::desktop::Workbench;
 using zerodrift::ui::CalibratePage;
 using zerodrift::ui::MachinePage;
+using zerodrift::ui::VerifyPage;
 
 namespace {
 
@@ -216,6 +219,48 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
         bench.openJob(QStringLiteral(ZERODRIFT_SOURCE_DIR "/resources/samples/sample.zdj").toStdString()).has_value());
     QVERIFY(!bench.connected());
     QTRY_VERIFY(page->problem().sentence.contains(QStringLiteral("850004")));
+  }
+
+  /// A controller that was started anew holds no table. Nothing is proved with it, and what is written into it is the
+  /// table this job wrote last, with its corrections, not the model's own.
+  void aMachineThatLostItsTableGetsItBack() {
+    const QString path = m_folder.filePath(QStringLiteral("sample.zdj"));
+    QVERIFY(QFile::copy(QStringLiteral(ZERODRIFT_SOURCE_DIR "/resources/samples/sample.zdj"), path));
+    QVERIFY(QFile::setPermissions(path, QFile::ReadOwner | QFile::WriteOwner));
+    Application application(m_theme);
+    application.openJob(path);
+    auto& bench = application.bench();
+    const auto words = [&bench] {
+      return bench.body("upload").at("record").value("new_words", std::vector<std::uint16_t>{});
+    };
+    const auto last = words();
+    QVERIFY(last.size() > 10);
+    Q_EMIT application.presenter(QStringLiteral("machine"))->page()->secondaryTriggered(QStringLiteral("virtual"));
+    QTRY_COMPARE_WITH_TIMEOUT(bench.heldTable(), HeldTable::none, 60000);
+
+    auto* verify = qobject_cast<VerifyPage*>(application.presenter(QStringLiteral("verify"))->page());
+    QCOMPARE(verify->state().phase, zerodrift::ui::VerifyPhase::finished);
+    Q_EMIT verify->secondaryTriggered(QStringLiteral("again"));
+    QVERIFY(!verify->primary().enabled);
+    QVERIFY2(verify->sentence().contains(QStringLiteral("holds no table")), qPrintable(verify->sentence()));
+    bool good = true;
+    bool ended = false;
+    application.presenter(QStringLiteral("verify"))->tour([&](bool is_good) { good = is_good, ended = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(ended, 60000);
+    QVERIFY(!good);
+    QVERIFY2(verify->problem().sentence.contains(QStringLiteral("no table")), qPrintable(verify->problem().sentence));
+
+    QTRY_VERIFY(!bench.tasks().running());
+    application.openPage(QStringLiteral("upload"));
+    auto* upload = application.presenter(QStringLiteral("upload"));
+    QTRY_VERIFY_WITH_TIMEOUT(upload->page()->problem().sentence.contains(QStringLiteral("holds no table")), 60000);
+    ended = false;
+    upload->tour([&](bool is_good) { good = is_good, ended = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(ended, 120000);
+    QVERIFY2(good, qPrintable(upload->page()->problem().sentence));
+    QVERIFY(words() == last);
+    QTRY_COMPARE_WITH_TIMEOUT(bench.heldTable(), HeldTable::own, 10000);
+    QVERIFY(verify->primary().enabled);
   }
 
   void virtualMachineEndsWithTheWindow_data() {

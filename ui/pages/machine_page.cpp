@@ -158,6 +158,11 @@ QString MachinePage::sentence() const {
         .arg(rest.warmest)
         .arg(std::abs(rest.apart_K), 0, 'f', 1);
   }
+  if (m_state.writtenVersion > 0 && m_state.tableGone) {
+    return tr("The machine does not hold version %1, which this job has written: bring it back in Upload, or start "
+              "again.")
+        .arg(m_state.writtenVersion);
+  }
   if (m_state.writtenVersion > 0) {
     return tr("This job has written version %1. Starting again measures anew, with the compensation off; what the "
               "machine "

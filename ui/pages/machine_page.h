@@ -61,6 +61,7 @@ struct MachineState {
   bool virtualOffered = false;  // the job's machine is a virtual one, which can be started here
   bool compensationOn = false;
   int writtenVersion = 0;  // of the table that this job has put into the machine; 0: none yet
+  bool tableGone = false;  // the machine does not hold it
   /// Not connected, but the job has kept how the machine stood: when that was. Sensors and figures are those.
   QString keptFrom{};
   bool known() const { return connected || !keptFrom.isEmpty(); }

@@ -125,6 +125,8 @@ QString UploadPage::sentence() const {
     const QString version = QString::number(m_state.newVersion.value_or(0));
     if (!m_state.asOf.isEmpty())
       return tr("Version %1 was active in %2 as this job left it, %3.").arg(version, m_state.machineName, m_state.asOf);
+    if (m_state.writtenEmpty)
+      return tr("%1 holds no compensation: version %2 is empty.").arg(m_state.machineName, version);
     return m_state.proved
                ? tr("Version %1 is active in %2, and its verification run is done.").arg(version, m_state.machineName)
                : tr("Version %1 is active in %2. Now prove it.").arg(version, m_state.machineName);
@@ -202,7 +204,7 @@ void UploadPage::render() {
   if (!m_state.expressed.isEmpty()) loss.append(tr("The controller takes %1.").arg(m_state.expressed));
   loss.append(m_state.lost.isEmpty() ? tr("Nothing is lost on the way.")
                                      : tr("Lost: %1.").arg(m_state.lost.join("; ")));
-  for (const QString& warning : m_state.warnings) loss.append(warning + QLatin1Char('.'));
+  for (const QString& warning : m_state.warnings) loss.append(tr("%1.", "a whole sentence").arg(warning));
   m_loss->setText(loss.join(' '));
   m_writeCard->setTitle(tr("Transaction"));
   m_side->setItems({tr("Write"), tr("History, roll back")});

@@ -78,6 +78,7 @@ struct UploadState {
   QString rollbackBlocked{};        // why nothing can be brought back now
   QString offline{};                // why nothing can be written or tried now; empty: connected
   QString asOf{};                   // written, but away from the machine: when this was so
+  bool writtenEmpty = false;        // what is written compensates nothing: gone back to before the first table
   bool proved = false;              // the verification run with what is written is done
   bool compensationOn = false;
   bool writing = false;

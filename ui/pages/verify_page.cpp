@@ -97,6 +97,7 @@ QString VerifyPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   switch (m_state.phase) {
     case VerifyPhase::ready:
+      if (!m_state.notHeld.isEmpty()) return m_state.notHeld;
       return tr("Run the machine with the compensation on and measure what is left.");
     case VerifyPhase::running:
       return tr("The compensation works while the camera watches. The measured curve must stay near zero.");
@@ -156,8 +157,10 @@ bool VerifyPage::rollbackNeeded() const {
 PageAction VerifyPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start verification"), false, m_state.blocked};
   switch (m_state.phase) {
-    case VerifyPhase::ready:
-      return {"primary", tr("Start verification"), m_state.offline.isEmpty(), m_state.offline};
+    case VerifyPhase::ready: {
+      const QString reason = m_state.offline.isEmpty() ? m_state.notHeld : m_state.offline;
+      return {"primary", tr("Start verification"), reason.isEmpty(), reason};
+    }
     case VerifyPhase::running:
       return {"primary", tr("Pause"), true, {}};
     case VerifyPhase::paused:
@@ -376,7 +379,10 @@ void VerifyPage::renderResiduals() {
   m_plot->setLimits(
       {{m_state.threshold_um, tr("threshold"), Judgement::warn}, {-m_state.threshold_um, {}, Judgement::warn}});
   const int row = m_table->currentRow();
-  if (row < 0 || row >= m_state.corrections.size()) return m_plot->clear();
+  if (row < 0 || row >= m_state.corrections.size()) {
+    m_legend->setItems({});
+    return m_plot->clear();
+  }
   const AxisCorrection& axis = m_state.corrections[row];
   PartStyle style;
   QVector<LegendItem> legend = {{tr("as measured"), colors().bad}};

@@ -202,7 +202,7 @@ compensation::Table AxisErrorsPresenter::table() const {
   auto& axis = made.axes[axisName()];
   axis.segments = chosen().segments;
   axis.points = compensation::points_of(m_report);
-  const auto& profile = const_cast<AxisErrorsPresenter*>(this)->bench().profile();
+  const auto& profile = bench().profile();
   if (!profile) return made;
   made.machine = profile->name;
   const auto at = profile->measure_position_mm.find(axisName());

@@ -282,7 +282,7 @@ void MachinePresenter::looked() {
 
 /// Of the job's machine, when it is a virtual one on this computer.
 std::optional<int> MachinePresenter::virtualSeed() const {
-  auto& workbench = const_cast<MachinePresenter*>(this)->bench();
+  const auto& workbench = bench();
   const auto& profile = workbench.profile();
   const auto machine = workbench.body("machine");
   if (!profile || profile->controller.host != "127.0.0.1" || !machine.is_object()) return std::nullopt;
@@ -290,7 +290,7 @@ std::optional<int> MachinePresenter::virtualSeed() const {
 }
 
 QString MachinePresenter::connectionText() const {
-  const auto& profile = const_cast<MachinePresenter*>(this)->bench().profile();
+  const auto& profile = bench().profile();
   if (!profile) return {};
   const auto& link = profile->controller;
   if (link.kind == controller::LinkKind::rtu) {
@@ -308,6 +308,8 @@ void MachinePresenter::refresh() {
   state.connecting = m_connecting || lost;
   state.compensationOn = bench().compensationOn();
   if (const auto upload = bench().body("upload"); upload.is_object()) state.writtenVersion = upload.value("version", 0);
+  const auto held = bench().heldTable();
+  state.tableGone = held == HeldTable::none || held == HeldTable::another;
   state.sampleAvailable = find_resource("samples/sample.zdj").has_value();
   state.address = connectionText();
   state.virtualOffered = virtualSeed().has_value();
@@ -379,7 +381,7 @@ void MachinePresenter::fillSensors(ui::MachineState& state) {
 }
 
 void MachinePresenter::fillRest(ui::MachineState& state) const {
-  const auto& look = *const_cast<MachinePresenter*>(this)->bench().look();
+  const auto& look = *bench().look();
   const auto& now_C = look.sample.temperature_C;
   const double middle_C = median_of(now_C);
   double low = unknown;
@@ -405,7 +407,7 @@ void MachinePresenter::fillRest(ui::MachineState& state) const {
 }
 
 void MachinePresenter::fillParts(ui::MachineState& state) const {
-  const auto& look = *const_cast<MachinePresenter*>(this)->bench().look();
+  const auto& look = *bench().look();
   const auto& sample = look.sample;
   for (const auto& [axis, position] : sample.axes) {
     const bool turns = axis == "A" || axis == "B" || axis == "C";

@@ -149,7 +149,7 @@ QString PhysicsPresenter::regionInWords() {
     }
     words += QLatin1Char(')');
   }
-  return words + QLatin1Char('.');
+  return tr("%1.", "a whole sentence").arg(words);
 }
 
 void PhysicsPresenter::judge(const QString& effect, bool adopt, bool reject) {

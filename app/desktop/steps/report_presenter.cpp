@@ -111,7 +111,7 @@ void ReportPresenter::leave() {
 }
 
 Result<report::Report> ReportPresenter::build() const {
-  const auto* job = const_cast<ReportPresenter*>(this)->bench().job();
+  const auto* job = bench().job();
   ZD_TRY(auto report, report::build_report(*job, m_language));
   if (!m_signature.isNull()) {
     QByteArray bytes;
@@ -174,7 +174,7 @@ void ReportPresenter::setHead(const ui::ReportHead& head) {
 }
 
 QString ReportPresenter::defaultPath(const QString& ending) const {
-  const auto* job = const_cast<ReportPresenter*>(this)->bench().job();
+  const auto* job = bench().job();
   const QFileInfo file(QString::fromStdString(job->path().string()));
   return file.absoluteDir().filePath(file.completeBaseName() + QLatin1Char('.') + ending);
 }

@@ -182,7 +182,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
 }
 
 void SensorsPresenter::fillSeries(ui::SensorsState& state) const {
-  auto& workbench = const_cast<SensorsPresenter*>(this)->bench();
+  const auto& workbench = bench();
   const auto warmup = flow::need(*workbench.job(), "sensors", "warmup");
   if (!warmup) return;
   const auto run = flow::run_of(*workbench.job(), *warmup);

@@ -57,7 +57,7 @@ ui::Stage UploadPresenter::signStage(const ui::SignCheckResult& sign) const {
 }
 
 bool UploadPresenter::isWritten() const {
-  auto& workbench = const_cast<UploadPresenter*>(this)->bench();
+  const auto& workbench = bench();
   if (!workbench.has("upload")) return false;
   return flow::status_of(*workbench.job(), "upload").state == flow::StepState::current;
 }
@@ -71,13 +71,15 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
     state.stagesNote = tr("dry run %1").arg(m_dryRunAt.toString(QStringLiteral("HH:mm")));
   state.registers = static_cast<double>(record.new_words.size());
   state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
-  for (const auto& warning : record.warnings) state.warnings << coreText(warning);
+  for (const auto& warning : record.warnings) state.warnings << bench().inWords(warning);
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
   state.written =
       isWritten() && !m_correction && !m_goingBack && !machineHoldsAnother();  // another table, not written yet
-  const auto& job = *const_cast<UploadPresenter*>(this)->bench().job();
+  const auto& job = *bench().job();
+  state.writtenEmpty =
+      controller::is_empty_table(body.at("record").value("new_words", std::vector<std::uint16_t>{}).size());
   state.proved = flow::status_of(job, "verify").state == flow::StepState::current;
   const auto upload = job.latest("upload");
   if (!state.offline.isEmpty() && upload && *upload) state.asOf = momentText((*upload)->created_utc);
@@ -94,7 +96,7 @@ void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body)
 }
 
 void UploadPresenter::fillHistory(ui::UploadState& state) const {
-  auto& workbench = const_cast<UploadPresenter*>(this)->bench();
+  const auto& workbench = bench();
   const auto profile = flow::profile_of(*workbench.job(), "upload");
   if (!profile) return;
   std::optional<controller::ActiveTable> active;
@@ -120,7 +122,10 @@ void UploadPresenter::refresh() {
     m_page->setState(state);
     return;
   }
-  if (m_previewOf != latestModel(*job) && !m_writing) m_preview.reset();
+  if (m_previewOf != latestModel(*job) && !m_writing) {
+    m_preview.reset();
+    m_lostTable.reset();
+  }
   const auto profile = flow::profile_of(*job, "upload");
   const auto artefact = job->latest("model");
   const auto model = flow::model_of(**artefact);

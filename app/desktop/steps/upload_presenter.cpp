@@ -25,8 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t empty_table = 2;  // registers of a table without an axis
-constexpr int sign_stands_min = 60;     // so long a sign check on the same machine is not repeated
+constexpr int sign_stands_min = 60;  // so long a sign check on the same machine is not repeated
 
 QString axes_text(const compensation::Table& table) {
   QStringList axes;
@@ -58,6 +57,7 @@ void UploadPresenter::forget() {
   m_preview.reset();
   m_correction.reset();
   m_goingBack.reset();
+  m_lostTable.reset();
   m_sign.reset();
   m_signAt = {};
   m_dryRunAt = {};
@@ -72,6 +72,11 @@ long long UploadPresenter::latestModel(const commissioning::Job& job) {
 
 void UploadPresenter::enter() {
   readLog();
+  // Looked at since: the machine holds another table than the one that was compared.
+  const auto& look = bench().look();
+  if (m_preview && look && look->table && !controller::is_marked(*look->table, m_preview->record.old_words)) {
+    m_preview.reset();
+  }
   refresh();
   // Reading the old table writes nothing: the comparison is there when the page opens.
   if (bench().has("model") && bench().connected() && !m_preview && !bench().tasks().running()) preview({});
@@ -93,7 +98,7 @@ void UploadPresenter::preview(Done done) {
   m_reading = true;
   runTask<flow::UploadPreview>(
       tr("Reading the table in the machine"),
-      [profile = *profile, job, table = m_correction](const TaskContext& context) -> Result<flow::UploadPreview> {
+      [profile = *profile, job, table = chosenTable()](const TaskContext& context) -> Result<flow::UploadPreview> {
         ZD_TRY(auto devices, flow::Devices::open(profile, false));
         return flow::preview_upload(*job, devices, table, context);
       },
@@ -102,33 +107,53 @@ void UploadPresenter::preview(Done done) {
         if (good) {
           m_preview = std::move(*seen);
           m_previewOf = model;
-          tellForeign();
         }
         m_reading = false;
+        if (good && takeLostTable()) return preview(done);
+        if (good) tellForeign();
         refresh();
         if (done) done(good);
         if (const Done after = std::exchange(m_afterPreview, {})) after(good);
       });
 }
 
+std::optional<compensation::Table> UploadPresenter::chosenTable() const {
+  return m_correction ? m_correction : m_lostTable;
+}
+
+/// A machine that holds nothing gets back what this job wrote last, corrections and all, as long as the model is the
+/// same. True when that is another table than the one looked at, which must be compared anew.
+bool UploadPresenter::takeLostTable() {
+  if (m_correction || m_lostTable || !isWritten() || !controller::is_empty_table(m_preview->record.old_words.size())) {
+    return false;
+  }
+  const json body = bench().body("upload");
+  const auto words = body.at("record").value("new_words", std::vector<std::uint16_t>{});
+  if (controller::is_empty_table(words.size()) || controller::same_table(words, m_preview->record.new_words))
+    return false;
+  auto last = compensation::table_from_json(body.value("table", json::object()), "the uploaded table");
+  if (!last) return false;
+  m_lostTable = std::move(*last);
+  return true;
+}
+
 /// What is active in the machine is not what this job has written: another one wrote, or it was started anew.
 bool UploadPresenter::machineHoldsAnother() const {
-  const json body = const_cast<UploadPresenter*>(this)->bench().body("upload");
+  const json body = bench().body("upload");
   if (!body.is_object() || !m_preview) return false;
   const auto own = body.at("record").value("new_words", std::vector<std::uint16_t>{});
   const auto& now = m_preview->record.old_words;
-  return own != now && (own.size() > empty_table || now.size() > empty_table);
+  return !controller::same_table(own, now);
 }
 
 void UploadPresenter::tellForeign() {
   if (!machineHoldsAnother()) return;
   const auto& record = m_preview->record;
-  const bool none = record.old_words.size() <= empty_table;
+  const bool none = controller::is_empty_table(record.old_words.size());
   tell([version = record.old_sequence, none] {
     return none ? ui::Problem{ui::ProblemKind::warning,
                               tr("The machine holds no table: what this job wrote is not in it any more."),
-                              tr("Bring the last version back in the history; Write puts in the model's own table, "
-                                 "without later corrections."),
+                              tr("Write puts the last one back, with its corrections; the history has them all."),
                               {}}
                 : ui::Problem{
                       ui::ProblemKind::warning,
@@ -162,7 +187,7 @@ void UploadPresenter::dryRun() {
 }
 
 QString UploadPresenter::machineId() const {
-  const auto& workbench = const_cast<UploadPresenter*>(this)->bench();
+  const auto& workbench = bench();
   const auto& profile = workbench.profile();
   const auto& look = workbench.look();
   if (!profile) return {};
@@ -252,7 +277,7 @@ void UploadPresenter::write(Done done) {
   m_dryRunAt = {};
   refresh();
   flow::UploadStepOptions options;
-  options.table = m_correction;
+  options.table = chosenTable();
   options.sign_check = !m_correction;
   if (signStands()) options.checked_signs = m_sign;
   options.observer = observer();
@@ -281,6 +306,7 @@ void UploadPresenter::write(Done done) {
         m_failed = !good;
         m_preview.reset();
         m_correction.reset();
+        m_lostTable.reset();
         readLog();
         refresh();
         if (done) done(good);

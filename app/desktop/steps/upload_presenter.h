@@ -50,6 +50,9 @@ class UploadPresenter : public Presenter {
   void dryRun();
   void tellForeign();
   bool machineHoldsAnother() const;
+  /// Instead of the model's own table; nothing: the model's own.
+  std::optional<compensation::Table> chosenTable() const;
+  bool takeLostTable();
   void noteSign(const controller::SignCheckRecord& record);
   /// The sign was checked on this machine a short while ago and was right.
   bool signStands() const;
@@ -68,6 +71,7 @@ class UploadPresenter : public Presenter {
   ui::UploadPage* m_page;
   std::optional<flow::UploadPreview> m_preview;
   std::optional<compensation::Table> m_correction;
+  std::optional<compensation::Table> m_lostTable;         // the job's last, which the machine has lost
   std::optional<controller::RollbackTarget> m_goingBack;  // looked at, or being written
   controller::TableLog m_log;
   std::optional<controller::SignCheckRecord> m_sign;

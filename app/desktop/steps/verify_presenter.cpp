@@ -67,6 +67,7 @@ VerifyPresenter::VerifyPresenter(Workbench& bench, ui::VerifyPage* page)
   connect(page, &ui::Page::primaryTriggered, this, &VerifyPresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, &VerifyPresenter::secondary);
   connect(&feed(), &RunFeed::updated, this, [this] { refresh(); });
+  connect(&bench, &Workbench::heldTableChanged, this, [this] { refresh(); });
 }
 
 void VerifyPresenter::primary() {
@@ -88,7 +89,10 @@ void VerifyPresenter::primary() {
 }
 
 void VerifyPresenter::secondary(const QString& action) {
-  if (action == QStringLiteral("again")) m_again = true;
+  if (action == QStringLiteral("again")) {
+    m_again = true;
+    forgetRun();  // the next run's plots begin empty
+  }
   if (action == QStringLiteral("skip")) m_skipped = true;
   if (action == QStringLiteral("correct")) return applyCorrection({});
   if (action == QStringLiteral("rollback")) {
@@ -127,7 +131,10 @@ void VerifyPresenter::judgeAgain() {
 void VerifyPresenter::applyCorrection(std::function<void(bool good)> done) {
   if (!m_corrected) return;
   Q_EMIT correctionWanted(*m_corrected, [this, done = std::move(done)](bool good) {
-    if (good) m_again = true;  // what was corrected is proved again
+    if (good) {
+      m_again = true;  // what was corrected is proved again
+      forgetRun();
+    }
     refresh();
     if (done) done(good);
   });
@@ -283,6 +290,11 @@ void VerifyPresenter::refresh() {
     return;
   }
   state.offline = offlineReason();
+  const auto held = bench().heldTable();
+  if (held == HeldTable::none) state.notHeld = tr("The machine holds no table: write it in Upload, or bring it back.");
+  if (held == HeldTable::another) {
+    state.notHeld = tr("The machine holds another table than this job's: compare them in Upload.");
+  }
   state.threshold_um = m_threshold_um;
   state.peakLimit_um = flow::VerifyOptions().limit_um;
   state.compensationOn = bench().compensationOn();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/compensation/residual.h"
+#include "core/controller/active_table.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/verify_compare.h"
 #include "core/report/comparison.h"
@@ -91,6 +92,17 @@ void add_figures(const recording::Recording& warmup, const recording::Recording&
   body["verdict"] = passed && body.contains("peak_error_after_um") ? "passed" : "failed";
 }
 
+/// A run over another table proves nothing of this one.
+Status table_is_active(Devices& devices, const json& upload) {
+  ZD_TRY(const auto mark, controller::read_active_mark(*devices.machine));
+  const auto words = upload.at("record").value("new_words", std::vector<std::uint16_t>{});
+  const bool none = controller::is_empty_table(static_cast<std::size_t>(mark.registers));
+  if (!none && controller::is_marked(mark, words)) return {};
+  return fail(ErrorCode::table_not_active,
+              {{"version", fmt::to_string(upload.value("version", 0))},
+               {"found", none ? std::string("no table") : fmt::format("version {}", mark.sequence)}});
+}
+
 }  // namespace
 
 acquisition::Plan verification_plan(const acquisition::Plan& warmup) {
@@ -120,6 +132,7 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
     recorder_options.zero_um = warmup.body["zero_um"].get<std::array<double, 3>>();
   }
   ZD_TRY(const auto start, devices.machine->read());
+  ZD_CHECK(table_is_active(devices, upload.body));
   ZD_TRY(const RecordedRun run, record_run(job, devices, run_options, recorder_options, context));
   if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
   ZD_TRY(const auto after, job.read_series(run.series));

@@ -144,6 +144,7 @@ std::vector<TextEntry> texts_of_doubts() {
       {"interlock_compensation_on", "联锁：补偿处于开启状态"},
       {"interlock_compensation_off", "联锁：补偿处于关闭状态"},
       {"machine_not_ready", "机床未就绪"},
+      {"table_not_active", "机床中生效的不是本作业的补偿表"},
       {"machine_unsupported", "机床不支持"},
       {"link", "通信"},
       {"interrupted", "中断"},
