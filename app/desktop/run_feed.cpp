@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/desktop/run_words.h"
 #include "app/desktop/steps/calibrate_presenter.h"
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
@@ -51,16 +52,6 @@ ui::RunChannel channel_of(const std::string& name, const QString& label) {
   return channel;
 }
 
-// The channel with the standard uncertainty of an error: sigma_X_nm of dX_um; none of the others.
-std::string sigma_channel(const std::string& error) {
-  const bool known = error.size() > 4 && error.front() == 'd' && error.ends_with("_um");
-  return known ? "sigma_" + error.substr(1, error.size() - 4) + "_nm" : std::string("-");
-}
-
-QString uncertainty_text(double sigma_nm) {
-  return std::isnan(sigma_nm) ? QString() : QStringLiteral("± %1 µm").arg(sigma_nm / 1000.0, 0, 'f', 2);
-}
-
 }  // namespace
 
 RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject(parent), m_bench(bench), m_view(view) {
@@ -100,6 +91,20 @@ void RunFeed::nameChannels() {
   m_view->setChannels(temperatures, errors, inputs);
 }
 
+/// The words stand beside the line; a long note is cut there and whole in the report.
+void RunFeed::mark(double at_s, const QString& text) {
+  constexpr int longest = 28;
+  const QString shown = text.size() > longest ? text.left(longest - 1) + QChar(0x2026) : text;
+  m_marks.append({at_s, shown, ui::Judgement::none});
+  std::sort(m_marks.begin(), m_marks.end(), [](const auto& one, const auto& other) { return one.at < other.at; });
+  m_view->setMarks(m_marks);
+}
+
+void RunFeed::markPause(double at_s) {
+  m_pauses.append(at_s);
+  mark(at_s, tr("Pause"));
+}
+
 void RunFeed::forget() {
   {
     const std::scoped_lock lock(m_shared->mutex);
@@ -114,6 +119,9 @@ void RunFeed::forget() {
   m_measuredAt_s = -1.0;
   m_largestAxis.clear();
   m_received = false;
+  m_marks.clear();
+  m_pauses.clear();
+  m_pausing = false;
   m_view->clear();
   m_view->setTrouble({});
 }
@@ -127,48 +135,6 @@ void RunFeed::begin() {
 void RunFeed::stop() {
   drain();
   m_timer.stop();
-}
-
-void RunFeed::showRecording(const recording::Recording& run) {
-  m_view->clear();
-  nameChannels();
-  m_largest_um = 0.0;
-  m_longestHole_s = 0.0;
-  m_lastRow_s = -1.0;
-  for (const double time_s : run.time_s) noteRow(time_s);
-  for (const auto& channel : run.channels) {
-    QVector<double> times;
-    QVector<double> values;
-    for (std::size_t r = 0; r < run.rows(); ++r) {
-      if (std::isnan(channel.values[r])) continue;
-      times.append(run.time_s[r]);
-      values.append(channel.values[r]);
-      noteErrors(channel.name, channel.values[r]);
-    }
-    m_view->append(QString::fromStdString(channel.name), times, values);
-  }
-  showRegimes(run);
-  if (run.rows() == 0) return;
-  QVector<ui::RunValue> last;
-  for (const auto& channel : run.channels) {
-    const auto sigma = std::find_if(run.channels.begin(), run.channels.end(),
-                                    [&](const auto& one) { return one.name == sigma_channel(channel.name); });
-    const double sigma_nm =
-        sigma == run.channels.end() ? std::nan("") : recording::value_at(run, *sigma, run.time_s.back());
-    last.append({QString::fromStdString(channel.name),
-                 recording::value_at(run, channel, run.time_s.back()),
-                 uncertainty_text(sigma_nm),
-                 {}});
-  }
-  m_view->setValues(last);
-  if (!m_compensated) return;
-  std::vector<std::string> names;
-  std::vector<QVector<double>> values;
-  for (const auto& channel : run.channels) {
-    names.push_back(channel.name);
-    values.emplace_back(channel.values.begin(), channel.values.end());
-  }
-  appendCompensation(names, QVector<double>(run.time_s.begin(), run.time_s.end()), values);
 }
 
 void RunFeed::noteRow(double time_s) {
@@ -279,9 +245,12 @@ void RunFeed::abort() {
 }
 
 bool RunFeed::note(const QString& text, double time_s) {
-  const std::scoped_lock lock(m_shared->mutex);
-  if (m_shared->control == nullptr) return false;
-  m_shared->control->note(text.toStdString(), time_s);
+  {
+    const std::scoped_lock lock(m_shared->mutex);
+    if (m_shared->control == nullptr) return false;
+    m_shared->control->note(text.toStdString(), time_s);
+  }
+  mark(time_s, text);
   return true;
 }
 
@@ -373,13 +342,6 @@ QStringList RunFeed::inWords(const std::vector<acquisition::Happening>& happened
   return lines;
 }
 
-void RunFeed::showHappened(const std::vector<acquisition::Happening>& happened, int measurements, int refused) {
-  ui::RunTrouble trouble;
-  trouble.ended = true;
-  trouble.so_far = inWords(happened, measurements, refused);
-  m_view->setTrouble(trouble);
-}
-
 void RunFeed::showTrouble() {
   ui::RunTrouble trouble;
   if (!m_now.problems.empty()) trouble.now = m_bench.inWords(lineOf(m_now.problems.front()).toStdString());
@@ -396,6 +358,15 @@ void RunFeed::noteSensors(const std::vector<Error>& problems) {
   }
 }
 
+/// Nothing is measured in a pause: no line leads over it.
+void RunFeed::beginPause(double at_s, const std::vector<std::string>& channels) {
+  markPause(at_s);
+  for (const auto& name : channels) {
+    if (recording::kind_of(name) != recording::ChannelKind::error) continue;
+    m_view->append(QString::fromStdString(name), {at_s}, {std::nan("")});
+  }
+}
+
 void RunFeed::drain() {
   std::vector<RunUpdate> updates;
   {
@@ -408,6 +379,11 @@ void RunFeed::drain() {
   m_bench.tellController(std::none_of(problems.begin(), problems.end(), is_silence));
   noteSensors(problems);
   appendRows(updates);
+  for (const auto& update : updates) {
+    const bool pausing = update.phase == acquisition::RunPhase::paused;
+    if (pausing && !m_pausing) beginPause(update.time_s, update.channels);
+    m_pausing = pausing;
+  }
   bool measured = false;
   for (const auto& update : updates) {
     if (!update.measured.has_value()) continue;

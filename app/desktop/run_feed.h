@@ -14,6 +14,7 @@
 #include "core/acquisition/recorder.h"
 #include "core/recording/recording.h"
 #include "core/vision/camera_error_source.h"
+#include "ui/plots/plot_widget.h"
 
 namespace zerodrift::ui {
 class RunView;
@@ -27,14 +28,14 @@ class RunFeed : public QObject {
  public:
   RunFeed(Workbench& bench, ui::RunView* view, QObject* parent);
 
-  /// Channels of the profile's machine, and an empty run.
   /// Nothing is shown and nothing known any more.
   void forget();
+  /// Channels of the profile's machine, and an empty run.
   void begin();
   /// A compensated run: beside what is left, what is applied and what there would be without it.
   void setCompensated(bool compensated) { m_compensated = compensated; }
   /// A run that is in the job already.
-  void showRecording(const recording::Recording& run);
+  void showRecording(const recording::Recording& run, const std::vector<commissioning::Event>& events);
   /// What went wrong in a run that is over: of so many measurements so many with a direction missing.
   void showHappened(const std::vector<acquisition::Happening>& happened, int measurements, int refused);
   void stop();
@@ -90,6 +91,10 @@ class RunFeed : public QObject {
   void appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,
                           const std::vector<QVector<double>>& values);
   void showRegimes(const recording::Recording& run);
+  void showMarks(const std::vector<commissioning::Event>& events);
+  void mark(double at_s, const QString& text);
+  void markPause(double at_s);
+  void beginPause(double at_s, const std::vector<std::string>& channels);
 
   Workbench& m_bench;
   ui::RunView* m_view;
@@ -102,6 +107,9 @@ class RunFeed : public QObject {
   double m_longestHole_s = 0.0;
   double m_lastRow_s = -1.0;
   QString m_largestAxis;
+  QVector<ui::Mark> m_marks;  // notes and pauses, by time
+  QVector<double> m_pauses;
+  bool m_pausing = false;
   bool m_received = false;
   bool m_named = false;
   bool m_compensated = false;

@@ -133,7 +133,7 @@ void RunPresenter::showKept(const nlohmann::json& body) {
   if (series == m_shown) return;
   if (const auto run = bench().job()->read_series(series)) {
     m_shown = series;
-    m_feed->showRecording(*run);
+    m_feed->showRecording(*run, bench().job()->events(series).value_or(std::vector<commissioning::Event>{}));
     m_feed->showHappened(acquisition::happenings_from_json(body.value("happened", nlohmann::json())),
                          body.value("measurements", 0), body.value("refused", 0));
   }

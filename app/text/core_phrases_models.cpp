@@ -156,8 +156,7 @@ constexpr std::array<const char*, 286> models = {{
     QT_TRANSLATE_NOOP("core", "%1 %2; %3 leaves %4 um, which is not clearly better, so the simpler model is taken"),
     QT_TRANSLATE_NOOP("core", "The warmest sensor rose by only %1 K: run longer or faster."),
     QT_TRANSLATE_NOOP("core", "One speed only: a second stretch at another speed would allow a guaranteed band."),
-    QT_TRANSLATE_NOOP(
-        "core", "The sensors rose nearly together (condition %1): a stretch with the spindle at rest separates them."),
+    QT_TRANSLATE_NOOP("core", "The sensors rose nearly together: a stretch with the spindle at rest separates them."),
     QT_TRANSLATE_NOOP("core", "the machine"),
     QT_TRANSLATE_NOOP("core", "largest rise %1 K"),
     QT_TRANSLATE_NOOP("core", "the set of sensors"),

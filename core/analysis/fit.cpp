@@ -265,9 +265,8 @@ RunQuality quality_of(const TrainingSet& set, const std::vector<std::string>& se
     q.advice.push_back("One speed only: a second stretch at another speed would allow a guaranteed band.");
   }
   if (q.condition_number > 100.0) {
-    q.advice.push_back(fmt::format(
-        "The sensors rose nearly together (condition {:.0f}): a stretch with the spindle at rest separates them.",
-        q.condition_number));
+    // Without the figure: the condition people are shown is the fitted model's, which the ridge has tamed.
+    q.advice.push_back("The sensors rose nearly together: a stretch with the spindle at rest separates them.");
   }
   return q;
 }

@@ -2714,10 +2714,6 @@
         <translation>只有一种转速：再增加一段其他转速的运行，即可给出有保证的预测带。</translation>
     </message>
     <message>
-        <source>The sensors rose nearly together (condition %1): a stretch with the spindle at rest separates them.</source>
-        <translation>各传感器几乎同步升温（条件数 %1）：增加一段主轴静止的过程可将它们区分开。</translation>
-    </message>
-    <message>
         <source>the machine</source>
         <translation>机床</translation>
     </message>
@@ -3680,6 +3676,10 @@
     <message>
         <source>ramp, %</source>
         <translation>渐变，%</translation>
+    </message>
+    <message>
+        <source>The sensors rose nearly together: a stretch with the spindle at rest separates them.</source>
+        <translation>各传感器几乎同步升温：增加一段主轴静止的过程可将它们区分开。</translation>
     </message>
 </context>
 <context>
@@ -5200,6 +5200,10 @@
         <source>%1 of %2 measurements without all directions</source>
         <translation>%2 次测量中有 %1 次方向不全</translation>
     </message>
+    <message>
+        <source>Pause</source>
+        <translation>暂停</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::RunPresenter</name>
@@ -6487,10 +6491,6 @@
         <translation>可达到的误差峰值</translation>
     </message>
     <message>
-        <source>Largest error that stays on unseen stretches, before anything is written.</source>
-        <translation>写入之前，在未参与拟合的数据段上残余的最大误差。</translation>
-    </message>
-    <message>
         <source>Valid</source>
         <translation>有效范围</translation>
     </message>
@@ -6571,10 +6571,6 @@
         <translation>方法</translation>
     </message>
     <message>
-        <source>on unseen stretches</source>
-        <translation>未参与拟合的数据段</translation>
-    </message>
-    <message>
         <source>Method</source>
         <translation>方法</translation>
     </message>
@@ -6627,14 +6623,6 @@
         <translation>选择一种方法，查看其残余误差。</translation>
     </message>
     <message>
-        <source>Left %1 µm on the end of the run; one cycle says nothing about other speeds.</source>
-        <translation>在运行末段残余 %1 µm；仅一个循环不能说明其他转速下的情况。</translation>
-    </message>
-    <message>
-        <source>Will leave %1 µm (90 %: %2 µm) at speeds like these.</source>
-        <translation>在类似转速下残余 %1 µm（90 %：%2 µm）。</translation>
-    </message>
-    <message>
         <source>From %1.</source>
         <translation>依据：%1。</translation>
     </message>
@@ -6649,6 +6637,22 @@
     <message>
         <source>Corrected by the newer run %1.</source>
         <translation>已按较新的运行 %1 修正。</translation>
+    </message>
+    <message>
+        <source>Largest single error of the worst axis that stays on unseen stretches.</source>
+        <translation>未参与拟合的数据段上最差轴残留的最大单次误差。</translation>
+    </message>
+    <message>
+        <source>on unseen stretches, mean of the axes</source>
+        <translation>未参与拟合的数据段，各轴平均</translation>
+    </message>
+    <message>
+        <source>Left %1 µm rms in the worst axis on the end of the run; one cycle says nothing about other speeds.</source>
+        <translation>运行末段最差轴残余 %1 µm（rms）；单个循环无法说明其他转速下的情况。</translation>
+    </message>
+    <message>
+        <source>Will leave %1 µm rms in the worst axis (90 %: %2 µm) at speeds like these.</source>
+        <translation>在类似转速下最差轴残余 %1 µm rms（90 %：%2 µm）。</translation>
     </message>
 </context>
 <context>

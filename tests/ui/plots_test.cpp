@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "ui/plots/custom_plot.h"
 #include "ui/plots/heat_map.h"
 #include "ui/plots/live_plot.h"
 #include "ui/plots/series.h"
@@ -21,6 +22,7 @@ class PlotsTest : public QObject {
   void gapsStayGaps();
   void timesMustAscend();
   void appendedSamplesArrive();
+  void namesStandWhereTheyFit();
   void linkedPlotsShareTime();
   void aDayIsDrawnQuickly();
   void csvHoldsWhatIsSeen();
@@ -93,6 +95,31 @@ void PlotsTest::appendedSamplesArrive() {
   QCOMPARE(plot.sampleCount("a"), 4);
   plot.clearData();
   QCOMPARE(plot.sampleCount("a"), 0);
+}
+
+void PlotsTest::namesStandWhereTheyFit() {
+  LivePlot plot;
+  plot.resize(600, 300);
+  plot.setCurves({{"a", "A", "K"}});
+  plot.append("a", {0, 10000}, {0, 1});
+  plot.setRegimes({{0, 5000, 3000, false}, {5000, 5100, 8000, false}, {5100, 10000, 1500, true}}, 8000);
+  plot.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&plot));
+  plot.flush();
+  const auto shown = [&plot] {
+    QStringList names;
+    auto* drawn = plot.findChild<QCustomPlot*>();
+    for (int i = 0; i < drawn->itemCount(); ++i) {
+      const auto* text = qobject_cast<const QCPItemText*>(drawn->item(i));
+      if (text != nullptr && text->visible() && text->text().contains("rpm")) names << text->text();
+    }
+    return names;
+  };
+  QCOMPARE(shown(), QStringList({"3000 rpm", "1500 rpm · coolant"}));
+  auto* drawn = plot.findChild<QCustomPlot*>();
+  drawn->xAxis->setRange(4990, 5110);  // looked at closely it has room, and its neighbours' names have none
+  drawn->replot();
+  QCOMPARE(shown(), QStringList("8000 rpm"));
 }
 
 void PlotsTest::linkedPlotsShareTime() {

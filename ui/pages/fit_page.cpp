@@ -115,7 +115,7 @@ QVector<PageAction> FitPage::secondary() const {
 QVector<Figure> FitPage::figures() const {
   Figure peak =
       figureAtMost(tr("Attainable peak error"), m_state.attainablePeak_um, 1, "µm", m_state.attainableLimit_um);
-  peak.tip = tr("Largest error that stays on unseen stretches, before anything is written.");
+  peak.tip = tr("Largest single error of the worst axis that stays on unseen stretches.");
   Figure validity = figureOf(tr("Valid"), NAN, 0, {}, m_state.validityLimits);
   validity.value = m_state.validity;
   return {peak, figureAtLeast(tr("Removed"), m_state.removed_percent, 0, "%", m_state.removedTarget_percent),
@@ -212,7 +212,7 @@ void FitPage::renderHistogram(const QVector<double>& residuals) {
 
 void FitPage::renderMethods() {
   m_methodCard->setTitle(tr("Methods"));
-  m_methodCard->setSubtitle(tr("on unseen stretches"));
+  m_methodCard->setSubtitle(tr("on unseen stretches, mean of the axes"));
   m_methods->setColumns(
       {{tr("Method"), 0, false, {}},
        {tr("rms"), 66, true, tr("Root mean square of what is left")},
@@ -248,10 +248,11 @@ void FitPage::renderWords() {
   if (std::isnan(m_state.attainableRms_um)) {
     m_headline->setText(tr("Choose a method to see what it will leave."));
   } else if (std::isnan(m_state.attainable90_um)) {
-    m_headline->setText(tr("Left %1 µm on the end of the run; one cycle says nothing about other speeds.")
-                            .arg(m_state.attainableRms_um, 0, 'f', 1));
+    m_headline->setText(
+        tr("Left %1 µm rms in the worst axis on the end of the run; one cycle says nothing about other speeds.")
+            .arg(m_state.attainableRms_um, 0, 'f', 1));
   } else {
-    m_headline->setText(tr("Will leave %1 µm (90 %: %2 µm) at speeds like these.")
+    m_headline->setText(tr("Will leave %1 µm rms in the worst axis (90 %: %2 µm) at speeds like these.")
                             .arg(m_state.attainableRms_um, 0, 'f', 1)
                             .arg(m_state.attainable90_um, 0, 'f', 1));
   }

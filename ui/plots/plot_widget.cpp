@@ -57,6 +57,10 @@ PlotWidget::PlotWidget(QWidget* parent) : QWidget(parent) {
     item->setVisible(false);
   }
   m_hoverPoint->position->setType(QCPItemPosition::ptPlotCoords);
+  connect(m_plot, &QCustomPlot::beforeReplot, this, [this] {
+    placeSpanTexts();
+    placeMarkTexts();
+  });
   m_placeholder = new QCPItemText(m_plot);
   m_placeholder->position->setType(QCPItemPosition::ptAxisRectRatio);
   m_placeholder->position->setCoords(0.5, 0.45);
@@ -172,12 +176,37 @@ void PlotWidget::setSpans(const QVector<Span>& spans) {
     text->position->setCoords(span.from, 0.0);
     text->setPositionAlignment(Qt::AlignTop | Qt::AlignLeft);
     text->setPadding(QMargins(5, 3, 0, 0));
+    text->setProperty("span", static_cast<int>(m_spanItems.size()) - 1);
     text->setText(span.label);
     text->setFont(uiFont(11));
     text->setColor(colors().muted);
     m_spanTexts.append(text);
   }
   replot();
+}
+
+/// The words of marks that stand too close to one another: the later ones keep their line alone.
+void PlotWidget::placeMarkTexts() {
+  double free_px = -1.0;
+  for (auto* text : m_markTexts) {
+    const double at_px = text->position->pixelPosition().x();
+    text->setVisible(at_px >= free_px);
+    if (text->visible()) free_px = at_px + QFontMetrics(text->font()).horizontalAdvance(text->text());
+  }
+}
+
+/// A name stands in the visible part of its span, and only where it fits: next to it stands another one.
+void PlotWidget::placeSpanTexts() {
+  const QCPRange range = xAxis()->range();
+  for (auto* text : m_spanTexts) {
+    const Span& span = m_spans[text->property("span").toInt()];
+    const double from = std::max(span.from, range.lower);
+    const double room_px = xAxis()->coordToPixel(std::min(span.to, range.upper)) - xAxis()->coordToPixel(from);
+    const QMargins padding = text->padding();
+    const int needed_px = QFontMetrics(text->font()).horizontalAdvance(text->text()) + padding.left() + padding.right();
+    text->position->setCoords(from, 0.0);
+    text->setVisible(room_px >= needed_px);
+  }
 }
 
 void PlotWidget::setLimits(const QVector<Limit>& limits) {
@@ -225,6 +254,7 @@ void PlotWidget::styleFrame() {
   for (auto* item : m_lineTexts) m_plot->removeItem(item);
   m_lines.clear();
   m_lineTexts.clear();
+  m_markTexts.clear();
   const auto line = [&](const QPointF& a, const QPointF& b, const QColor& color, const QString& text, bool upright) {
     auto* item = new QCPItemStraightLine(m_plot);
     item->point1->setCoords(a);
@@ -242,8 +272,10 @@ void PlotWidget::styleFrame() {
     word->position->setTypeY(upright ? QCPItemPosition::ptAxisRectRatio : QCPItemPosition::ptPlotCoords);
     word->position->setCoords(upright ? QPointF(a.x(), 0.0) : QPointF(0.0, a.y()));
     word->setPositionAlignment(upright ? Qt::AlignTop | Qt::AlignLeft : Qt::AlignBottom | Qt::AlignLeft);
-    word->setPadding(QMargins(5, 2, 2, 2));
+    // Below the names of the spans.
+    word->setPadding(QMargins(5, upright && hasSpanLabels() ? 18 : 2, 2, 2));
     m_lineTexts.append(word);
+    if (upright) m_markTexts.append(word);
   };
   for (const Limit& limit : m_limits) {
     line({0, limit.value}, {1, limit.value}, c.ink(limit.judgement), limit.label, false);

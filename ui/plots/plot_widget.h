@@ -107,12 +107,15 @@ class PlotWidget : public QWidget {
   void showPlaceholder(bool shown);
   const QVector<Limit>& limits() const { return m_limits; }
   bool hasSpanLabels() const { return !m_spanTexts.isEmpty(); }
+  bool hasMarkTexts() const { return !m_markTexts.isEmpty(); }
   void changeEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   bool event(QEvent* event) override;
 
  private:
   void styleFrame();
+  void placeSpanTexts();
+  void placeMarkTexts();
   void showHover(const QPointF& pixel);
   void hideHover();
   void openMenu(const QPoint& at);
@@ -126,6 +129,7 @@ class PlotWidget : public QWidget {
   QVector<QCPItemText*> m_spanTexts;
   QVector<QCPItemStraightLine*> m_lines;
   QVector<QCPItemText*> m_lineTexts;
+  QVector<QCPItemText*> m_markTexts;  // those of them that belong to marks
   QVector<Span> m_spans;
   QVector<Limit> m_limits;
   QVector<Mark> m_marks;

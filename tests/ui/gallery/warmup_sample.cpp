@@ -39,14 +39,14 @@ static void fillRun(RunView* run, double duration_s) {
   for (int i = 0; i < 3; ++i) {
     const auto curve = warming(measured, 0.0, drift[i], tau[i], 0.12, 40 + i);
     run->append(errors[i].id, measured, curve);
-    values.append({errors[i].id, curve.last(), "OK", Judgement::ok});
+    values.append({errors[i].id, curve.last(), "± 0.07 µm", Judgement::none});
   }
   QVector<double> speed;
   for (const double t : time) speed.append(t < 300 ? 0.0 : t < 9000 ? 3000.0 : 1500.0);
   run->append("spindle_rpm", time, speed);
   values.append({"spindle_rpm", speed.last(), {}, Judgement::none});
   run->setValues(values);
-  run->setRegimes({{300, 9000, 3000, false}, {9000, duration_s, 1500, true}}, 8000);
+  run->setRegimes({{300, 9000, 3000, false}, {9000, 9150, 8000, true}, {9150, duration_s, 1500, true}}, 8000);
   run->setMarks({{4210, "Door opened", Judgement::none}, {7000, "T14 lost 6 min", Judgement::warn}});
   CameraMarks marks;
   marks.targetRegion = {222, 132, 196, 196};
