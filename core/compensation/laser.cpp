@@ -31,6 +31,7 @@ bool is_utf8(std::string_view bytes) {
 
 std::string converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = ::iconv_open("UTF-8//IGNORE", encoding);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the error value that POSIX gives it
   if (converter == reinterpret_cast<iconv_t>(-1)) return std::string(bytes);
   std::string input(bytes);
   std::string out(bytes.size() * 3 + 16, '\0');
@@ -149,7 +150,8 @@ std::optional<double> number_from(std::string_view word) {
   return value;
 }
 
-Result<LaserReport> assemble(std::vector<RawReading> readings, const std::string& file, const LaserOptions& options) {
+Result<LaserReport> assemble(const std::vector<RawReading>& readings, const std::string& file,
+                             const LaserOptions& options) {
   LaserReport report;
   report.file = file;
   for (const auto& one : readings) report.targets_mm.push_back(one.target_mm);

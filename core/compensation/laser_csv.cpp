@@ -128,7 +128,7 @@ Result<LaserReport> parse_csv(std::string_view text, const std::string& file, co
     if (columns.run < 0) one.run = ++seen[{one.target_mm, one.approach == Approach::up ? 0 : 1}];
     readings.push_back(one);
   }
-  ZD_TRY(LaserReport report, assemble(std::move(readings), file, options));
+  ZD_TRY(LaserReport report, assemble(readings, file, options));
   report.axis = axes.chosen;
   report.axes = axes.all;
   return report;

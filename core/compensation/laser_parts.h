@@ -34,7 +34,8 @@ std::string lowered(std::string text);
 std::optional<Approach> approach_word(std::string word);
 
 /// Numbers the targets; csv-style errors name file and line.
-Result<LaserReport> assemble(std::vector<RawReading> readings, const std::string& file, const LaserOptions& options);
+Result<LaserReport> assemble(const std::vector<RawReading>& readings, const std::string& file,
+                             const LaserOptions& options);
 
 Result<LaserReport> parse_csv(std::string_view text, const std::string& file, const LaserOptions& options);
 Result<LaserReport> parse_mapped(std::string_view text, const std::string& file, const LaserMapping& mapping,

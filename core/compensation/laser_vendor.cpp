@@ -143,7 +143,7 @@ Result<LaserReport> parse_rtl(std::string_view text, const std::string& file, co
   for (const auto& one : rtl.deviations) {
     readings.push_back({rtl.targets_mm[one.target - 1], direction.at(one.run), cycle.at(one.run), one.um});
   }
-  ZD_TRY(LaserReport report, assemble(std::move(readings), file, options));
+  ZD_TRY(LaserReport report, assemble(readings, file, options));
   report.machine = rtl.machine;
   report.axis = rtl.axis;
   return report;
@@ -160,7 +160,7 @@ Result<LaserReport> parse_ren(std::string_view text, const std::string& file, co
   }
   // Rows are "number position combined"; header lines with a single number are shorter.
   ZD_TRY(auto readings, read_rows(text, file, 1, 2, in_mm ? -1000.0 : -1.0));
-  ZD_TRY(LaserReport report, assemble(std::move(readings), file, options));
+  ZD_TRY(LaserReport report, assemble(readings, file, options));
   report.warnings.push_back(
       fmt::format("{}: compensation values in {} are taken as -error; confirm sign and unit on one point", file,
                   in_mm ? "mm" : "um"));
@@ -169,7 +169,7 @@ Result<LaserReport> parse_ren(std::string_view text, const std::string& file, co
 
 Result<LaserReport> parse_pos(std::string_view text, const std::string& file, const LaserOptions& options) {
   ZD_TRY(auto readings, read_rows(text, file, 0, 1, -1000.0));
-  ZD_TRY(LaserReport report, assemble(std::move(readings), file, options));
+  ZD_TRY(LaserReport report, assemble(readings, file, options));
   report.warnings.push_back(fmt::format(
       "{}: values in mm are taken as -error, as the known reader does; confirm the sign on one point", file));
   return report;

@@ -31,6 +31,7 @@ Device::Device() : m_words(6000, 0) {
     return write(address, values);
   };
   options.fault = [this](bool) {
+    const std::scoped_lock guard(m_lock);
     const int n = m_requests++;
     const bool hit = m_spoil_at >= 0 && (m_lasting ? n >= m_spoil_at : n == m_spoil_at);
     return hit ? m_fault : ReplyFault{};
@@ -77,6 +78,7 @@ double Device::float_at(int address) const {
 }
 
 void Device::spoil(int n, ReplyFault fault, bool lasting) {
+  const std::scoped_lock guard(m_lock);
   m_fault = fault;
   m_lasting = lasting;
   m_requests = 0;
