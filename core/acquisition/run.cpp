@@ -40,6 +40,7 @@ Result<RunSummary> Run::record(bool from_rest) {
   m_summary.trend = m_trend.now();
   if (!end) {
     event("problem", std::string(name_of(end.error().code)), details_of(end.error()));
+    m_log.commit();
     publish(RunPhase::ended);
     return fail(std::move(end).error().with("machine_stopped", m_summary.machine_stopped ? "yes" : "no"));
   }
@@ -68,7 +69,8 @@ Result<RunEnd> Run::loop(bool from_rest) {
       if (!m_paused_since_s) ZD_CHECK(command_step());
       if (time_now_s() >= m_next_sample_s) ZD_CHECK(take_sample());
     }
-    if (m_log.failing_s() > longest_sink_failure_s) return fail(*m_log.failure());
+    const auto failure = m_log.failure();
+    if (failure && m_log.failing_s() > longest_sink_failure_s) return fail(*failure);
     wait_for_next();
   }
 }
@@ -134,8 +136,10 @@ void Run::wait_for_next() {
     const bool asked = m_control.paused() != paused || m_control.finish_requested();
     if (wait_s <= 0.0 || stopped() || asked) return;
     m_log.commit_before_waiting(wait_s / m_options.time_factor);
+    const double left_s = idle_s();
+    if (left_s <= 0.0) return;
     // Never so short that rounding makes it nothing.
-    const double slice = std::max(shortest_wait_s, std::min(wait_s, slice_s * m_options.time_factor));
+    const double slice = std::max(shortest_wait_s, std::min(left_s, slice_s * m_options.time_factor));
     m_clock.wait_for(Seconds(slice), m_context.stop);
   }
 }
@@ -200,7 +204,6 @@ Status Run::measure_here() {
   using WallClock = std::chrono::steady_clock;
   ZD_TRY(const MachineSample before, read());
   const WallClock::time_point begin = WallClock::now();
-  m_log.commit_before_waiting(m_options.commit_period_s);  // a camera may take its time
   const Result<ErrorSample> measured = m_errors.measure(m_context);
   if (!measured && measured.error().code == ErrorCode::cancelled) return cancelled();
   note_measurement(measured);
@@ -282,7 +285,7 @@ void Run::publish(RunPhase phase, const std::vector<double>* row, const ErrorSam
   if (m_layout) update.channels = m_layout->channels();
   update.problems = m_problems.now();
   update.happened = m_happened.all();
-  if (m_log.failure()) update.problems.push_back(*m_log.failure());
+  if (const auto failure = m_log.failure()) update.problems.push_back(*failure);
   update.trend = m_trend.now();
   update.rows = m_log.rows();
   update.committed_rows = m_log.committed_rows();

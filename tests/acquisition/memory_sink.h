@@ -1,7 +1,10 @@
 #pragma once
-// A sink that remembers, and refuses when told.
+// A sink that remembers, and refuses or takes its time when told.
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "core/acquisition/run_sink.h"
@@ -25,6 +28,7 @@ class MemorySink : public RunSink {
   }
   Status flush() override {
     ++flushes;
+    std::this_thread::sleep_for(flush_takes);
     if (full) return fail(ErrorCode::disk_full, {{"file", "memory"}});
     committed = times.size();
     return {};
@@ -51,7 +55,8 @@ class MemorySink : public RunSink {
   std::vector<RunEvent> events;
   std::size_t committed = 0;
   int flushes = 0;
-  bool full = false;
+  std::atomic<bool> full = false;  // set by the test while another thread writes
+  std::chrono::milliseconds flush_takes{0};
   std::optional<RunEnd> ended;
 };
 

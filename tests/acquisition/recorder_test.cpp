@@ -364,6 +364,26 @@ TEST_F(RecorderTest, KeepsRowsWhileTheDiskIsFull) {
   EXPECT_EQ(sink.committed, sink.times.size());
 }
 
+// By the wall: each commit takes longer than two sample periods, and no period passes without its row.
+TEST_F(RecorderTest, ASlowDiskTakesNoRowAway) {
+  SystemClock wall;
+  FakeMachine wall_machine{wall};
+  FakeErrors wall_errors{wall};
+  wall_machine.move_s = 0.0;
+  wall_errors.measure_s = 0.01;
+  sink.flush_takes = std::chrono::milliseconds(1200);
+  plan.sample_period_s = 0.5;
+  plan.measure_period_s = 60.0;
+  plan.steps = {{5.0, 3000.0, true, true}};
+  options.commit_period_s = 0.2;
+  Recorder recorder(wall_machine, wall_errors, wall, sink, options);
+  const auto summary = recorder.run(plan, {});
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(summary->lost_samples, 0);
+  EXPECT_GE(sink.times.size(), 10U);
+  EXPECT_EQ(sink.committed, sink.times.size());
+}
+
 TEST_F(RecorderTest, SurvivesAClockThatStandsStill) {
   machine.change = [&](MachineSample& sample) {
     const double now = machine.now_s();
