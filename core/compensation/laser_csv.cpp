@@ -48,21 +48,22 @@ Result<Columns> columns_of(const TextTable& table) {
                {"expected", "position_mm,error_um or target_mm,measured_mm or target_mm,direction,run,measured_mm"}});
 }
 
+tl::unexpected<Error> bad_cell(const TextTable& table, std::size_t row, int column) {
+  return fail(ErrorCode::csv_bad_number, {{"file", table.file},
+                                          {"line", std::to_string(table.lines[row])},
+                                          {"column", table.header[static_cast<std::size_t>(column)]},
+                                          {"found", table.rows[row][static_cast<std::size_t>(column)]}});
+}
+
 Result<Approach> approach_from(const TextTable& table, std::size_t row, int column) {
-  const std::string& word = table.rows[row][static_cast<std::size_t>(column)];
-  if (const auto approach = approach_word(word)) return *approach;
-  return fail(
-      ErrorCode::csv_bad_number,
-      {{"file", table.file}, {"line", std::to_string(table.lines[row])}, {"column", "direction"}, {"found", word}});
+  if (const auto approach = approach_word(table.rows[row][static_cast<std::size_t>(column)])) return *approach;
+  return bad_cell(table, row, column);
 }
 
 Result<double> cell(const TextTable& table, std::size_t row, int column) {
   ZD_TRY(const double value, recording::number_in(table, row, column));
   if (std::isfinite(value)) return value;
-  return fail(ErrorCode::csv_bad_number, {{"file", table.file},
-                                          {"line", std::to_string(table.lines[row])},
-                                          {"column", table.header[static_cast<std::size_t>(column)]},
-                                          {"found", ""}});
+  return bad_cell(table, row, column);
 }
 
 Result<RawReading> reading_at(const TextTable& table, std::size_t row, const Columns& columns) {
@@ -78,8 +79,10 @@ Result<RawReading> reading_at(const TextTable& table, std::size_t row, const Col
     ZD_TRY(one.approach, approach_from(table, row, columns.direction));
   }
   if (columns.run >= 0) {
-    ZD_TRY(const double run, cell(table, row, columns.run));
-    one.run = static_cast<int>(run);
+    ZD_TRY(const double number, cell(table, row, columns.run));
+    const auto run = run_number(number);
+    if (!run) return bad_cell(table, row, columns.run);
+    one.run = *run;
   }
   return one;
 }

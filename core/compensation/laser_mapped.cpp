@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/compensation/laser_parts.h"
 
 namespace zerodrift::compensation::laser_parts {
 
 namespace {
+
+constexpr double most_runs = 1e6;  // a number beyond names no run
 
 /// Readings of one row; runs of the columns are counted from 1 in each direction.
 struct MappedRow {
@@ -51,7 +54,7 @@ class MappedReader {
       const LaserColumn role = m_mapping.columns[i];
       if (role == LaserColumn::direction) row.approach = approach_word(cells[i]);
       if (role == LaserColumn::run) {
-        if (const auto run = number_in_cell(cells[i], m_mapping.decimal_comma)) row.run = static_cast<int>(*run);
+        if (const auto run = number_in_cell(cells[i], m_mapping.decimal_comma)) row.run = run_number(*run);
       }
       if ((!is_error(role) && !is_measured(role)) || cells[i].empty()) continue;  // empty: not measured here
       const auto value = number_in_cell(cells[i], m_mapping.decimal_comma);
@@ -156,6 +159,11 @@ std::optional<double> number_in_cell(std::string cell, bool decimal_comma) {
     }
   }
   return number_from(cell);
+}
+
+std::optional<int> run_number(double value) {
+  if (value < 0.0 || value > most_runs || value != std::floor(value)) return {};
+  return static_cast<int>(value);
 }
 
 std::optional<Approach> approach_word(std::string word) {

@@ -28,6 +28,8 @@ std::optional<double> number_from(std::string_view word);
 /// Cells between separators, trimmed; ' ' parts at blanks and tabs.
 std::vector<std::string> cells_of_line(std::string_view line, char separator);
 std::optional<double> number_in_cell(std::string cell, bool decimal_comma);
+/// Whole and not below 0; nothing for a number that names no run.
+std::optional<int> run_number(double value);
 /// ASCII letters in lower case.
 std::string lowered(std::string text);
 /// "up", "forward", "+1", ...; nothing for a word that is no direction.

@@ -62,7 +62,9 @@ Status read_deviation(const Line& line, const std::string& file, Rtl& rtl) {
   if (values[1] < 1 || values[1] > static_cast<double>(rtl.targets_mm.size())) {
     return bad_number(file, line.number, "Target", words[1]);
   }
-  rtl.deviations.push_back({static_cast<int>(values[0]), static_cast<std::size_t>(values[1]), values[2]});
+  const auto run = run_number(values[0]);
+  if (!run) return bad_number(file, line.number, "Run", words[0]);
+  rtl.deviations.push_back({*run, static_cast<std::size_t>(values[1]), values[2]});
   return {};
 }
 

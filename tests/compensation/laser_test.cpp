@@ -107,6 +107,33 @@ TEST(Laser, FaultsNameTheLine) {
   EXPECT_TRUE(parse_laser("Pos,Err\n0,1\n1,1\n", "a.csv", mapped));
 }
 
+// A number that names no run: refused where the form names its columns, else the runs are counted.
+TEST(Laser, ARunBeyondAnyCountIsNone) {
+  const std::string head = "target_mm,direction,run,measured_mm\n0,up,1,0.001\n10,up,";
+  EXPECT_TRUE(parse_laser(head + "1,10.002\n", "a.csv"));
+  for (const char* run : {"1e300", "-1", "1.5", "99999999999"}) {
+    const auto report = parse_laser(head + run + ",10.002\n", "a.csv");
+    ASSERT_FALSE(report) << run;
+    EXPECT_EQ(report.error().context.at("column"), "run");
+    EXPECT_EQ(report.error().context.at("found"), run);
+  }
+  LaserOptions options;
+  options.mapping = LaserMapping{};
+  options.mapping->separator = ' ';
+  options.mapping->columns = {LaserColumn::position, LaserColumn::run, LaserColumn::error};
+  const auto counted = parse_laser("0 1e300 1\n10 nan 2\n10 1e300 4\n", "a.dat", options);
+  ASSERT_TRUE(counted) << describe(counted.error());
+  ASSERT_EQ(counted->readings.size(), 3U);
+  EXPECT_EQ(counted->readings[2].run, 2);
+  std::string vendor = rtl_of("VMC", false);
+  const auto at = vendor.find("Run Target Data");
+  ASSERT_NE(at, std::string::npos);
+  const auto row = vendor.find('\n', at) + 1;
+  const auto digit = vendor.find_first_of("0123456789", row);
+  vendor.insert(digit, "9999999999");
+  EXPECT_FALSE(parse_laser(vendor, "a.rtl"));
+}
+
 TEST(Laser, RenishawLinear) {
   const auto report = parse_laser(rtl_of("VMC", true), "a.rtl");
   ASSERT_TRUE(report) << describe(report.error());

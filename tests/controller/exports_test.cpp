@@ -115,6 +115,35 @@ TEST(Exports, EveryFormatStatesItsSignAndRefusesNonsense) {
   EXPECT_EQ(export_format("mach4").error().code, ErrorCode::bad_argument);
 }
 
+// A file that claims points without end, numbers beyond any type, or half a line is refused and takes no time.
+TEST(Exports, HostileNumbersAreRefused) {
+  const auto* fanuc = *export_format("fanuc");
+  const auto file = [](const std::string& reference, const std::string& lowest, const std::string& highest) {
+    return "N03620 Q1 A1 P" + reference + "\nN03621 Q1 A1 P" + lowest + "\nN03622 Q1 A1 P" + highest +
+           "\nN03624 Q1 A1 P50000\nN10041 Q0 P2\n";
+  };
+  EXPECT_TRUE(fanuc->read(file("40", "41", "41"), {}));
+  EXPECT_FALSE(fanuc->read(file("40", "-2000000000", "2000000000"), {}));
+  EXPECT_FALSE(fanuc->read(file("40", "41", "900000000"), {}));
+  EXPECT_FALSE(fanuc->read(file("2147483647", "41", "42"), {}));
+  for (const char* number : {"1e300", "nan", "inf", "0.5", "", "99999999999999999999"}) {
+    EXPECT_FALSE(fanuc->read(file("40", "41", number), {})) << number;
+    EXPECT_FALSE(fanuc->read(file("40", "41", "41") + "N10042 Q0 P" + number + "\n", {})) << number;
+  }
+  const auto* thermal = *export_format("sinumerik-thermal");
+  EXPECT_FALSE(thermal->read("; R800 =", {}));
+  ExportOptions warm;
+  warm.temperatures = {{"T1_C", 20.0}};
+  const std::string slope = "$SA_TEMP_COMP_SLOPE[X1]=0.1+1*(R800-20)\n";
+  EXPECT_TRUE(thermal->read("; R800 = T1_C\n" + slope, warm));
+  EXPECT_FALSE(thermal->read("; Rnan = T1_C\n; R1e300 = T1_C\n" + slope, warm));
+  EXPECT_FALSE((*export_format("linuxcnc"))->read("0 nan 0\n1 1 1\n", {}));
+  EXPECT_FALSE((*export_format("linuxcnc"))->read("10 10 10\n0 0 0\n", {}));
+  const auto* leadscrew = *export_format("sinumerik-leadscrew");
+  EXPECT_FALSE(leadscrew->read("$AA_ENC_COMP[0,99999999999999999999,X1]=0.001\n$AA_ENC_COMP[0,7,X1]=0.1\n", {}));
+  EXPECT_TRUE(leadscrew->read("$AN_CEC[1,0]=0.001\n$AN_CEC_DIRECTION[1]=1e300\n$AN_CEC_INPUT_AXIS[1]=(X1)\n", {}));
+}
+
 TEST(Exports, LinuxCncHasNothingThatEndsReading) {
   const auto out = (*export_format("linuxcnc"))->write(one_axis({{0, 0, 0, 0}, {100, 10, 12, 0}}), {});
   ASSERT_TRUE(out) << describe(out.error());

@@ -169,14 +169,21 @@ int limit_of(const ExportFormat& format, const ExportOptions& options) {
 }
 
 std::optional<double> number_after(std::string_view line, std::string_view key) {
-  const auto at = line.rfind(key);
+  const auto at = key.empty() ? 0 : line.rfind(key);
   if (at == std::string_view::npos) return std::nullopt;
   std::string_view rest = line.substr(at + key.size());
   while (!rest.empty() && (rest.front() == ' ' || rest.front() == '+')) rest.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-  if (error != std::errc{}) return std::nullopt;
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<int> whole_after(std::string_view line, std::string_view key) {
+  constexpr double largest = 1e9;
+  const auto value = number_after(line, key);
+  if (!value || std::abs(*value) > largest || *value != std::floor(*value)) return std::nullopt;
+  return static_cast<int>(*value);
 }
 
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -194,6 +201,19 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 tl::unexpected<Error> unreadable(std::string_view format, std::string_view line, std::string_view expected) {
   return fail(ErrorCode::wrong_format,
               {{"file", std::string(format)}, {"found", std::string(line)}, {"expected", std::string(expected)}});
+}
+
+Result<Table> checked(std::string_view format, Table table) {
+  for (const auto& [name, axis] : table.axes) {
+    double before_mm = -std::numeric_limits<double>::infinity();
+    for (const auto& point : axis.points) {
+      const bool number = std::isfinite(point.position_mm) && std::isfinite(point.error_up_um) &&
+                          std::isfinite(point.error_down_um) && point.position_mm >= before_mm;
+      if (!number) return unreadable(format, "axis " + name, "finite numbers, positions in order");
+      before_mm = point.position_mm;
+    }
+  }
+  return table;
 }
 
 }  // namespace zerodrift::controller::exports

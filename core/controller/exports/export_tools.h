@@ -60,9 +60,14 @@ void tell_temperature(const compensation::AxisTable& axis, const std::string& na
 void tell_directions(const Curve& curve, const std::string& name, const std::string& where, Exported& exported);
 
 int limit_of(const ExportFormat& format, const ExportOptions& options);
-/// Number after the last '=' of a line, or after a letter of an NC word ("P-3"); nothing when there is none.
+/// Number after the last '=' of a line, or after a letter of an NC word ("P-3"), or with an empty key at the beginning;
+/// nothing when there is none.
 std::optional<double> number_after(std::string_view line, std::string_view key);
+/// The same where a count or the number of a point is meant: whole, at most 1e9 either way.
+std::optional<int> whole_after(std::string_view line, std::string_view key);
 std::vector<std::string_view> lines_of(std::string_view text);
 tl::unexpected<Error> unreadable(std::string_view format, std::string_view line, std::string_view expected);
+/// What a reader has understood, if its numbers are any and its positions do not run back.
+Result<compensation::Table> checked(std::string_view format, compensation::Table table);
 
 }  // namespace zerodrift::controller::exports

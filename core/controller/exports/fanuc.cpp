@@ -17,6 +17,7 @@ namespace {
 using compensation::Table;
 
 constexpr int pitch_offset = 10000;  // N10040 is point 40
+constexpr int most_points = 10000;   // of any series; a file that claims more is none
 constexpr int first_gap = 10;        // free points between two axes
 constexpr int largest_old_increment = 7;
 
@@ -57,6 +58,12 @@ struct AxisFile {
   int lowest = 0;
   int highest = 0;
   double interval_mm = 0.0;
+
+  /// Points of the control's list, in order, with the reference among them or just before them.
+  bool possible() const {
+    return lowest >= -most_points && highest <= most_points && lowest <= highest + 1 && reference >= lowest - 1 &&
+           reference <= highest;
+  }
 };
 
 Result<Table> read_fanuc(std::string_view text, const ExportOptions& options) {
@@ -64,32 +71,33 @@ Result<Table> read_fanuc(std::string_view text, const ExportOptions& options) {
   std::map<std::string, AxisFile> axes;
   for (const std::string_view line : lines_of(text)) {
     if (!line.starts_with("N")) continue;
-    const int number = static_cast<int>(number_after(line.substr(0, line.find(' ')), "N").value_or(0.0));
-    const double value = number_after(line, "P").value_or(0.0);
+    const int number = whole_after(line.substr(0, line.find(' ')), "N").value_or(0);
+    const auto value = whole_after(line, "P");
+    if (!value) return unreadable("fanuc", line, "a whole number after P");
     if (number >= pitch_offset) {
-      increments[number - pitch_offset] = std::lround(value);
+      increments[number - pitch_offset] = *value;
       continue;
     }
-    const int axis = static_cast<int>(number_after(line, "A").value_or(0.0));
+    const int axis = whole_after(line, "A").value_or(0);
     if (axis < 1 || axis > 3) return unreadable("fanuc", line, "a parameter with axis A1 to A3");
     AxisFile& file = axes[std::string(1, "XYZ"[axis - 1])];
-    if (number == 3620) file.reference = static_cast<int>(value);
-    if (number == 3621) file.lowest = static_cast<int>(value);
-    if (number == 3622) file.highest = static_cast<int>(value);
-    if (number == 3624) file.interval_mm = 1e-3 * value;
+    if (number == 3620) file.reference = *value;
+    if (number == 3621) file.lowest = *value;
+    if (number == 3622) file.highest = *value;
+    if (number == 3624) file.interval_mm = 1e-3 * *value;
   }
   if (axes.empty()) return unreadable("fanuc", text.substr(0, 40), "parameters 3620 to 3624");
   Table table;
   for (const auto& [name, file] : axes) {
+    if (!file.possible()) {
+      return unreadable("fanuc", fmt::format("reference point {}", file.reference), "one between lowest and highest");
+    }
     std::vector<double> x;
     std::vector<double> um;
     long sum = 0;
     std::vector<long> sums = {0};
     for (int point = file.lowest; point <= file.highest; ++point) sums.push_back(sum += increments[point]);
     const int reference_index = file.reference - file.lowest + 1;
-    if (reference_index < 0 || reference_index >= static_cast<int>(sums.size())) {
-      return unreadable("fanuc", fmt::format("reference point {}", file.reference), "one between lowest and highest");
-    }
     const double reference_mm = options.fanuc_reference_mm;
     for (int i = 0; i < static_cast<int>(sums.size()); ++i) {
       x.push_back(reference_mm + file.interval_mm * (i - reference_index));
@@ -98,7 +106,7 @@ Result<Table> read_fanuc(std::string_view text, const ExportOptions& options) {
     }
     table.axes[name] = axis_from(x, um, um);
   }
-  return table;
+  return checked("fanuc", std::move(table));
 }
 
 /// Parameters and increments of one axis; the same as a G10 program.

@@ -41,7 +41,7 @@ Result<Table> read_heidenhain(std::string_view text, const ExportOptions&) {
   if (x.size() < 2) return unreadable("heidenhain", lines.front(), "two rows or more");
   Table table;
   table.axes[std::string(1, name)] = axis_from(x, um, um);
-  return table;
+  return checked("heidenhain", std::move(table));
 }
 
 Result<Exported> write_heidenhain(const Table& table, const ExportOptions& options) {

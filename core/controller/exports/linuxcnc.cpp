@@ -28,7 +28,7 @@ Result<Table> read_linuxcnc(std::string_view text, const ExportOptions& options)
   if (x.size() < 2) return unreadable("linuxcnc", text.substr(0, text.find('\n')), "lines of three numbers");
   Table table;
   table.axes[options.axis.empty() ? "X" : options.axis] = axis_from(x, up, down);
-  return table;
+  return checked("linuxcnc", std::move(table));
 }
 
 Result<Exported> write_linuxcnc(const Table& table, const ExportOptions& options) {

@@ -68,7 +68,7 @@ void take(Block& block, std::string_view name, std::string_view line, int point)
   else if (name.ends_with("_MIN"))
     block.start = value;
   else if (name.ends_with("_DIRECTION"))
-    block.direction = static_cast<int>(value);
+    block.direction = value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
   else if (name == "$AA_ENC_COMP" || name == "$AN_CEC")
     block.mm[point] = value;
 }
@@ -96,7 +96,7 @@ Result<Table> read_sinumerik_leadscrew(std::string_view text, const ExportOption
     Block& block = blocks[cec ? fields.front() : fields.back()];
     if (!cec) block.axis = fields.back();
     if (name == "$AN_CEC_INPUT_AXIS") block.axis = std::string(line.substr(line.find('(') + 1, 2));
-    take(block, name, line, fields.size() > 1 ? std::atoi(fields[1].c_str()) : 0);
+    take(block, name, line, fields.size() > 1 ? whole_after(fields[1], "").value_or(0) : 0);
   }
   Table table;
   for (const auto& [id, block] : blocks) {
@@ -114,7 +114,7 @@ Result<Table> read_sinumerik_leadscrew(std::string_view text, const ExportOption
     }
   }
   if (table.axes.empty()) return unreadable("sinumerik-leadscrew", text.substr(0, 40), "$AA_ENC_COMP or $AN_CEC");
-  return table;
+  return checked("sinumerik-leadscrew", std::move(table));
 }
 
 Result<Exported> write_sinumerik_leadscrew(const Table& table, const ExportOptions& options) {

@@ -82,11 +82,10 @@ Result<Table> read_sinumerik_thermal(std::string_view text, const ExportOptions&
   for (const std::string_view line : lines_of(text)) {
     if (line.starts_with("; R")) {  // "; R800 = T3_C"
       const auto equals = line.find('=');
-      if (equals == std::string_view::npos) continue;
+      if (equals == std::string_view::npos || equals + 2 > line.size()) continue;
       const auto temperature = options.temperatures.find(std::string(line.substr(equals + 2)));
-      if (temperature != options.temperatures.end()) {
-        parameters[static_cast<int>(number_after(line, "; R").value_or(0.0))] = temperature->second;
-      }
+      const auto number = whole_after(line, "; R");
+      if (number && temperature != options.temperatures.end()) parameters[*number] = temperature->second;
     }
     const auto open = line.find('[');
     if (!line.starts_with("$SA_TEMP_COMP") || open == std::string_view::npos) continue;
@@ -105,7 +104,7 @@ Result<Table> read_sinumerik_thermal(std::string_view text, const ExportOptions&
     for (const double position : x) um.push_back(1000.0 * (one.value_mm + one.slope * (position - one.reference_mm)));
     table.axes[name] = axis_from(x, um, um);
   }
-  return table;
+  return checked("sinumerik-thermal", std::move(table));
 }
 
 /// The position points have no place in a straight line.
