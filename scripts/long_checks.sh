@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
-# What `./check --long` does after the everyday tests: each part by name, so that one can be run alone.
-#   scripts/long_checks.sh [kills|disk|cable|days|fuzz|asan|tsan|static|tour ...]
+# What `./check --long` does after the everyday tests: each part by name, so that one can be run alone. A part that
+# fails does not keep the next from running; at the end each stands with its outcome and its time, and the script fails
+# if one of them did.
+#   scripts/long_checks.sh [kills|disk|cable|days|tour|fuzz|asan|tsan|static ...]
+#   ZERODRIFT_FUZZ_SECONDS=3600: how long each reader is fuzzed (a minute)
 set -euo pipefail
 source "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/prepare.sh"
 bin="$build_dir/bin"
@@ -45,8 +48,9 @@ asan() { # in the build of the fuzz targets: the same compiler and flags, so tha
   sanitized fuzz address,undefined ON access_tests base_tests commissioning_tests recording_tests acquisition_tests \
     analysis_tests physics_tests compensation_tests controller_tests vision_tests report_tests flow_tests
 }
-tsan() {
-  sanitized tsan thread OFF access_tests base_tests commissioning_tests acquisition_tests controller_tests vision_tests
+tsan() { # the whole of core
+  sanitized tsan thread OFF access_tests base_tests commissioning_tests acquisition_tests controller_tests vision_tests \
+    recording_tests analysis_tests physics_tests diagnosis_tests compensation_tests flow_tests report_tests
 }
 static() {
   cppcheck --enable=warning,performance,portability --inline-suppr --std=c++20 --language=c++ -q -I "$root" \
@@ -71,8 +75,23 @@ tour() { # the window's event loop, in the whole wizard
   QT_QPA_PLATFORM=offscreen "$bin/zerodrift" --tour "$folder"
 }
 
+# A part alone, with every failure ending it; in a process of its own, since `if` and `||` switch that off in bash.
+if [ "${1:-}" = --part ]; then
+  "$2"
+  exit
+fi
 [ $# -gt 0 ] || set -- kills disk cable days tour fuzz asan tsan static
 for part in "$@"; do
-  say "$part"
-  "$part"
+  declare -F "$part" >/dev/null || { echo "no part is called $part; see the head of $0" >&2; exit 2; }
 done
+outcome=0
+summary=()
+for part in "$@"; do
+  say "$part"
+  begin=$SECONDS
+  if "$0" --part "$part"; then result=passed; else result=FAILED outcome=1; fi
+  summary+=("$(printf '%-8s %-6s %6d s' "$part" "$result" $((SECONDS - begin)))")
+done
+say "Long checks"
+printf '%s\n' "${summary[@]}"
+exit "$outcome"

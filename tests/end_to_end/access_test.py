@@ -1,14 +1,17 @@
 """Who may write: without a PIN everybody, with one only who has it; what was written stands in a trail that shows every
-change; and a camera's password is nowhere but in the profile it came in.
+change; a camera's password is nowhere but in the profile it came in; and nothing listens but what was started to listen,
+and that at 127.0.0.1 alone.
 
 Usage: access_test.py"""
 
 import json
 import os
 import sqlite3
+import subprocess
+import time
 
 from rollback_test import table, words
-from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
+from virtual_machine import BIN, VirtualMachine, cli, run_in_folder, write_json
 
 SECRET = "s3cret-of-the-camera"
 
@@ -95,10 +98,50 @@ def trail_shows_every_change(folder, job):
     refused("damaged", "audit", "--job", job)
 
 
+def listening(process):
+    """(address, port) of every socket of this process and its children that takes connections or datagrams."""
+    inodes = set()
+    for number in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{number}/stat") as file:
+                parent = int(file.read().rsplit(")", 1)[1].split()[1])
+            if process not in (int(number), parent):
+                continue
+            links = [os.readlink(f"/proc/{number}/fd/{name}") for name in os.listdir(f"/proc/{number}/fd")]
+        except OSError:  # it has just ended
+            continue
+        inodes |= {link[8:-1] for link in links if link.startswith("socket:[")}
+    found = set()
+    for table_name, state in (("tcp", "0A"), ("tcp6", "0A"), ("udp", "07"), ("udp6", "07")):
+        with open(f"/proc/{process}/net/{table_name}") as file:
+            for row in map(str.split, file.readlines()[1:]):
+                if row[3] == state and row[9] in inodes:
+                    address, port = row[1].split(":")
+                    found.add((address, int(port, 16)))
+    return found
+
+
+def nothing_listens_that_was_not_started(folder, machine):
+    served = listening(machine.process.pid)
+    assert len(served) >= 2, f"the machine and its cameras: {served}"
+    assert {address for address, _ in served} == {"0100007F"}, f"127.0.0.1 alone: {served}"
+    environment = dict(os.environ, QT_QPA_PLATFORM="offscreen", HOME=folder)
+    window = subprocess.Popen([os.path.join(BIN, "zerodrift")], env=environment, stderr=subprocess.DEVNULL)
+    try:
+        for _ in range(20):
+            time.sleep(0.25)
+            assert window.poll() is None, "the window ended by itself"
+            assert listening(window.pid) == set(), listening(window.pid)
+    finally:
+        window.kill()
+        window.wait()
+
+
 def test(folder):
     os.environ["ZERODRIFT_STATE_DIR"] = os.path.join(folder, "state")
     os.environ["XDG_CONFIG_HOME"] = os.path.join(folder, "config")
     with VirtualMachine(folder, 240, 3) as machine:
+        nothing_listens_that_was_not_started(folder, machine)
         trail_shows_every_change(folder, secrets_stay_at_home(folder, machine))
         writing_needs_the_pin(folder, machine)  # it leaves the compensation on
 
