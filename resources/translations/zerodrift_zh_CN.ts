@@ -8727,6 +8727,10 @@ The sum of absolute values does not have this fault.</source>
         <source>Which of the last two versions is better changes from run to run: record a further warm-up run and update the fit with it.</source>
         <translation>最近两个版本孰优因运行而异：请再记录一次暖机运行，并用它更新拟合。</translation>
     </message>
+    <message>
+        <source>Outside the model&apos;s range in this run, where it guesses: %1. A further warm-up run that goes there widens the range.</source>
+        <translation>本次运行中超出模型有效范围（模型在此仅为推测）：%1。增加一次达到该温度的暖机运行可扩大范围。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::VerifyResult</name>

@@ -239,6 +239,23 @@ TEST(AgainstBefore, NamesTheAxisThatGotWorse) {
 }
 
 // What a job wrote is known from the job, for a computer that has no log of the machine; jobs of any age.
+TEST(OutsideRange, NamesTheSensorsThatWentFurthest) {
+  compensation::Table table;
+  for (const char* sensor : {"T1_C", "T2_C", "T3_C", "T4_C", "T5_C"}) table.valid[sensor] = {20.0, 30.0};
+  recording::Recording run;
+  run.time_s = {0.0, 60.0, 120.0};
+  const double gap = std::nan("");
+  run.ensure("T1_C").values = {25.0, 30.4, 30.0};  // within its noise
+  run.ensure("T2_C").values = {25.0, 33.0, 34.5};
+  run.ensure("T3_C").values = {18.0, gap, 25.0};
+  run.ensure("T4_C").values = {25.0, 31.0, 25.0};
+  run.ensure("T5_C").values = {25.0, 31.5, gap};
+  EXPECT_EQ(furthest_outside(run, table),
+            (std::vector<std::string>{"T2_C 34.50 C (valid 20.00 to 30.00)", "T3_C 18.00 C (valid 20.00 to 30.00)",
+                                      "T5_C 31.50 C (valid 20.00 to 30.00)"}));
+  EXPECT_TRUE(furthest_outside(run, {}).empty());
+}
+
 TEST_F(StepsTest, TheTablesAJobWroteAreKnown) {
   const auto body = [](int version, json more) {
     json made = {{"table", compensation::to_json(table_of(1.0))},

@@ -285,6 +285,11 @@ QStringList VerifyPage::words() const {
                    .arg(fixedText(axis.endBefore_um, 1));
     }
   }
+  if (!m_state.outsideRange.isEmpty()) {
+    lines << tr("Outside the model's range in this run, where it guesses: %1. A further warm-up run that goes there "
+                "widens the range.")
+                 .arg(m_state.outsideRange.join(QStringLiteral(", ")));
+  }
   for (const WorseThanBefore& axis : m_state.worseThanBefore) {
     lines << tr("%1 is worse than with version %2: %3 µm rms now; over this same run version %2 would have left %4 µm. "
                 "Roll back to version %2?")

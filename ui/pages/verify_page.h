@@ -60,9 +60,10 @@ struct VerifyState {
   bool sameRun = false;   // "without" is the same run less what was applied; else the warm-up run
   int versionBefore = 0;  // of the table that was active before this one; 0: none is known
   QVector<WorseThanBefore> worseThanBefore{};
-  bool runsDisagree = false;  // an earlier run found that version worse than this one
-  QString offline{};          // why no run can be started now; empty: it can
-  QString notHeld{};          // the same, when the machine does not hold the job's table: said on the page, too
+  bool runsDisagree = false;   // an earlier run found that version worse than this one
+  QString offline{};           // why no run can be started now; empty: it can
+  QStringList outsideRange{};  // sensors beyond the model's range in this run, in words
+  QString notHeld{};           // the same, when the machine does not hold the job's table: said on the page, too
   double compared_s = std::numeric_limits<double>::quiet_NaN();
   double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most
   double rmsBefore_um = std::numeric_limits<double>::quiet_NaN();

@@ -203,6 +203,9 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   state.rmsAfter_um = largest(body, "rms_error_after_um");
   state.peakLimit_um = body.value("limit_um", flow::VerifyOptions().limit_um);
   fillAxes(state, body);
+  for (const auto& text : body.value("outside_range", json::array())) {
+    state.outsideRange << bench().inWords(text.get<std::string>());
+  }
   if (const json before = body.value("version_before", json()); before.is_object()) {
     state.versionBefore = before.value("version", 0);
     state.runsDisagree = before.value("contradicted", false);

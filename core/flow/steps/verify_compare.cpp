@@ -146,4 +146,27 @@ json version_before(const commissioning::Job& job, commissioning::ArtefactId upl
           {"axes", std::move(axes)}};
 }
 
+std::vector<std::string> furthest_outside(const recording::Recording& run, const compensation::Table& table) {
+  constexpr double beyond_noise_K = 0.5;  // a single reading beyond by less says nothing
+  constexpr std::size_t most_named = 3;
+  std::vector<std::pair<double, std::string>> found;
+  for (const auto& [sensor, range] : table.valid) {
+    const auto* channel = run.find(sensor);
+    if (channel == nullptr) continue;
+    double beyond_K = beyond_noise_K;
+    double at_C = std::nan("");
+    for (const double value_C : channel->values) {
+      const double by_K = std::max(range.low_C - value_C, value_C - range.high_C);
+      if (by_K > beyond_K) beyond_K = by_K, at_C = value_C;
+    }
+    if (std::isnan(at_C)) continue;
+    for (auto& text : compensation::outside_valid_range(table, {{sensor, at_C}})) found.emplace_back(beyond_K, text);
+  }
+  std::sort(found.rbegin(), found.rend());
+  if (found.size() > most_named) found.resize(most_named);
+  std::vector<std::string> texts;
+  for (auto& [beyond_K, text] : found) texts.push_back(std::move(text));
+  return texts;
+}
+
 }  // namespace zerodrift::flow

@@ -44,4 +44,8 @@ std::vector<AxisAgainstBefore> against_before(const ResidualSamples& samples, co
 nlohmann::json version_before(const commissioning::Job& job, commissioning::ArtefactId upload,
                               const ResidualSamples& samples, const compensation::Table& now);
 
+/// The sensors that went furthest beyond the range the model was made in, at most three, each where it was furthest, as
+/// "T3_C 43.10 C (valid 18.00 to 41.00)": there the table guesses.
+std::vector<std::string> furthest_outside(const recording::Recording& run, const compensation::Table& table);
+
 }  // namespace zerodrift::flow

@@ -140,6 +140,10 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   json body = run.body();
   body["machine_time_s"] = {start.machine_time_s, start.machine_time_s + run.summary.duration_s};
   add_figures(before, after, options.limit_um, body);
+  body["outside_range"] = furthest_outside(after, table);
+  for (const std::string text : body["outside_range"]) {
+    body["problems"].push_back(text + ": the machine is outside the range the model was made in");
+  }
   body["version_before"] = version_before(job, upload.id, residuals_of(after, table), table);
   propose_correction(after, table, std::min(options.limit_um, options.threshold_um), body);
   return commissioning::NewArtefact::of("verification", body, {warmup.id, calibration.id, upload.id});

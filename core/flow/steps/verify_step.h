@@ -7,8 +7,8 @@
 //    "end_error_after_um" over the same stretch, "reference": "same_run" (this run less what was applied) | "warmup"
 //    (the same time since each run's start, as long as both went), "version_before": what the table before would have
 //    left (verify_compare.h) | null,
-//    "limit_um", "threshold_um", "verdict": "passed"|"failed", "kappa": {...}, "correction": [...],
-//    "corrected_table": {...} | null, "machine_time_s": [from, to]}
+//    "outside_range": [sensors beyond the model's range], "limit_um", "threshold_um", "verdict": "passed"|"failed",
+//    "kappa": {...}, "correction": [...], "corrected_table": {...} | null, "machine_time_s": [from, to]}
 
 #include <map>
 #include <optional>
