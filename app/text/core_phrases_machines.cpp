@@ -8,7 +8,9 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 319> machines = {{
+constexpr std::array<const char*, 321> machines = {{
+    QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
+    QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),
     QT_TRANSLATE_NOOP("core", "axes"),
     QT_TRANSLATE_NOOP("core", "controller's heartbeat"),

@@ -3681,6 +3681,14 @@
         <source>The sensors rose nearly together: a stretch with the spindle at rest separates them.</source>
         <translation>各传感器几乎同步升温：增加一段主轴静止的过程可将它们区分开。</translation>
     </message>
+    <message>
+        <source>finite numbers, positions in order</source>
+        <translation>有限数值，位置按顺序排列</translation>
+    </message>
+    <message>
+        <source>a whole number after P</source>
+        <translation>P 后应为整数</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -5449,6 +5457,15 @@
     <message>
         <source>Write puts the last one back, with its corrections; the history has them all.</source>
         <translation>“写入”将恢复最后一个补偿表（含修正）；历史记录中有全部版本。</translation>
+    </message>
+    <message>
+        <source>The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm. </source>
+        <translation>模型在未参与拟合的数据段上残余最多 %1 µm，超过限值 %2 µm。</translation>
+    </message>
+    <message>
+        <source>%1.</source>
+        <comment>a whole sentence</comment>
+        <translation>%1。</translation>
     </message>
 </context>
 <context>

@@ -1,0 +1,131 @@
+// What is asked before a table is written, and what is told of a machine that holds another one.
+
+#include <algorithm>
+
+#include "app/desktop/steps/upload_presenter.h"
+#include "app/text/error_text.h"
+#include "core/controller/table_words.h"
+#include "core/flow/flow.h"
+#include "core/report/limits.h"
+#include "ui/pages/upload_page.h"
+
+namespace zerodrift::desktop {
+
+using nlohmann::json;
+
+namespace {
+
+QString axes_text(const compensation::Table& table) {
+  QStringList axes;
+  for (const auto& [name, axis] : table.axes) axes << QString::fromStdString(name);
+  return axes.join(QStringLiteral(", "));
+}
+
+}  // namespace
+
+std::optional<compensation::Table> UploadPresenter::chosenTable() const {
+  return m_correction ? m_correction : m_lostTable;
+}
+
+/// A machine that holds nothing gets back what this job wrote last, corrections and all, as long as the model is the
+/// same. True when that is another table than the one looked at, which must be compared anew.
+bool UploadPresenter::takeLostTable() {
+  if (m_correction || m_lostTable || !isWritten() || !controller::is_empty_table(m_preview->record.old_words.size())) {
+    return false;
+  }
+  const json body = bench().body("upload");
+  const auto words = body.at("record").value("new_words", std::vector<std::uint16_t>{});
+  if (controller::is_empty_table(words.size()) || controller::same_table(words, m_preview->record.new_words))
+    return false;
+  auto last = compensation::table_from_json(body.value("table", json::object()), "the uploaded table");
+  if (!last) return false;
+  m_lostTable = std::move(*last);
+  return true;
+}
+
+/// What is active in the machine is not what this job has written: another one wrote, or it was started anew.
+bool UploadPresenter::machineHoldsAnother() const {
+  const json body = bench().body("upload");
+  if (!body.is_object() || !m_preview) return false;
+  const auto own = body.at("record").value("new_words", std::vector<std::uint16_t>{});
+  const auto& now = m_preview->record.old_words;
+  return !controller::same_table(own, now);
+}
+
+void UploadPresenter::tellForeign() {
+  if (!machineHoldsAnother()) return;
+  const auto& record = m_preview->record;
+  const bool none = controller::is_empty_table(record.old_words.size());
+  tell([version = record.old_sequence, none] {
+    return none ? ui::Problem{ui::ProblemKind::warning,
+                              tr("The machine holds no table: what this job wrote is not in it any more."),
+                              tr("Write puts the last one back, with its corrections; the history has them all."),
+                              {}}
+                : ui::Problem{
+                      ui::ProblemKind::warning,
+                      tr("The machine holds version %1, which is not the table of this job.").arg(version),
+                      tr("It was written from elsewhere. Compare before you write; it is kept in the history then."),
+                      {}};
+  });
+}
+
+/// What a person should know before the question is answered: a model above its limit, a machine outside its range.
+QString UploadPresenter::doubtsOfWriting() const {
+  QString doubts;
+  double peak_um = 0.0;
+  const json model = bench().body("model");
+  for (const auto& figure : model.is_object() ? model.value("figures", json::array()) : json::array()) {
+    if (const auto peak = figure.find("peak_held_out_um"); peak != figure.end() && peak->is_number()) {
+      peak_um = std::max(peak_um, peak->get<double>());
+    }
+  }
+  if (!chosenTable() && peak_um > report::limits::attainable_peak_um) {
+    doubts += tr("The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm. ")
+                  .arg(peak_um, 0, 'f', 1)
+                  .arg(report::limits::attainable_peak_um, 0, 'f', 0);
+  }
+  for (const auto& warning : m_preview->record.warnings) {
+    doubts += tr("%1.", "a whole sentence").arg(bench().inWords(warning)) + QLatin1Char(' ');
+  }
+  return doubts;
+}
+
+void UploadPresenter::askAndWrite(Done done) {
+  if (m_writing) return;
+  // What is asked must be what is there now, so the machine is read again before.
+  preview([this, done = std::move(done)](bool good) {
+    if (!good || !m_preview) {
+      if (done) done(false);
+      return;
+    }
+    const auto& record = m_preview->record;
+    const QString heading =
+        tr("Write the table into %1?")
+            .arg(tr("%1 (serial %2)").arg(QString::fromStdString(record.machine)).arg(record.serial));
+    const QString signs = m_correction ? QString()
+                          : signStands()
+                              ? tr("The sign was checked at %1.").arg(m_signAt.toString(QStringLiteral("HH:mm")))
+                              : tr("Before that each axis is moved by 10 µm and back, watched by the camera.");
+    const std::string& outdated = m_preview->model_outdated_by;
+    const QString old_model =
+        outdated.empty() ? QString()
+                         : tr("The model is out of date: %1 changed after it was fitted. ").arg(stepName(outdated));
+    const QString text =
+        old_model + doubtsOfWriting() +
+        tr("Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation "
+           "is off while it is written and on afterwards. %6")
+            .arg(axes_text(m_preview->table))
+            .arg(m_preview->largest_change_um, 0, 'f', 1)
+            .arg(QString::fromStdString(m_preview->largest_change_axis))
+            .arg(record.sequence)
+            .arg(record.old_sequence)
+            .arg(signs);
+    if (confirmed(heading, text, tr("Write"))) {
+      write(done);
+    } else if (done) {
+      done(false);
+    }
+  });
+}
+
+}  // namespace zerodrift::desktop
