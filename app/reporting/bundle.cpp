@@ -1,9 +1,11 @@
 #include "app/reporting/bundle.h"
 
+#include <fmt/format.h>
 #include <zip.h>
 
 #include <QSysInfo>
 #include <QTemporaryDir>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/reporting/writers.h"
@@ -109,11 +111,27 @@ Status add_results(const commissioning::Job& job, Zip& zip) {
   return {};
 }
 
+/// A name that was given by a person, as part of a file's: no separators, nothing that leads elsewhere or hides it.
+std::string as_file_name(std::string name) {
+  constexpr std::size_t longest = 60;
+  for (char& c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos) c = '_';
+  }
+  std::replace(name.begin(),
+               name.begin() + static_cast<std::ptrdiff_t>(std::min(name.find_first_not_of('.'), name.size())), '.',
+               '_');
+  if (name.size() <= longest) return name;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;  // not within a character
+  return name.substr(0, end);
+}
+
 Status add_runs(const commissioning::Job& job, Zip& zip) {
   ZD_TRY(const auto all, job.series());
   for (const auto& info : all) {
     ZD_TRY(const auto run, job.read_series(info.id));
-    ZD_CHECK(zip.add(fmt::format("runs/{:02d}-{}.csv", info.id, info.name), recording::to_csv(run)));
+    ZD_CHECK(zip.add(fmt::format("runs/{:02d}-{}.csv", info.id, as_file_name(info.name)), recording::to_csv(run)));
   }
   return {};
 }

@@ -1,6 +1,3 @@
-#include <cctype>
-#include <cstdlib>
-
 #include "app/reporting/writers.h"
 #include "core/base/file.h"
 #include "core/recording/csv.h"
@@ -8,6 +5,8 @@
 
 namespace zerodrift::reporting {
 namespace {
+
+using recording::cell_text;
 
 const char* word_of(report::Verdict verdict) {
   switch (verdict) {
@@ -23,40 +22,25 @@ const char* word_of(report::Verdict verdict) {
   return "";
 }
 
-bool is_plain_number(const std::string& text) {
-  if (text.empty() || std::isspace(static_cast<unsigned char>(text.front())) != 0) return false;
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return *end == '\0';
-}
-
-/// A cell that no spreadsheet takes for a formula, whoever entered its text.
-std::string harmless(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" ");
-  const bool begins =
-      first != std::string::npos && std::string_view("=+-@\t\r\n").find(text[first]) != std::string_view::npos;
-  const bool formula = begins && text != "-" && !is_plain_number(text);
-  return recording::cell_text(formula ? "'" + text : text);
-}
-
 }  // namespace
 
 std::string csv_of(const report::Report& report) {
   std::string out = "section,figure,label,value,unit,limit,verdict,artefact,detail\n";
-  for (const auto& [name, value] : report.header) out += "head,," + harmless(name) + "," + harmless(value) + ",,,,,\n";
+  for (const auto& [name, value] : report.header)
+    out += "head,," + cell_text(name) + "," + cell_text(value) + ",,,,,\n";
   for (const auto& section : report.sections) {
     report::Report one;
     one.sections = {section};
     for (const auto& f : report::all_figures(one)) {
       const std::string artefact = f.trace.artefact + "#" + std::to_string(f.trace.id);
-      for (const auto& cell : {section.id, f.id, f.label, f.value, f.unit, f.limit}) out += harmless(cell) + ",";
-      out += std::string(word_of(f.verdict)) + "," + harmless(artefact) + "," + harmless(f.trace.detail) + "\n";
+      for (const auto& cell : {section.id, f.id, f.label, f.value, f.unit, f.limit}) out += cell_text(cell) + ",";
+      out += std::string(word_of(f.verdict)) + "," + cell_text(artefact) + "," + cell_text(f.trace.detail) + "\n";
     }
     for (const auto& block : section.blocks) {
       const auto* text = std::get_if<report::Text>(&block);
       if (text == nullptr || !text->warning) continue;
-      out += section.id + ",," + harmless(text->text) + ",,,," + word_of(text->verdict) + "," +
-             harmless(text->trace.artefact) + "," + harmless(text->trace.detail) + "\n";
+      out += section.id + ",," + cell_text(text->text) + ",,,," + word_of(text->verdict) + "," +
+             cell_text(text->trace.artefact) + "," + cell_text(text->trace.detail) + "\n";
     }
   }
   return out;

@@ -39,6 +39,22 @@ char separator_of(std::string_view header) {
   return best;
 }
 
+bool parse_number(std::string_view text, double& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+/// What a spreadsheet would take for a formula, had it not the apostrophe before it that marks text there; any number
+/// of apostrophes, so that one more and one less are each other's way back.
+bool is_formula(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  double number = 0.0;
+  return !text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos && text != "-" &&
+         !parse_number(text, number);
+}
+
 /// Cells of one line; quotes as in RFC 4180, but a quoted cell may not span lines (no recording needs it).
 std::vector<std::string> cells_of(std::string_view line, char separator) {
   std::vector<std::string> cells;
@@ -46,7 +62,9 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
   bool quoted = false;
   bool was_quoted = false;
   const auto push = [&] {
-    cells.emplace_back(was_quoted ? cell : std::string(trimmed(cell)));
+    std::string text = was_quoted ? cell : std::string(trimmed(cell));
+    if (text.starts_with('\'') && is_formula(text)) text.erase(0, 1);
+    cells.push_back(std::move(text));
     cell.clear();
     was_quoted = false;
   };
@@ -67,12 +85,6 @@ std::vector<std::string> cells_of(std::string_view line, char separator) {
   }
   push();
   return cells;
-}
-
-bool parse_number(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
 }
 
 bool means_missing(std::string_view cell) {
@@ -182,9 +194,10 @@ std::string number_text(double value) {
   return std::isnan(value) ? std::string() : fmt::format("{}", value);
 }
 
-std::string cell_text(std::string_view text) {
+std::string cell_text(std::string_view entered) {
+  const std::string text = (is_formula(entered) ? "'" : "") + std::string(entered);
   // Blanks at its ends belong to a quoted cell only.
-  if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos && trimmed(text) == text) return std::string(text);
+  if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos && trimmed(text) == text) return text;
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"') out += '"';

@@ -150,6 +150,24 @@ class ReportingTest : public QObject {
     QVERIFY(rich.job().latest("machine").value()->body.find("hunter2") != std::string::npos);
     QVERIFY(rich.job().check()->ok());
   }
+
+  void aRunMayBeCalledAnything() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    for (const char* name : {"../../../evil", "..\\..\\evil", "/etc/passwd", "C:evil", ".", "a\nb"}) {
+      QVERIFY(rich.job().start_series(name, {"T1_C"}, "{}").has_value());
+    }
+    QVERIFY(rich.job().start_series(std::string(500, 'x'), {"=cmd|' /C calc'!A0"}, "{}").has_value());
+    const auto hostile_path = rich.folder() / "hostile.zip";
+    QVERIFY(reporting::write_bundle(rich.job(), hostile_path, {report::Language::english, "", {}}).has_value());
+    int runs = 0;
+    for (const auto& [name, bytes] : entries_of(hostile_path)) {
+      if (!name.starts_with("runs/")) continue;
+      ++runs;
+      QVERIFY2(name.find_first_of("/\\:\n", 5) == std::string::npos && name.size() < 100, name.c_str());
+      QVERIFY2(bytes.find(",=cmd") == std::string::npos, name.c_str());
+    }
+    QVERIFY(runs >= 8);
+  }
 };
 
 }  // namespace zerodrift

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 namespace zerodrift::recording {
@@ -51,6 +52,59 @@ TEST(Csv, FaultsNameLineAndColumn) {
   EXPECT_EQ(parse_recording("", "a").error().code, ErrorCode::csv_empty);
   EXPECT_EQ(parse_recording("time_s,T1_C\n0,1e999\n", "a").error().code, ErrorCode::csv_bad_number);
   EXPECT_EQ(parse_recording("time_s,T1_C\n0,20,5\n", "a").error().code, ErrorCode::csv_cell_count);
+}
+
+TEST(Csv, NumbersAtTheEndsOfTheirRange) {
+  const auto extremes = parse_recording("time_s,T1_C\n0,1e300\n1,5e-324\n2,-0\n3,+1.5\n4,nan\n", "a.csv");
+  ASSERT_TRUE(extremes.has_value());
+  const auto& values = extremes->channels.front().values;
+  EXPECT_EQ(values[0], 1e300);
+  EXPECT_EQ(values[1], 5e-324);
+  EXPECT_EQ(values[3], 1.5);
+  EXPECT_TRUE(std::isnan(values[4]));
+  for (const char* number : {"1e999", "inf", "-inf", "infinity", "0x10", "1,5e", "--1", "1e", "nan(1)"}) {
+    const auto row = "0;\"" + std::string(number) + "\"\n";
+    EXPECT_EQ(parse_recording("time_s;T1_C\n" + row, "a.csv").error().code, ErrorCode::csv_bad_number) << number;
+  }
+  const std::string digits(10'000'000, '7');  // one number of ten million digits
+  EXPECT_EQ(parse_recording("time_s,T1_C\n0," + digits + "\n", "a.csv").error().code, ErrorCode::csv_bad_number);
+  EXPECT_EQ(parse_recording("time_s,T1_C\nnan,1\n", "a.csv").error().code, ErrorCode::csv_time_order);
+}
+
+TEST(Csv, AMillionColumnsAreReadOrRefusedInTime) {
+  std::string header = "time_s";
+  std::string row = "0";
+  for (int i = 0; i < 1'000'000; ++i) {
+    header += ",c" + std::to_string(i);
+    row += ",1";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto wide = parse_recording(header + "\n" + row + "\n", "a.csv");
+  ASSERT_TRUE(wide.has_value());
+  EXPECT_EQ(wide->channels.size(), 1'000'000U);
+  EXPECT_EQ(parse_recording(header + "\n0,1\n", "a.csv").error().code, ErrorCode::csv_cell_count);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+}
+
+TEST(Csv, HostileNamesStayTextAndReadBack) {
+  Recording recording;
+  recording.time_s = {0.0, 1.0};
+  for (const char* name : {"../../etc/passwd", "=cmd|' /C calc'!A0", "<script>alert(1)</script>", "a,b", "a;b", "\"q\"",
+                           "a\tb", "%s%n", "温度"}) {
+    recording.channels.push_back({name, {1.0, 2.0}});
+  }
+  for (const char* name : {"'=quoted", "''=twice", " =led", "@sum", "-1+1", "-1.5", "'plain", "-"}) {
+    recording.channels.push_back({name, {1.0, 2.0}});
+  }
+  const std::string text = to_csv(recording);
+  for (const char* formula : {",=", ",@", ",-1+", ",\"="}) EXPECT_EQ(text.find(formula), std::string::npos) << formula;
+  const auto again = parse_recording(text, "a.csv");
+  ASSERT_TRUE(again.has_value());
+  ASSERT_EQ(again->channels.size(), recording.channels.size());
+  for (std::size_t i = 0; i < again->channels.size(); ++i) {
+    EXPECT_EQ(again->channels[i].name, recording.channels[i].name);
+    EXPECT_EQ(again->channels[i].values, recording.channels[i].values);
+  }
 }
 
 TEST(Csv, WritesWhatItReads) {
