@@ -15,6 +15,11 @@ using recording::Channel;
 using recording::ChannelKind;
 using recording::Recording;
 
+// Beyond these no machine tool can have been measured: sums of their squares would still be numbers, what is divided by
+// them would not.
+constexpr double largest_error_um = 1e6;
+constexpr double largest_input = 1e9;  // rpm, mm/min, W
+
 std::vector<std::string> wanted_sensors(const Recording& recording, const PrepareOptions& options) {
   if (!options.sensors.empty()) return options.sensors;
   std::vector<std::string> names;
@@ -96,6 +101,14 @@ void take_inputs(const Recording& recording, Prepared& out) {
   std::vector<std::vector<double>> kept;
   for (const auto& channel : recording.channels) {
     if (!recording::is_input(channel.kind()) || recording::present_count(channel) == 0) continue;
+    const auto largest = std::max_element(channel.values.begin(), channel.values.end(), [](double a, double b) {
+      return (std::isfinite(a) ? std::abs(a) : 0.0) < (std::isfinite(b) ? std::abs(b) : 0.0);
+    });
+    if (std::isfinite(*largest) && std::abs(*largest) > largest_input) {
+      out.findings.push_back(
+          {FindingKind::implausible, FindingAction::dropped, channel.name, fmt::format("{:.4g}", *largest)});
+      continue;
+    }
     kept.push_back(channel.values);
     hold_gaps(kept.back());
     out.inputs.push_back(channel.name);
@@ -137,6 +150,15 @@ Status take_errors(const Recording& recording, const PrepareOptions& options, Pr
       }
       out.findings.push_back(
           {FindingKind::error_dead, FindingAction::dropped, name, fmt::format("{} measurements", count)});
+      continue;
+    }
+    if (std::max(-low, high) > largest_error_um) {
+      const std::string range = fmt::format("{:.4g} to {:.4g} um", low, high);
+      if (by_name) {
+        return fail(ErrorCode::data_does_not_fit,
+                    {{"what", name}, {"found", range}, {"expected", "errors of a machine, below a metre"}});
+      }
+      out.findings.push_back({FindingKind::implausible, FindingAction::dropped, name, range});
       continue;
     }
     if (high - low < 1e-9) {
