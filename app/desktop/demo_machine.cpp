@@ -45,6 +45,7 @@ void DemoMachine::start(const DemoOptions& options) {
                            QStringLiteral("--profile"),     profilePath(),
                            QStringLiteral("--truth"),       truthPath()};
   if (!options.conceal.isEmpty()) arguments << QStringLiteral("--conceal") << options.conceal;
+  for (const QString& fault : options.faults) arguments << QStringLiteral("--fault") << fault;
   const QString beside = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
   m_process.start(options.program.isEmpty() ? beside : options.program, arguments);
 }

@@ -13,8 +13,9 @@ namespace zerodrift::desktop {
 struct DemoOptions {
   double speedup = 240.0;
   int seed = 1;
-  QString conceal;  // effect id or "random"; empty: nothing is hidden
-  QString program;  // empty: zerodrift-machine beside this program
+  QString conceal;     // effect id or "random"; empty: nothing is hidden
+  QString program;     // empty: zerodrift-machine beside this program
+  QStringList faults;  // of the machine, as its own option names them
 };
 
 /// The seed of the virtual machine that has this serial; nothing: no virtual machine has it (docs/virtual-machine.md).

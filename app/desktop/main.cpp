@@ -28,6 +28,7 @@ struct Arguments {
   double speedup = 240.0;
   int seed = 1;
   std::string conceal = "coolant";
+  std::vector<std::string> faults;
   std::string language;
   std::string theme;
   std::string size = "1440x900";
@@ -53,6 +54,9 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option(
       "--conceal", arguments.conceal,
       "Effect that the virtual machine's description leaves out, for the Physics page to find; none: nothing");
+  app.add_option("--fault", arguments.faults,
+                 "A fault of the virtual machine, now and then (NAME) or all the time "
+                 "(NAME:always)");
   app.add_option("--language", arguments.language, "en or zh")->check(CLI::IsMember({"en", "zh", "zh_CN"}));
   app.add_option("--theme", arguments.theme, "light or dark")->check(CLI::IsMember({"light", "dark"}));
   app.add_option("--size", arguments.size, "Size of the window for the tour, for example 1280x720");
@@ -98,7 +102,8 @@ int main(int argc, char** argv) {
     const zerodrift::Error error{zerodrift::ErrorCode::internal, {{"detail", what.toStdString()}}};
     desktop.bench().log(zerodrift::desktop::LogKind::bad, zerodrift::lineOf(error));
   };
-  const DemoOptions demo{arguments.speedup, arguments.seed, QString::fromStdString(arguments.conceal), {}};
+  DemoOptions demo{arguments.speedup, arguments.seed, QString::fromStdString(arguments.conceal), {}, {}};
+  for (const std::string& fault : arguments.faults) demo.faults << QString::fromStdString(fault);
 
   std::unique_ptr<zerodrift::desktop::Tour> tour;
   if (!arguments.tour.empty()) {

@@ -128,12 +128,13 @@ TEST(PowerCut, AtAnyWrite) {
   std::printf("%d power cuts among %zu deeds of the disk\n", cuts, end - begin);
 }
 
-// The disk is full, or the stick is pulled, from any write on: an error by name, what was kept stays, and with room
-// again the same job goes on.
+// The disk is full, or the stick is pulled, or the system has made the disk read-only, from any write on: an error by
+// name, what was kept stays, and with room again the same job goes on.
 TEST(PowerCut, DiskFullOrGoneFromAnyWrite) {
   const int steps = amount(40, 400);
   for (const auto& [code, expected] :
-       {std::pair{SQLITE_FULL, ErrorCode::disk_full}, std::pair{SQLITE_IOERR_WRITE, ErrorCode::file_unreadable}}) {
+       {std::pair{SQLITE_FULL, ErrorCode::disk_full}, std::pair{SQLITE_IOERR_WRITE, ErrorCode::file_unreadable},
+        std::pair{SQLITE_READONLY, ErrorCode::file_not_writable}}) {
     for (int step = 0; step < steps; ++step) {
       const TemporaryFolder folder;
       CrashDisk disk;
