@@ -148,7 +148,7 @@ class Link::Wire {
   /// each would cost a tenth of the throughput.
   void wait_in_calls() const {
     const int handle = modbus_get_socket(m_context);
-    const timeval timeout{m_settings.timeout_ms / 1000, m_settings.timeout_ms % 1000 * 1000};
+    const timeval timeout{m_settings.timeout_ms / 1000, m_settings.timeout_ms % 1000 * 1000L};
     ::setsockopt(handle, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     ::setsockopt(handle, SOL_SOCKET, SO_SNDTIMEO, &timeout, sizeof timeout);
     ::fcntl(handle, F_SETFL, ::fcntl(handle, F_GETFL) & ~O_NONBLOCK);
@@ -266,7 +266,7 @@ Result<std::vector<std::uint16_t>> Link::read(RegisterSpace space, int address, 
   put_word(request, 3, count);
   for (int attempt = 0;; ++attempt) {
     ZD_TRY(const Pdu reply, exchange(request, what, Retry::yes));
-    const auto bytes = static_cast<std::size_t>(2 * count);
+    const auto bytes = 2 * static_cast<std::size_t>(count);
     if (reply.size() == bytes + 2 && reply[1] == bytes) {
       std::vector<std::uint16_t> words(static_cast<std::size_t>(count));
       for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint16_t>(word_at(reply, 2 + 2 * i));

@@ -135,7 +135,8 @@ Result<RegisterMap> load_register_map(const std::string& name_or_path, const std
 
 double decode(const Register& entry, std::span<const std::uint16_t> words, int index) {
   const auto word = [&](int i) {
-    const std::uint16_t raw = words[static_cast<std::size_t>(index * entry.words_each() + i)];
+    const std::uint16_t raw = words[static_cast<std::size_t>(index) * static_cast<std::size_t>(entry.words_each()) +
+                                    static_cast<std::size_t>(i)];
     return entry.high_byte_first ? raw : swapped(raw);
   };
   double raw = 0.0;

@@ -148,8 +148,7 @@ class Selector {
     ZD_TRY(m_result, run(machine, usual));
     if (m_result.best == m_result.base) return m_result;
     ModelPtr best = with_own_discrepancy(*m_result.best, usual);
-    for (bool removed = true; removed;) {
-      removed = false;
+    for (bool some_left = true; some_left;) {
       ModelPtr better;
       double least = m_options.second_clean;
       for (std::size_t i = m_result.described; i < best->machine().effects.size(); ++i) {
@@ -163,7 +162,7 @@ class Selector {
       }
       if (better == nullptr) break;
       best = better;
-      removed = best->machine().effects.size() > m_result.described;
+      some_left = best->machine().effects.size() > m_result.described;
     }
     data = best->shared_data();
     m_result.base = under(*m_result.base, data);
@@ -361,7 +360,7 @@ std::vector<std::size_t> Selection::effects() const {
   return list;
 }
 
-Result<Selection> reconsider(const Selection& selection, std::shared_ptr<const Dataset> data,
+Result<Selection> reconsider(const Selection& selection, const std::shared_ptr<const Dataset>& data,
                              const physics::RunFacts& facts, const SelectionOptions& options,
                              const TaskContext& context) {
   return Selector(facts, options, context).again(selection, data);

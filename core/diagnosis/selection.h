@@ -50,7 +50,7 @@ Result<Selection> grow_effects(const physics::Machine& machine, std::shared_ptr<
                                const TaskContext& context);
 
 /// The same effects under other noise: refitted, and dropped where that noise no longer asks for them.
-Result<Selection> reconsider(const Selection& selection, std::shared_ptr<const Dataset> data,
+Result<Selection> reconsider(const Selection& selection, const std::shared_ptr<const Dataset>& data,
                              const physics::RunFacts& facts, const SelectionOptions& options,
                              const TaskContext& context);
 /// Rivals of one effect: the best other families in its place, fitted, best first.

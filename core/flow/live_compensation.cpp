@@ -38,7 +38,7 @@ class Watch {
       return;
     }
     m_why = elsewhere;
-    m_thread = std::jthread([this](std::stop_token stop) { work(std::move(stop)); });
+    m_thread = std::jthread([this](const std::stop_token& stop) { work(stop); });
   }
 
   /// Where the machine is now; what was measured since the last call.
@@ -74,7 +74,7 @@ class Watch {
     return true;
   }
 
-  void work(std::stop_token stop) {
+  void work(const std::stop_token& stop) {
     const TaskContext context{stop, {}};
     std::unique_lock lock(m_mutex);
     while (m_arrived.wait(lock, stop, [this] { return m_there; }) && !stop.stop_requested()) {
@@ -148,7 +148,7 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
       observer(live);
     });
     // Also after a failure: the switch is not left on by us. A link that is gone is left to the controller's watchdog.
-    const Status off = was_on ? Status() : machine->switch_compensation(false);
+    Status off = was_on ? Status() : machine->switch_compensation(false);
     if (!ran) return fail(ran.error());
     summary = *ran;
     return off;

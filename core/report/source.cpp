@@ -1,5 +1,7 @@
 #include "core/report/source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -7,7 +7,7 @@ namespace zerodrift::flow {
 Status audited(commissioning::Job& job, commissioning::AuditEntry entry, const std::function<Status()>& work) {
   entry.result = "started";
   ZD_CHECK(job.audit(entry).map([](const auto&) {}));
-  const Status done = work();
+  Status done = work();
   entry.result = done ? "done" : std::string(name_of(done.error().code));
   ZD_CHECK(job.audit(entry).map([](const auto&) {}));
   return done;

@@ -1,5 +1,7 @@
 #include "core/flow/steps/calibrate_step.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,7 @@
 #include "core/flow/steps/machine_step.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace zerodrift::flow {

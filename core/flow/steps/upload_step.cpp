@@ -1,5 +1,7 @@
 #include "core/flow/steps/upload_step.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 

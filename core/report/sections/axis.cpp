@@ -1,5 +1,7 @@
 // Axis errors: figures of ISO 230-2 and VDI/DGQ 3441, the points and what the segments leave.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/report/build.h"

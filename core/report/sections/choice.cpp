@@ -1,5 +1,7 @@
 // Why these sensors: what other sets would have left, and what each further sensor would bring.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/report/build.h"

@@ -1,5 +1,7 @@
 // Figures of tests for thermal effects by ISO 230-3: ranges in the first 60 min and over the whole period, tilt, room.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

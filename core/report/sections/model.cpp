@@ -2,6 +2,8 @@
 
 #include "core/analysis/model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

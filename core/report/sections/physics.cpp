@@ -1,6 +1,8 @@
 // The heat simulation beside the recording: what it left out, where that shows, what it is, what else it could be, and
 // how much better the simulation fits with it.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/diagnosis/explain.h"

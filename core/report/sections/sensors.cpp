@@ -1,5 +1,7 @@
 // Which sensors were kept and why.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/report/build.h"

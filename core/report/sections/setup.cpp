@@ -1,5 +1,7 @@
 // Measurement set-up: machine, camera calibration, sensors.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/report/build.h"

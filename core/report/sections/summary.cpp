@@ -1,5 +1,7 @@
 // The customer's page: drift before and after, what was written, for which temperatures, when to look again.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,7 @@
 // The table in the controller before and after, entry by entry with the difference.
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 

@@ -2,6 +2,8 @@
 
 #include "core/report/uncertainty.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/report/build.h"

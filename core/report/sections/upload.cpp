@@ -1,5 +1,7 @@
 // How the table was written: the sign check before it, the transaction, and what the controller holds now.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

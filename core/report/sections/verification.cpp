@@ -1,5 +1,7 @@
 // The compensated run: what was left, against what there was, round by round.
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/report/build.h"
