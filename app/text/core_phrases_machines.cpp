@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 321> machines = {{
+constexpr std::array<const char*, 323> machines = {{
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),
@@ -277,6 +277,8 @@ constexpr std::array<const char*, 321> machines = {{
     QT_TRANSLATE_NOOP("core", "parameters 3620 to 3624"),
     QT_TRANSLATE_NOOP("core", "reference point %1"),
     QT_TRANSLATE_NOOP("core", "one between lowest and highest"),
+    QT_TRANSLATE_NOOP("core", "a whole number after P"),
+    QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "axis %1: an increment of %2 units; older series take no more than 7"),
     QT_TRANSLATE_NOOP("core",
                       "axis %1: the error of %2 um at the reference point shifts the whole axis and is left out"),

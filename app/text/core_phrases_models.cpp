@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 286> models = {{
+constexpr std::array<const char*, 288> models = {{
     QT_TRANSLATE_NOOP("core", "near heat"),
     QT_TRANSLATE_NOOP("core", "a length in mm, 2 to 30000 (is it in metres?)"),
     QT_TRANSLATE_NOOP("core", "a diameter in mm, 1 to 5000 (is it in metres?)"),
@@ -180,6 +180,8 @@ constexpr std::array<const char*, 286> models = {{
     QT_TRANSLATE_NOOP("core", "of %1"),
     QT_TRANSLATE_NOOP("core", "%1 measurements left out"),
     QT_TRANSLATE_NOOP("core", "at least 4"),
+    QT_TRANSLATE_NOOP("core", "%1 to %2 um"),
+    QT_TRANSLATE_NOOP("core", "errors of a machine, below a metre"),
     QT_TRANSLATE_NOOP("core", "the recording %1"),
     QT_TRANSLATE_NOOP("core", "no temperature column"),
     QT_TRANSLATE_NOOP("core", "columns named like T1_C"),

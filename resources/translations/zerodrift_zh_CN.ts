@@ -1394,6 +1394,14 @@
         <translation>介于最低和最高之间</translation>
     </message>
     <message>
+        <source>a whole number after P</source>
+        <translation>P 之后的整数</translation>
+    </message>
+    <message>
+        <source>finite numbers, positions in order</source>
+        <translation>有限的数值，位置按顺序排列</translation>
+    </message>
+    <message>
         <source>axis %1: an increment of %2 units; older series take no more than 7</source>
         <translation>轴 %1：增量为 %2 个单位；老系列最多为 7</translation>
     </message>
@@ -2804,6 +2812,14 @@
     <message>
         <source>at least 4</source>
         <translation>至少 4</translation>
+    </message>
+    <message>
+        <source>%1 to %2 um</source>
+        <translation>%1 至 %2 µm</translation>
+    </message>
+    <message>
+        <source>errors of a machine, below a metre</source>
+        <translation>机床的误差，小于一米</translation>
     </message>
     <message>
         <source>the recording %1</source>
