@@ -154,7 +154,7 @@ std::string minute_of(const std::string& utc) {
 /// For legends: "T14", "X", "Room".
 static std::string short_name(const std::string& channel) {
   const auto kind = recording::kind_of(channel);
-  const std::string tag = channel.substr(0, channel.find('_'));
+  std::string tag = channel.substr(0, channel.find('_'));
   if (kind == recording::ChannelKind::temperature) return tag;
   if (kind == recording::ChannelKind::error && tag.size() == 2 && tag[0] == 'd') return tag.substr(1);
   return channel_in_words(channel, {});
