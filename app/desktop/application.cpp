@@ -387,8 +387,7 @@ void Application::lightController() {
   // While a step works nobody else looks; a step that does not use the machine leaves it unseen.
   const bool unseen = m_bench->seenAt().msecsTo(QDateTime::currentDateTime()) > unseen_after_ms;
   if (m_bench->tasks().running() && unseen) {
-    return light(tr("Controller last seen %1").arg(m_bench->seenAt().toString(QStringLiteral("HH:mm:ss"))),
-                 ui::Judgement::none);
+    return light(tr("Controller not asked just now"), ui::Judgement::none);
   }
   light(tr("Controller connected"), ui::Judgement::ok);
 }
@@ -441,12 +440,21 @@ void Application::runCommand(const QString& id) {
   if (id.startsWith(QStringLiteral("job:"))) openFiles({id.mid(4)});
 }
 
+QString Application::whatClosingDoes() const {
+  const auto runs = [this](const char* id) {
+    const auto* run = qobject_cast<const RunPresenter*>(presenter(QString::fromLatin1(id)));
+    return run != nullptr && run->running();
+  };
+  if (runs("warmup")) return tr("What was recorded is kept and the run can be resumed.");
+  if (runs("verify")) return tr("It stops here and is not used: a verification is started anew.");
+  return tr("It is broken off; what the job holds already is kept.");
+}
+
 void Application::mayClose(bool* allowed) {
   if (m_bench->tasks().running()) {
     *allowed =
         ask(m_window.get(), tr("Close Zerodrift?"),
-            tr("%1 is running. What was recorded is kept and the run can be resumed.").arg(m_bench->tasks().name()),
-            tr("Close"));
+            tr("%1 is running.").arg(m_bench->tasks().name()) + QLatin1Char(' ') + whatClosingDoes(), tr("Close"));
   }
   if (!*allowed) return;
   QSettings settings;

@@ -63,6 +63,7 @@ class Application : public QObject {
   void offerCommands();
   void runCommand(const QString& id);
   void mayClose(bool* allowed);
+  QString whatClosingDoes() const;
 
   ui::Theme& m_theme;
   std::unique_ptr<Workbench> m_bench;

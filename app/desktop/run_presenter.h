@@ -17,12 +17,13 @@ class RunPresenter : public Presenter {
   void languageChanged() override;
   void themeChanged() override;
 
+  bool running() const { return m_running; }
+
  protected:
   using Step = std::function<Result<commissioning::NewArtefact>(commissioning::Job&, flow::Devices&,
                                                                 const flow::RunOptions&, const TaskContext&)>;
 
   RunFeed& feed() { return *m_feed; }
-  bool running() const { return m_running; }
   /// Opens the machine and records by this step; the feed sees every sample.
   void record(const QString& name, const acquisition::Plan& plan, Step step, std::function<void(bool good)> done);
   void pauseOrResume();

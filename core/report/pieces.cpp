@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace zerodrift::report {
 
@@ -44,19 +45,62 @@ static std::string step_in_words(const Source& source, const json& step) {
   return text;
 }
 
+struct Pause {
+  double from_s = 0.0;
+  double to_s = 0.0;
+};
+
+/// By time. One that was not ended lasts as long as the run.
+static std::vector<Pause> pauses_of(const LoadedRun& run) {
+  std::vector<Pause> pauses;
+  bool open = false;
+  for (const auto& event : run.events) {
+    if (event.kind == "pause" && !std::exchange(open, true)) pauses.push_back({event.time_s, event.time_s});
+    if (event.kind == "resume" && std::exchange(open, false)) pauses.back().to_s = event.time_s;
+  }
+  if (open && run.samples.rows() > 0) pauses.back().to_s = std::max(pauses.back().to_s, run.samples.time_s.back());
+  return pauses;
+}
+
+void break_at_pauses(const LoadedRun& run, std::vector<Curve>& curves) {
+  for (const Pause& pause : pauses_of(run)) {
+    const double from_h = pause.from_s / 3600.0;
+    const double to_h = pause.to_s / 3600.0;
+    for (Curve& curve : curves) {
+      const auto next = std::upper_bound(curve.x.begin(), curve.x.end(), from_h);
+      if (next == curve.x.begin() || next == curve.x.end() || *next < to_h) continue;  // it goes on in the pause
+      const auto index = next - curve.x.begin();
+      curve.x.insert(curve.x.begin() + index, from_h);
+      curve.y.insert(curve.y.begin() + index, std::nan(""));
+    }
+  }
+}
+
 void add_course(const Source& source, const LoadedArtefact& artefact, Plot& plot) {
   const json steps = list_of(object_of(artefact.body, "plan"), "steps");
   double fastest = 1.0;
   for (const auto& step : steps) fastest = std::max(fastest, step.value("spindle_rpm", 0.0));
+  const LoadedRun* run = source.run(&artefact);
+  const auto pauses = run == nullptr ? std::vector<Pause>{} : pauses_of(*run);
+  auto pause = pauses.begin();
   double at_s = 0.0;
   for (const auto& step : steps) {
-    const double end_s = at_s + step.value("duration_s", 0.0);
-    plot.stretches.push_back(
-        {at_s / 3600.0, end_s / 3600.0, step.value("spindle_rpm", 0.0) / fastest, step_in_words(source, step)});
-    at_s = end_s;
+    double left_s = step.value("duration_s", 0.0);
+    const auto stretch = [&](double until_s) {
+      plot.stretches.push_back(
+          {at_s / 3600.0, until_s / 3600.0, step.value("spindle_rpm", 0.0) / fastest, step_in_words(source, step)});
+      left_s -= until_s - at_s;
+      at_s = until_s;
+    };
+    // The plan waits while the run pauses.
+    for (; pause != pauses.end() && pause->from_s < at_s + left_s; ++pause) {
+      if (pause->from_s > at_s) stretch(pause->from_s);
+      at_s = std::max(at_s, pause->to_s);
+    }
+    stretch(at_s + left_s);
   }
-  const LoadedRun* run = source.run(&artefact);
   if (run == nullptr) return;
+  break_at_pauses(*run, plot.curves);
   for (const auto& one : happenings_of(source, *run)) {
     plot.marks.push_back({one.time_s / 3600.0, std::to_string(one.number)});
   }

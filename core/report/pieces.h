@@ -18,6 +18,8 @@ Figure judged(const Source& source, Figure made, double value, double limit, int
 /// The trace of a figure read from samples of a run: the artefact and the rows.
 Trace of_rows(const Source& source, const LoadedArtefact& artefact, const std::string& kind, std::string detail,
               std::vector<TraceRow> rows);
+/// No line leads over a pause in which nothing was measured; x in hours since the run's start.
+void break_at_pauses(const LoadedRun& run, std::vector<Curve>& curves);
 /// The plan's steps and what happened in a run, to be drawn behind its curves.
 void add_course(const Source& source, const LoadedArtefact& artefact, Plot& plot);
 /// Notes, pauses, gaps and problems of a run, numbered as they are marked in its plots.

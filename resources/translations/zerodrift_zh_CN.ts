@@ -3697,14 +3697,6 @@
         <source>The sensors rose nearly together: a stretch with the spindle at rest separates them.</source>
         <translation>各传感器几乎同步升温：增加一段主轴静止的过程可将它们区分开。</translation>
     </message>
-    <message>
-        <source>finite numbers, positions in order</source>
-        <translation>有限数值，位置按顺序排列</translation>
-    </message>
-    <message>
-        <source>a whole number after P</source>
-        <translation>P 后应为整数</translation>
-    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4499,10 +4491,6 @@
         <translation>关闭 Zerodrift？</translation>
     </message>
     <message>
-        <source>%1 is running. What was recorded is kept and the run can be resumed.</source>
-        <translation>“%1”正在进行。已记录的内容会保留，运行可以继续。</translation>
-    </message>
-    <message>
         <source>Close</source>
         <translation>关闭</translation>
     </message>
@@ -4571,10 +4559,6 @@
         <translation>控制器失去连接</translation>
     </message>
     <message>
-        <source>Controller last seen %1</source>
-        <translation>控制器最后应答 %1</translation>
-    </message>
-    <message>
         <source>No picture</source>
         <translation>无图像</translation>
     </message>
@@ -4601,6 +4585,26 @@
     <message>
         <source>%1 off</source>
         <translation>%1未打开</translation>
+    </message>
+    <message>
+        <source>Controller not asked just now</source>
+        <translation>目前未查询控制器</translation>
+    </message>
+    <message>
+        <source>What was recorded is kept and the run can be resumed.</source>
+        <translation>已记录的数据会保留，运行可以继续。</translation>
+    </message>
+    <message>
+        <source>It stops here and is not used: a verification is started anew.</source>
+        <translation>运行到此停止且不予采用：验证需重新开始。</translation>
+    </message>
+    <message>
+        <source>It is broken off; what the job holds already is kept.</source>
+        <translation>该操作将中断；作业中已有的内容会保留。</translation>
+    </message>
+    <message>
+        <source>%1 is running.</source>
+        <translation>正在进行：%1。</translation>
     </message>
 </context>
 <context>
@@ -5482,6 +5486,10 @@
         <source>%1.</source>
         <comment>a whole sentence</comment>
         <translation>%1。</translation>
+    </message>
+    <message>
+        <source>The machine is outside the range the model was made in: %1</source>
+        <translation>机床超出建立模型时的范围：%1</translation>
     </message>
 </context>
 <context>
@@ -8449,13 +8457,13 @@ The sum of absolute values does not have this fault.</source>
         <translation>版本 %1 已在 %2 中生效，验证运行也已完成。</translation>
     </message>
     <message>
-        <source>%1 holds no compensation: version %2 is empty.</source>
-        <translation>%1 中没有补偿：版本 %2 为空表。</translation>
-    </message>
-    <message>
         <source>%1.</source>
         <comment>a whole sentence</comment>
         <translation>%1。</translation>
+    </message>
+    <message>
+        <source>%1 holds no compensation any more. Write puts the last table back.</source>
+        <translation>%1 中已没有补偿。“写入”将恢复最后一个补偿表。</translation>
     </message>
 </context>
 <context>
@@ -8763,6 +8771,18 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Outside the model&apos;s range in this run, where it guesses: %1. A further warm-up run that goes there widens the range.</source>
         <translation>本次运行中超出模型有效范围（模型在此仅为推测）：%1。增加一次达到该温度的暖机运行可扩大范围。</translation>
+    </message>
+    <message>
+        <source>%1 is above the limit of %2 µm, but this run left the model&apos;s range: record a further warm-up run that goes there and update the fit with it.</source>
+        <translation>%1 超过限值 %2 µm，但本次运行超出了模型的有效范围：请再记录一次达到该温度的暖机运行，并用其更新拟合。</translation>
+    </message>
+    <message>
+        <source>Add note</source>
+        <translation>添加备注</translation>
+    </message>
+    <message>
+        <source>Writes a remark at this moment of the run</source>
+        <translation>在运行的此刻写入备注</translation>
     </message>
 </context>
 <context>

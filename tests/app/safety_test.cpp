@@ -15,6 +15,7 @@
 #include "tests/app/test_home.h"
 #include "ui/pages/calibrate_page.h"
 #include "ui/pages/machine_page.h"
+#include "ui/pages/upload_page.h"
 #include "ui/pages/verify_page.h"
 #include "ui/shell/lamp.h"
 #include "ui/widgets/camera_view.h"
@@ -26,6 +27,7 @@ using zerodrift::desktop::LogKind;
 using zerodrift::desktop::Workbench;
 using zerodrift::ui::CalibratePage;
 using zerodrift::ui::MachinePage;
+using zerodrift::ui::UploadPage;
 using zerodrift::ui::VerifyPage;
 
 namespace {
@@ -208,9 +210,8 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     Application application(m_theme);
     application.openJob(path);
     auto* page = application.presenter(QStringLiteral("machine"))->page();
-    const auto actions = page->secondaryActions();
-    QVERIFY(std::any_of(actions.begin(), actions.end(), [](const auto& action) { return action.id == "virtual"; }));
-    Q_EMIT page->secondaryTriggered(QStringLiteral("virtual"));
+    QVERIFY(qobject_cast<MachinePage*>(page)->startsVirtual());
+    Q_EMIT page->primaryTriggered();
     auto& bench = application.bench();
     QTRY_VERIFY_WITH_TIMEOUT(bench.connected(), 60000);
     QCOMPARE(bench.look()->identity.serial, 850004U);
@@ -261,6 +262,22 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(words() == last);
     QTRY_COMPARE_WITH_TIMEOUT(bench.heldTable(), HeldTable::own, 10000);
     QVERIFY(verify->primary().enabled);
+
+    // Gone back to before the first table, on purpose: it can be put back the same way.
+    auto* upload_page = qobject_cast<UploadPage*>(upload->page());
+    const auto& history = upload_page->state().history;
+    const auto none = std::find_if(history.begin(), history.end(), [](const auto& one) { return one.version == 0; });
+    QVERIFY(none != history.end());
+    Q_EMIT upload_page->rollbackRequested(none->id);
+    QTRY_VERIFY_WITH_TIMEOUT(words().size() <= 2 && !bench.tasks().running(), 60000);
+    QVERIFY(!upload_page->state().written);
+    QVERIFY2(upload_page->sentence().contains(QStringLiteral("no compensation")), qPrintable(upload_page->sentence()));
+    ended = false;
+    upload->tour([&](bool is_good) { good = is_good, ended = true; });
+    QTRY_VERIFY_WITH_TIMEOUT(ended, 120000);
+    QVERIFY2(good, qPrintable(upload->page()->problem().sentence));
+    QVERIFY(words() == last);
+    QVERIFY(upload_page->state().written);
   }
 
   void virtualMachineEndsWithTheWindow_data() {

@@ -172,8 +172,19 @@ QString MachinePage::sentence() const {
   return tr("Check that every sensor is alive and the machine is at rest and of even temperature.");
 }
 
+bool MachinePage::startsVirtual() const {
+  return m_state.jobOpen && m_state.virtualOffered && !m_state.connected && !m_state.connecting;
+}
+
 PageAction MachinePage::primary() const {
   if (!m_state.jobOpen) return {"primary", {}, false, {}};
+  if (startsVirtual()) {
+    return {"primary",
+            tr("Start the virtual machine"),
+            true,
+            {},
+            tr("The machine of this job is a virtual one. It starts anew, cold; its tables are in this job.")};
+  }
   if (!m_state.connected) {
     const bool chosen = m_state.profile >= 0;
     return {"primary", tr("Connect"), chosen && !m_state.connecting,
@@ -193,12 +204,8 @@ QVector<PageAction> MachinePage::secondary() const {
   if (m_state.connected) {
     actions.append({"test", tr("Test again")});
     actions.append({"disconnect", tr("Disconnect")});
-  } else if (m_state.virtualOffered && !m_state.connecting) {
-    actions.append({"virtual",
-                    tr("Start the virtual machine"),
-                    true,
-                    {},
-                    tr("The machine of this job is a virtual one. It starts anew, cold; its tables are in this job.")});
+  } else if (startsVirtual()) {
+    actions.append({"connect", tr("Connect")});
   }
   return actions;
 }

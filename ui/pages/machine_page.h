@@ -95,6 +95,8 @@ class MachinePage : public Page {
   /// 0 drawing, 1 registers.
   void showView(int index);
 
+  /// The job's machine is a virtual one that does not run: the main button starts it.
+  bool startsVirtual() const;
   QString title() const override;
   QString sentence() const override;
   /// Connect, then Start commissioning.

@@ -121,12 +121,13 @@ QString UploadPage::title() const {
 QString UploadPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   if (m_state.writing) return tr("The table is being written. It becomes active as a whole or not at all.");
+  if (m_state.writtenEmpty) {
+    return tr("%1 holds no compensation any more. Write puts the last table back.").arg(m_state.machineName);
+  }
   if (m_state.written) {
     const QString version = QString::number(m_state.newVersion.value_or(0));
     if (!m_state.asOf.isEmpty())
       return tr("Version %1 was active in %2 as this job left it, %3.").arg(version, m_state.machineName, m_state.asOf);
-    if (m_state.writtenEmpty)
-      return tr("%1 holds no compensation: version %2 is empty.").arg(m_state.machineName, version);
     return m_state.proved
                ? tr("Version %1 is active in %2, and its verification run is done.").arg(version, m_state.machineName)
                : tr("Version %1 is active in %2. Now prove it.").arg(version, m_state.machineName);

@@ -133,6 +133,12 @@ QString VerifyPage::finishedSentence() const {
         .arg(axes.join(QStringLiteral(", ")))
         .arg(m_state.versionBefore);
   }
+  if (!over.isEmpty() && !m_state.outsideRange.isEmpty()) {
+    return tr("%1 is above the limit of %2 µm, but this run left the model's range: record a further warm-up run that "
+              "goes there and update the fit with it.")
+        .arg(over.join(QStringLiteral(", ")))
+        .arg(m_state.peakLimit_um);
+  }
   if (!over.isEmpty()) {
     const QString what = m_state.correctionProposed ? tr("Look at the proposed correction.")
                                                     : tr("Fit with a further run, or report it as it is.");
@@ -144,9 +150,11 @@ QString VerifyPage::finishedSentence() const {
              : tr("The proof is complete: every axis keeps its limit. Save the report next.");
 }
 
-/// Within the limits another table is the engineer's choice, not the next step.
+/// Within the limits another table is the engineer's choice, not the next step; nor is one made where the model
+/// guessed.
 bool VerifyPage::correctionNeeded() const {
-  return m_state.correctionProposed && m_state.worseThanBefore.isEmpty() && !axesOverLimit().isEmpty();
+  return m_state.correctionProposed && m_state.worseThanBefore.isEmpty() && m_state.outsideRange.isEmpty() &&
+         !axesOverLimit().isEmpty();
 }
 
 /// The version before was better, and no earlier run says otherwise.
@@ -185,7 +193,8 @@ QVector<PageAction> VerifyPage::secondary() const {
       return {};
     case VerifyPhase::running:
     case VerifyPhase::paused:
-      return {{"abort", tr("Abort"), true, {}, tr("Stops the machine and drops this verification. Asks first.")},
+      return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")},
+              {"abort", tr("Abort"), true, {}, tr("Stops the machine and drops this verification. Asks first.")},
               {"finish", tr("Finish"), true, {}, tr("Ends the run here and keeps what was measured. Asks first.")}};
     case VerifyPhase::finished:
       break;

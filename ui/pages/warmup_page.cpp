@@ -189,9 +189,8 @@ QVector<PageAction> WarmupPage::secondary() const {
     case RunPhase::planning:
       return {{"load", tr("Load plan")}, {"save", tr("Save plan")}};
     case RunPhase::running:
-      return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")}, abort, finish};
     case RunPhase::paused:
-      return {abort, finish};
+      return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")}, abort, finish};
     case RunPhase::interrupted:
       return {{"again", tr("New run"), true, {}, tr("Plans a new run; the interrupted one stays in the job unused")},
               finish};

@@ -277,7 +277,7 @@ void LivePlot::scaleOrdinate() {
   }
   const double margin = 0.06 * (high - low);
   // The names of the regimes and notes stand at the top: the curves keep below them.
-  const double words_px = (hasSpanLabels() ? 20.0 : 0.0) + (hasMarkTexts() ? 16.0 : 0.0);
+  const double words_px = (hasSpanLabels() ? 20.0 : 0.0) + (hasMarkTexts() ? 30.0 : 0.0);
   const double words = words_px * (high - low) / std::max(60, height() - 60);
   yAxis()->setRange(low - margin, high + margin + words);
 }

@@ -1,6 +1,8 @@
 #include "ui/plots/plot_widget.h"
 
 #include <QSvgGenerator>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ui/plots/custom_plot.h"
@@ -9,6 +11,8 @@ namespace zerodrift::ui {
 namespace {
 
 constexpr double hoverReach_px = 28.0;
+constexpr std::size_t mark_rows = 2;
+constexpr int mark_row_px = 14;
 
 /// Hours and minutes for any length of run; seconds only when the view is short.
 class ElapsedTicker : public QCPAxisTickerTime {
@@ -185,13 +189,17 @@ void PlotWidget::setSpans(const QVector<Span>& spans) {
   replot();
 }
 
-/// The words of marks that stand too close to one another: the later ones keep their line alone.
+/// The words of marks stand in two rows, below the names of the spans; what fits into neither keeps its line alone.
 void PlotWidget::placeMarkTexts() {
-  double free_px = -1.0;
+  const int first_px = hasSpanLabels() ? 18 : 2;
+  std::array<double, mark_rows> free_px{};
   for (auto* text : m_markTexts) {
     const double at_px = text->position->pixelPosition().x();
-    text->setVisible(at_px >= free_px);
-    if (text->visible()) free_px = at_px + QFontMetrics(text->font()).horizontalAdvance(text->text());
+    const auto row = std::find_if(free_px.begin(), free_px.end(), [&](double free) { return at_px >= free; });
+    text->setVisible(row != free_px.end());
+    if (row == free_px.end()) continue;
+    text->setPadding(QMargins(5, first_px + mark_row_px * static_cast<int>(row - free_px.begin()), 2, 2));
+    *row = at_px + QFontMetrics(text->font()).horizontalAdvance(text->text()) + 8;
   }
 }
 
@@ -272,8 +280,7 @@ void PlotWidget::styleFrame() {
     word->position->setTypeY(upright ? QCPItemPosition::ptAxisRectRatio : QCPItemPosition::ptPlotCoords);
     word->position->setCoords(upright ? QPointF(a.x(), 0.0) : QPointF(0.0, a.y()));
     word->setPositionAlignment(upright ? Qt::AlignTop | Qt::AlignLeft : Qt::AlignBottom | Qt::AlignLeft);
-    // Below the names of the spans.
-    word->setPadding(QMargins(5, upright && hasSpanLabels() ? 18 : 2, 2, 2));
+    word->setPadding(QMargins(5, 2, 2, 2));
     m_lineTexts.append(word);
     if (upright) m_markTexts.append(word);
   };

@@ -121,6 +121,11 @@ std::string CalibratePresenter::waitingFor() const {
   return m_running ? m_live->waiting : std::string();
 }
 
+std::string CalibratePresenter::cameraAtWork() const {
+  const std::scoped_lock lock(m_live->mutex);
+  return m_live->camera;
+}
+
 void CalibratePresenter::confirmed() {
   const std::string camera = m_page->state().moveCamera.toStdString();
   if (!m_page->takeConsent()) return;
@@ -259,16 +264,17 @@ void CalibratePresenter::fillPlan(ui::CalibrateState& state) {
   state.span_mm = std::max(state.span_mm, 2.0 * drift_margin * std::max(state.driftRight_mm, state.driftUp_mm));
 }
 
-/// Which moves come next: those of the camera that waits for a word, else those of the first one.
+/// Which moves come next: those of the camera that waits for a word, or those that are made; else of the first one.
 void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
   const auto& profile = bench().profile();
   const std::string waiting = waitingFor();
   state.waiting = !waiting.empty();
   state.moveOf = static_cast<int>(profile->cameras.size());
   if (profile->cameras.empty()) return;
+  const std::string at_work = waiting.empty() && m_running ? cameraAtWork() : waiting;
   int next = 0;
   for (int i = 0; i < state.moveOf; ++i) {
-    if (profile->cameras[static_cast<std::size_t>(i)].id == waiting) next = i;
+    if (profile->cameras[static_cast<std::size_t>(i)].id == at_work) next = i;
   }
   const auto& camera = profile->cameras[static_cast<std::size_t>(next)];
   state.moveCamera = QString::fromStdString(camera.id);

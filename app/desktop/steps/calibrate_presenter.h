@@ -49,6 +49,7 @@ class CalibratePresenter : public Presenter {
   void confirmed();
   void start(std::function<void(bool good)> done);
   std::string waitingFor() const;
+  std::string cameraAtWork() const;
   void fillMoves(ui::CalibrateState& state);
   void showPicture();
   void fillPlan(ui::CalibrateState& state);

@@ -101,11 +101,8 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     }
     if (action == QStringLiteral("test")) this->bench().connectMachine();
     if (action == QStringLiteral("disconnect")) this->bench().disconnectMachine();
-    if (action == QStringLiteral("virtual")) {
-      DemoOptions options;
-      options.seed = virtualSeed().value_or(options.seed);
-      useVirtualMachine(options);
-    }
+    if (action == QStringLiteral("virtual")) startVirtual();
+    if (action == QStringLiteral("connect")) connectNow();
   });
   connect(&bench, &Workbench::machineSeen, this, &MachinePresenter::looked);
   connect(&bench, &Workbench::machineLost, this, [this](const Error& error) {
@@ -221,14 +218,22 @@ void MachinePresenter::remember(const QString& given) {
   settings.setValue(QStringLiteral("recentJobs"), QStringList(recent.mid(0, jobs_remembered)));
 }
 
+void MachinePresenter::connectNow() {
+  m_connecting = true;
+  m_page->clearProblem();
+  bench().connectMachine();
+  refresh();
+}
+
+void MachinePresenter::startVirtual() {
+  DemoOptions options;
+  options.seed = virtualSeed().value_or(options.seed);
+  useVirtualMachine(options);
+}
+
 void MachinePresenter::primary() {
-  if (!bench().connected()) {
-    m_connecting = true;
-    m_page->clearProblem();
-    bench().connectMachine();
-    refresh();
-    return;
-  }
+  if (!bench().connected() && m_page->startsVirtual()) return startVirtual();
+  if (!bench().connected()) return connectNow();
   startCommissioning([this](bool good) {
     if (good) Q_EMIT nextRequested();
   });

@@ -42,6 +42,9 @@ class MachinePresenter : public Presenter {
  private:
   void importProfile();
   void primary();
+  void connectNow();
+  /// The virtual machine of the job, anew.
+  void startVirtual();
   void startCommissioning(std::function<void(bool good)> done);
   void looked();
   void sayWhenOld();

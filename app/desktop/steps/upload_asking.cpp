@@ -33,14 +33,19 @@ bool UploadPresenter::takeLostTable() {
   if (m_correction || m_lostTable || !isWritten() || !controller::is_empty_table(m_preview->record.old_words.size())) {
     return false;
   }
-  const json body = bench().body("upload");
-  const auto words = body.at("record").value("new_words", std::vector<std::uint16_t>{});
-  if (controller::is_empty_table(words.size()) || controller::same_table(words, m_preview->record.new_words))
-    return false;
-  auto last = compensation::table_from_json(body.value("table", json::object()), "the uploaded table");
-  if (!last) return false;
-  m_lostTable = std::move(*last);
-  return true;
+  const auto history = bench().job()->history("upload");
+  if (!history) return false;
+  for (auto artefact = history->rbegin(); artefact != history->rend(); ++artefact) {
+    const json body = artefact->document().value_or(json::object());
+    const auto words = body.value("record", json::object()).value("new_words", std::vector<std::uint16_t>{});
+    if (controller::is_empty_table(words.size())) continue;  // gone back to before the first one
+    if (controller::same_table(words, m_preview->record.new_words)) return false;
+    auto last = compensation::table_from_json(body.value("table", json::object()), "the uploaded table");
+    if (!last) return false;
+    m_lostTable = std::move(*last);
+    return true;
+  }
+  return false;
 }
 
 /// What is active in the machine is not what this job has written: another one wrote, or it was started anew.
@@ -69,6 +74,25 @@ void UploadPresenter::tellForeign() {
   });
 }
 
+/// Sensors that are outside the model's range stand in one sentence.
+QStringList UploadPresenter::warningsInWords() const {
+  static const std::string outside = ": the machine is outside the range the model was made in";
+  QStringList sensors;
+  QStringList warnings;
+  for (const auto& warning : m_preview->record.warnings) {
+    if (warning.ends_with(outside)) {
+      sensors << bench().inWords(warning.substr(0, warning.size() - outside.size()));
+    } else {
+      warnings << bench().inWords(warning);
+    }
+  }
+  if (!sensors.isEmpty()) {
+    warnings.prepend(
+        tr("The machine is outside the range the model was made in: %1").arg(sensors.join(QStringLiteral(", "))));
+  }
+  return warnings;
+}
+
 /// What a person should know before the question is answered: a model above its limit, a machine outside its range.
 QString UploadPresenter::doubtsOfWriting() const {
   QString doubts;
@@ -84,8 +108,8 @@ QString UploadPresenter::doubtsOfWriting() const {
                   .arg(peak_um, 0, 'f', 1)
                   .arg(report::limits::attainable_peak_um, 0, 'f', 0);
   }
-  for (const auto& warning : m_preview->record.warnings) {
-    doubts += tr("%1.", "a whole sentence").arg(bench().inWords(warning)) + QLatin1Char(' ');
+  for (const QString& warning : warningsInWords()) {
+    doubts += tr("%1.", "a whole sentence").arg(warning) + QLatin1Char(' ');
   }
   return doubts;
 }

@@ -71,15 +71,15 @@ void UploadPresenter::fillFromPreview(ui::UploadState& state) const {
     state.stagesNote = tr("dry run %1").arg(m_dryRunAt.toString(QStringLiteral("HH:mm")));
   state.registers = static_cast<double>(record.new_words.size());
   state.steepest_um_per_K = steepest_um_per_K(m_preview->table);
-  for (const auto& warning : record.warnings) state.warnings << bench().inWords(warning);
+  state.warnings = warningsInWords();
 }
 
 void UploadPresenter::fillFromArtefact(ui::UploadState& state, const json& body) const {
-  state.written =
-      isWritten() && !m_correction && !m_goingBack && !machineHoldsAnother();  // another table, not written yet
-  const auto& job = *bench().job();
   state.writtenEmpty =
       controller::is_empty_table(body.at("record").value("new_words", std::vector<std::uint16_t>{}).size());
+  // Another table, not written yet; or nothing, after going back to before the first one.
+  state.written = isWritten() && !m_correction && !m_goingBack && !machineHoldsAnother() && !state.writtenEmpty;
+  const auto& job = *bench().job();
   state.proved = flow::status_of(job, "verify").state == flow::StepState::current;
   const auto upload = job.latest("upload");
   if (!state.offline.isEmpty() && upload && *upload) state.asOf = momentText((*upload)->created_utc);

@@ -299,8 +299,7 @@ void UploadPresenter::askAndRollBack() {
         m_failed = !good;
         m_preview.reset();
         m_goingBack.reset();
-        readLog();
-        refresh();
+        enter();
       });
 }
 

@@ -39,6 +39,7 @@ class UploadPresenter : public Presenter {
   void preview(Done done);
   void askAndWrite(Done done);
   QString doubtsOfWriting() const;
+  QStringList warningsInWords() const;
   bool confirmed(const QString& heading, const QString& text, const QString& deed) const;
   void write(Done done);
   void rollBack(const QString& id);

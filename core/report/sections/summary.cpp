@@ -49,7 +49,9 @@ Plot before_and_after(const Source& source, const std::vector<std::string>& dire
     const auto* run = source.run_of(kind);
     for (const auto& direction : directions) {
       if (run == nullptr) continue;
-      for (auto& curve : curves_of(*run, {"d" + direction + "_um"}, false)) {
+      auto curves = curves_of(*run, {"d" + direction + "_um"}, false);
+      if (const LoadedRun* loaded = source.run(source.find(kind))) break_at_pauses(*loaded, curves);
+      for (auto& curve : curves) {
         curve.name = source.tell(words, direction);
         curve.stroke = stroke;
         plot.curves.push_back(std::move(curve));
