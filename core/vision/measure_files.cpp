@@ -53,8 +53,9 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<st
   }
   std::sort(out.begin(), out.end(), [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
   if (out.empty()) {
-    return fail(ErrorCode::not_enough_data,
-                {{"what", "the folder " + folder.string()}, {"found", "no picture"}, {"needed", "at least one"}});
+    return fail(ErrorCode::wrong_format, {{"file", folder.string()},
+                                          {"found", "a folder without pictures"},
+                                          {"expected", "a folder of PNG, JPEG, BMP or TIFF pictures"}});
   }
   return out;
 }

@@ -1918,6 +1918,14 @@
         <translation>相机无应答</translation>
     </message>
     <message>
+        <source>a folder without pictures</source>
+        <translation>不含图像的文件夹</translation>
+    </message>
+    <message>
+        <source>a folder of PNG, JPEG, BMP or TIFF pictures</source>
+        <translation>含 PNG、JPEG、BMP 或 TIFF 图像的文件夹</translation>
+    </message>
+    <message>
         <source>camera sends no picture</source>
         <translation>相机不发送图像</translation>
     </message>
@@ -1996,14 +2004,6 @@
     <message>
         <source>%1 is no picture and was left out</source>
         <translation>%1 不是图像，已略去</translation>
-    </message>
-    <message>
-        <source>the folder %1</source>
-        <translation>文件夹 %1</translation>
-    </message>
-    <message>
-        <source>no picture</source>
-        <translation>没有图像</translation>
     </message>
     <message>
         <source>%1 was left out: %2</source>

@@ -70,7 +70,9 @@ TEST_F(MeasureFiles, BadFramesAreNamedAndGoodOnesMeasured) {
 }
 
 TEST_F(MeasureFiles, FolderWithoutPicturesIsAnError) {
-  EXPECT_EQ(locate_in_folder(target(), {}, m_folder / "frames", nullptr, {}).error().code, ErrorCode::not_enough_data);
+  const auto nothing = locate_in_folder(target(), {}, m_folder / "frames", nullptr, {});
+  EXPECT_EQ(nothing.error().code, ErrorCode::wrong_format);
+  EXPECT_EQ(nothing.error().context.at("file"), (m_folder / "frames").string());
   EXPECT_EQ(locate_in_folder(target(), {}, m_folder / "none", nullptr, {}).error().code, ErrorCode::file_not_found);
 }
 

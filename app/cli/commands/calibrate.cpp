@@ -58,9 +58,10 @@ void add_calibrate(Cli& cli) {
   CLI::App* command = cli.add("calibrate", "Calibrate a camera from views of the target at known machine positions",
                               [options](const TaskContext& context) { return run(*options, context); });
   command->add_option("--template", options->image, "Picture of the target at rest")->required();
-  command->add_option("--roi", options->region, "Region of the target, X,Y,W,H in px; found by itself if absent");
-  command->add_option("--point", options->point,
-                      "Point whose displacement is measured, X,Y in px; default: the centre");
+  command->add_option("--roi", options->region, "Region of the target, X,Y,W,H in px; found by itself if absent")
+      ->check(check_region);
+  command->add_option("--point", options->point, "Point whose displacement is measured, X,Y in px; default: the centre")
+      ->check(check_point);
   command->add_option("--views", options->views, "CSV image,x_mm,y_mm: pictures at known positions")->required();
   command->add_option("--out", options->out, "Calibration file to write")->required();
 }

@@ -63,8 +63,12 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
   for (const std::string& text : options.references) {
     vision::TemplateChoice reference{options.image, {}, {}};
     ZD_TRY(reference.region, region_from(text, "--reference-roi"));
-    ZD_TRY(vision::Target mark, vision::load_target(reference, nullptr));
-    request.references.push_back(std::move(mark));
+    auto mark = vision::load_target(reference, nullptr);
+    if (!mark && mark.error().code == ErrorCode::template_without_texture) {
+      return fail(ErrorCode::template_without_texture, {{"file", options.image + " (--reference-roi " + text + ")"}});
+    }
+    ZD_CHECK(mark);
+    request.references.push_back(*std::move(mark));
   }
   return Prepared{std::move(target), std::move(request)};
 }
@@ -116,12 +120,16 @@ void add_locate(Cli& cli) {
   CLI::App* command = cli.add("locate", "Measure the target's displacement in the frames of a folder",
                               [options](const TaskContext& context) { return run(*options, context); });
   command->add_option("--template", options->image, "Picture of the target at rest")->required();
-  command->add_option("--roi", options->region,
-                      "Region of the target, X,Y,W,H in px; default: the calibration's, or found by itself");
-  command->add_option("--point", options->point,
-                      "Point whose displacement is measured, X,Y in px; default: the centre");
-  command->add_option("--reference-roi", options->references,
-                      "Region of a fixed mark whose motion is taken off; may be given more than once");
+  command
+      ->add_option("--roi", options->region,
+                   "Region of the target, X,Y,W,H in px; default: the calibration's, or found by itself")
+      ->check(check_region);
+  command->add_option("--point", options->point, "Point whose displacement is measured, X,Y in px; default: the centre")
+      ->check(check_point);
+  command
+      ->add_option("--reference-roi", options->references,
+                   "Region of a fixed mark whose motion is taken off; may be given more than once")
+      ->check(check_region);
   command->add_option("--frames", options->frames, "Folder of pictures")->required();
   command->add_option("--calibration", options->calibration, "Calibration file: adds the error in um");
   command->add_option("--views", options->views, "Calibration views, to learn which pixels travel with the target");

@@ -3,8 +3,17 @@
 #include <cmath>
 
 #include "app/cli/command.h"
+#include "app/text/error_text.h"
 
 namespace zerodrift::cli {
+namespace vision_options {
+
+template <typename Read>
+std::string complaint(const Result<Read>& read) {
+  return read ? std::string() : lineOf(read.error()).toStdString();
+}
+
+}  // namespace vision_options
 
 Result<std::optional<vision::Region>> region_from(const std::string& text, const std::string& option) {
   if (text.empty()) return std::nullopt;
@@ -20,6 +29,14 @@ Result<std::optional<vision::PixelPoint>> point_from(const std::string& text, co
   if (text.empty()) return std::nullopt;
   ZD_TRY(const std::vector<double> n, numbers_from(text, option, 2));
   return vision::PixelPoint{n[0], n[1]};
+}
+
+std::string check_region(const std::string& text) {
+  return vision_options::complaint(region_from(text, "region"));
+}
+
+std::string check_point(const std::string& text) {
+  return vision_options::complaint(point_from(text, "point"));
 }
 
 }  // namespace zerodrift::cli

@@ -14,4 +14,8 @@ Result<std::optional<vision::Region>> region_from(const std::string& text, const
 /// "X,Y".
 Result<std::optional<vision::PixelPoint>> point_from(const std::string& text, const std::string& option);
 
+/// As a check of the option: a text that is none is wrong usage, not a failure on the data.
+std::string check_region(const std::string& text);
+std::string check_point(const std::string& text);
+
 }  // namespace zerodrift::cli
