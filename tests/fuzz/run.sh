@@ -19,7 +19,7 @@ for target in "${targets[@]}"; do
   mkdir -p "$build/corpus/$target"
   kept=("$root/tests/fuzz/corpus/$target")
   [ -d "${kept[0]}" ] || kept=()  # some targets make their seeds
-  "$build/bin/fuzz_$target" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2500 -max_len=65536 -verbosity=0 \
+  "$build/bin/fuzz_$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2500 -max_len=65536 -verbosity=0 \
     -print_final_stats=1 -artifact_prefix="$build/found/$target-" "$build/corpus/$target" \
     "${kept[@]}" 2>"$build/$target.log" || {
     tail -40 "$build/$target.log" >&2
