@@ -12,6 +12,7 @@
 #include "app/desktop/machine_writes.h"
 #include "app/desktop/pin_dialog.h"
 #include "app/desktop/registry.h"
+#include "app/desktop/steps/compensator_presenter.h"
 #include "app/desktop/steps/machine_presenter.h"
 #include "app/desktop/steps/physics_presenter.h"
 #include "app/desktop/steps/upload_presenter.h"
@@ -103,6 +104,7 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::machineSeen, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::machineLost, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::accessChanged, this, &Application::updateLamps);
+  connect(m_bench.get(), &Workbench::heldTableChanged, this, &Application::updateSteps);
   new IdleLock(*m_bench, this);
   // Said when the job has been opened and its page stands.
   connect(m_bench.get(), &Workbench::jobChanged, this, &Application::sayInterrupted, Qt::QueuedConnection);
@@ -445,8 +447,18 @@ QString Application::whatClosingDoes() const {
     const auto* run = qobject_cast<const RunPresenter*>(presenter(QString::fromLatin1(id)));
     return run != nullptr && run->running();
   };
-  if (runs("warmup")) return tr("What was recorded is kept and the run can be resumed.");
-  if (runs("verify")) return tr("It stops here and is not used: a verification is started anew.");
+  if (runs("warmup")) {
+    return tr("The spindle, the path and the coolant stop. What was recorded is kept and the run can be resumed.");
+  }
+  if (runs("verify")) {
+    return tr(
+        "The spindle, the path and the coolant stop; the compensation stays as it is switched. This run is not "
+        "used: a verification is started anew.");
+  }
+  const auto* compensator = qobject_cast<const CompensatorPresenter*>(presenter(QStringLiteral("compensator")));
+  if (compensator != nullptr && compensator->running()) {
+    return tr("The offset runs to 0 and the compensation is switched as it was before.");
+  }
   return tr("It is broken off; what the job holds already is kept.");
 }
 

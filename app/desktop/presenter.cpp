@@ -1,6 +1,7 @@
 #include "app/desktop/presenter.h"
 
 #include "app/text/error_text.h"
+#include "core/flow/flow.h"
 
 namespace zerodrift::desktop {
 
@@ -61,6 +62,14 @@ void Presenter::endTask(QObject* progress) {
   progress->deleteLater();
   progress->disconnect();
   m_page->clearProgress();
+}
+
+QString Presenter::tableStanding() const {
+  const auto held = m_bench.heldTable();
+  if (held != HeldTable::none && held != HeldTable::another) return {};
+  if (m_bench.job() == nullptr || !m_bench.has("upload")) return {};
+  if (flow::status_of(*m_bench.job(), id().toStdString()).state != flow::StepState::current) return {};
+  return held == HeldTable::none ? tr("The machine holds none") : tr("The machine holds another");
 }
 
 QString Presenter::offlineReason() const {

@@ -26,7 +26,8 @@ class Presenter : public QObject {
   /// The page was opened or left.
   virtual void enter() { refresh(); }
   virtual void leave() {}
-  /// Words under the name in the rail, for a page that is no step of the job; empty: a step.
+  /// Words under the name in the rail in place of the step's state: for a page that is no step of the job, and for one
+  /// whose result the machine does not hold any more; empty: the step's state.
   virtual QString standing() const { return {}; }
   /// Takes back the last choice on this page (Ctrl+Z).
   virtual void undo() {}
@@ -69,6 +70,8 @@ class Presenter : public QObject {
   void showOnly(const Error& error);
   /// Why nothing can be asked of the machine now; empty: it is there.
   QString offlineReason() const;
+  /// For the rail, of a step that is done: that the machine holds another table than this job wrote, or none.
+  QString tableStanding() const;
   /// Why nothing else can be done now: the task that runs.
   Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.

@@ -232,6 +232,28 @@ void about_upload(const Source& source, Doubts& doubts) {
   }
 }
 
+/// Axes that the table written before would have served better in the same run; false: none, or another run says
+/// otherwise.
+bool about_version_before(const json& body, Doubts& doubts) {
+  const json before = body.value("version_before", json());
+  if (!before.is_object()) return false;
+  bool worse = false;
+  for (const auto& axis : list_of(before, "axes")) {
+    if (!axis.value("worse", false)) continue;
+    worse = true;
+    doubts.add(Verdict::doubtful, "version_before",
+               "With table version {} the error left in {} would have been {} µm RMS in this run instead of {} µm.",
+               text_of(before, "version"), text_of(axis, "axis"), shown(number_of(axis, "rms_before_um"), 1),
+               shown(number_of(axis, "rms_now_um"), 1));
+  }
+  if (!worse) return false;
+  if (before.value("contradicted", false)) {
+    doubts.add(Verdict::doubtful, "version_before", "Which of the last two tables is better changes from run to run.");
+    return false;
+  }
+  return true;
+}
+
 void about_verification(const Source& source, Doubts& doubts) {
   const json* body = doubts.about("verification");
   if (body == nullptr) return;
@@ -259,6 +281,7 @@ void about_verification(const Source& source, Doubts& doubts) {
     }
   }
   about_run(source, "verification", "Verification run", doubts);
+  if (about_version_before(*body, doubts)) return;  // what to write next is then the version before
   if (!body->value("corrected_table", json()).is_object()) return;
   doubts.add(Verdict::doubtful, "corrected_table",
              "The verification proposes a correction of the model that has not been written and proved.");

@@ -4591,20 +4591,24 @@
         <translation>目前未查询控制器</translation>
     </message>
     <message>
-        <source>What was recorded is kept and the run can be resumed.</source>
-        <translation>已记录的数据会保留，运行可以继续。</translation>
-    </message>
-    <message>
-        <source>It stops here and is not used: a verification is started anew.</source>
-        <translation>运行到此停止且不予采用：验证需重新开始。</translation>
-    </message>
-    <message>
         <source>It is broken off; what the job holds already is kept.</source>
         <translation>该操作将中断；作业中已有的内容会保留。</translation>
     </message>
     <message>
         <source>%1 is running.</source>
         <translation>正在进行：%1。</translation>
+    </message>
+    <message>
+        <source>The spindle, the path and the coolant stop. What was recorded is kept and the run can be resumed.</source>
+        <translation>主轴、轨迹和冷却液停止。已记录的数据会保留，运行可以继续。</translation>
+    </message>
+    <message>
+        <source>The spindle, the path and the coolant stop; the compensation stays as it is switched. This run is not used: a verification is started anew.</source>
+        <translation>主轴、轨迹和冷却液停止；补偿保持当前开关状态。本次运行不予采用：验证须重新开始。</translation>
+    </message>
+    <message>
+        <source>The offset runs to 0 and the compensation is switched as it was before.</source>
+        <translation>偏置归零，补偿恢复为原来的开关状态。</translation>
     </message>
 </context>
 <context>
@@ -4798,6 +4802,10 @@
     <message>
         <source>Compensating</source>
         <translation>正在补偿</translation>
+    </message>
+    <message>
+        <source>The controller compensates with a table of its own: roll it back in Upload first.</source>
+        <translation>控制器正在使用自身的补偿表：请先在“上传”页将其回退。</translation>
     </message>
 </context>
 <context>
@@ -5149,6 +5157,14 @@
     <message>
         <source>The controller does not answer.</source>
         <translation>控制器没有应答。</translation>
+    </message>
+    <message>
+        <source>The machine holds none</source>
+        <translation>机床中没有</translation>
+    </message>
+    <message>
+        <source>The machine holds another</source>
+        <translation>机床中为另一张表</translation>
     </message>
 </context>
 <context>
@@ -7011,6 +7027,18 @@
         <source>The machine does not hold version %1, which this job has written: bring it back in Upload, or start again.</source>
         <translation>机床中不再有本作业写入的版本 %1：请在“上传”步骤中恢复，或重新开始。</translation>
     </message>
+    <message>
+        <source>The machine of this job is a virtual one: start it, or connect to another.</source>
+        <translation>本作业的机床是虚拟机床：请启动它，或连接其他机床。</translation>
+    </message>
+    <message>
+        <source>Bring version %1 back</source>
+        <translation>恢复版本 %1</translation>
+    </message>
+    <message>
+        <source>Opens Upload, which compares the table with what the machine holds and asks before it writes.</source>
+        <translation>打开“上传”页，与机床中的补偿表比较，写入前会询问。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::MachineStart</name>
@@ -8762,7 +8790,7 @@ The sum of absolute values does not have this fault.</source>
     </message>
     <message>
         <source>Offset</source>
-        <translation>偏移</translation>
+        <translation>偏置</translation>
     </message>
     <message>
         <source>Which of the last two versions is better changes from run to run: record a further warm-up run and update the fit with it.</source>
@@ -8783,6 +8811,10 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Writes a remark at this moment of the run</source>
         <translation>在运行的此刻写入备注</translation>
+    </message>
+    <message>
+        <source>The result below is of before.</source>
+        <translation>以下为此前的结果。</translation>
     </message>
 </context>
 <context>

@@ -241,6 +241,13 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
 
     auto* verify = qobject_cast<VerifyPage*>(application.presenter(QStringLiteral("verify"))->page());
     QCOMPARE(verify->state().phase, zerodrift::ui::VerifyPhase::finished);
+    const auto in_rail = [&](const QString& id) { return application.presenter(id)->standing(); };
+    QVERIFY2(verify->sentence().contains(QStringLiteral("of before")), qPrintable(verify->sentence()));
+    QVERIFY2(in_rail(QStringLiteral("upload")).contains(QStringLiteral("none")), qPrintable(in_rail("upload")));
+    QVERIFY2(in_rail(QStringLiteral("verify")).contains(QStringLiteral("none")), qPrintable(in_rail("verify")));
+    auto* machine = qobject_cast<MachinePage*>(application.presenter(QStringLiteral("machine"))->page());
+    QTRY_VERIFY(machine->tableLost());
+    QVERIFY2(machine->primary().text.contains(QStringLiteral("back")), qPrintable(machine->primary().text));
     Q_EMIT verify->secondaryTriggered(QStringLiteral("again"));
     QVERIFY(!verify->primary().enabled);
     QVERIFY2(verify->sentence().contains(QStringLiteral("holds no table")), qPrintable(verify->sentence()));
@@ -262,6 +269,12 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(words() == last);
     QTRY_COMPARE_WITH_TIMEOUT(bench.heldTable(), HeldTable::own, 10000);
     QVERIFY(verify->primary().enabled);
+    QVERIFY(in_rail(QStringLiteral("upload")).isEmpty());
+    // Nobody compensates beside it.
+    const auto* compensator = application.presenter(QStringLiteral("compensator"))->page();
+    QVERIFY2(compensator->sentence().contains(QStringLiteral("table of its own")), qPrintable(compensator->sentence()));
+    QVERIFY(!compensator->primaryAction().enabled);
+    QVERIFY(!machine->tableLost());
 
     // Gone back to before the first table, on purpose: it can be put back the same way.
     auto* upload_page = qobject_cast<UploadPage*>(upload->page());

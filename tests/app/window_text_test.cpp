@@ -6,6 +6,7 @@
 
 #include "tests/ui/gallery/samples.h"
 #include "ui/pages/page.h"
+#include "ui/plots/custom_plot.h"
 #include "ui/shell/main_window.h"
 #include "ui/shell/rail.h"
 #include "ui/shell/theme.h"
@@ -61,6 +62,22 @@ bool sticksOut(const QWidget* widget) {
          widget->geometry().bottom() > parent->height() + slack_px;
 }
 
+/// Axes, limits, marks, spans and what stands in an empty plot.
+QStringList wordsIn(const QCustomPlot& plot) {
+  QStringList words;
+  for (const QCPAxis* axis : plot.axisRect()->axes()) {
+    if (!axis->visible()) continue;
+    words << axis->label();
+    if (const auto named = axis->ticker().dynamicCast<QCPAxisTickerText>()) words << named->ticks().values();
+  }
+  for (int i = 0; i < plot.itemCount(); ++i) {
+    const auto* text = qobject_cast<const QCPItemText*>(plot.item(i));
+    // Those that find no room are hidden: where they find it they must read right.
+    if (text != nullptr) words << text->text();
+  }
+  return words;
+}
+
 QStringList textsOf(const QWidget* widget) {
   QStringList texts = {widget->toolTip(), widget->accessibleName(), widget->accessibleDescription()};
   if (const auto* label = qobject_cast<const QLabel*>(widget)) texts << label->text();
@@ -81,6 +98,7 @@ QStringList textsOf(const QWidget* widget) {
       }
     }
   }
+  if (const auto* plot = qobject_cast<const QCustomPlot*>(widget)) texts << wordsIn(*plot);
   texts.removeAll(QString());
   return texts;
 }

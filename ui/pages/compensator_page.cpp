@@ -105,6 +105,7 @@ QString CompensatorPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   switch (m_state.phase) {
     case CompensatorPhase::ready:
+      if (!m_state.notNow.isEmpty()) return m_state.notNow;
       return tr(
           "This computer compensates: for controllers without a table of their own, and for models that remember.");
     case CompensatorPhase::running:
@@ -120,7 +121,7 @@ PageAction CompensatorPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start compensating"), false, m_state.blocked};
   switch (m_state.phase) {
     case CompensatorPhase::ready:
-      return {"primary", tr("Start compensating"), true, {}};
+      return {"primary", tr("Start compensating"), m_state.notNow.isEmpty(), m_state.notNow};
     case CompensatorPhase::running:
       return {"primary", tr("Stop"), true, {}, tr("The offset runs to 0 at the machine's rate.")};
     case CompensatorPhase::stopping:

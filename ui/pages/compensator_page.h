@@ -32,6 +32,7 @@ struct CompensatorAxis {
 
 struct CompensatorState {
   QString blocked{};
+  QString notNow{};  // the page stands, but nothing can be started
   CompensatorPhase phase = CompensatorPhase::ready;
   std::array<CompensatorAxis, 3> axes{};
   QString doing{};        // "compensating", "held at the edge of the training range"

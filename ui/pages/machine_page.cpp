@@ -144,7 +144,13 @@ QString MachinePage::title() const {
 
 QString MachinePage::sentence() const {
   if (!m_state.jobOpen) return tr("Start a job for this machine, or go on with one.");
+  if (startsVirtual()) return tr("The machine of this job is a virtual one: start it, or connect to another.");
   if (!m_state.connected) return tr("Choose the connection profile and connect to the controller.");
+  if (tableLost()) {
+    return tr("The machine does not hold version %1, which this job has written: bring it back in Upload, or start "
+              "again.")
+        .arg(m_state.writtenVersion);
+  }
   if (m_state.compensationOn)
     return tr("Switch the compensation off: with it on, nothing can be measured for the model.");
   const RestState& rest = m_state.rest;
@@ -158,11 +164,6 @@ QString MachinePage::sentence() const {
         .arg(rest.warmest)
         .arg(std::abs(rest.apart_K), 0, 'f', 1);
   }
-  if (m_state.writtenVersion > 0 && m_state.tableGone) {
-    return tr("The machine does not hold version %1, which this job has written: bring it back in Upload, or start "
-              "again.")
-        .arg(m_state.writtenVersion);
-  }
   if (m_state.writtenVersion > 0) {
     return tr("This job has written version %1. Starting again measures anew, with the compensation off; what the "
               "machine "
@@ -174,6 +175,19 @@ QString MachinePage::sentence() const {
 
 bool MachinePage::startsVirtual() const {
   return m_state.jobOpen && m_state.virtualOffered && !m_state.connected && !m_state.connecting;
+}
+
+bool MachinePage::tableLost() const {
+  return m_state.jobOpen && m_state.connected && m_state.writtenVersion > 0 && m_state.tableGone;
+}
+
+PageAction MachinePage::startAction(const QString& id) const {
+  return {id, tr("Start commissioning"), !m_state.compensationOn,
+          tr("The compensation is ON. Measuring for the model is locked until it is switched off."),
+          m_state.writtenVersion > 0
+              ? tr("Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: "
+                   "what was measured stays in the job, and the machine keeps its table.")
+              : QString()};
 }
 
 PageAction MachinePage::primary() const {
@@ -190,12 +204,14 @@ PageAction MachinePage::primary() const {
     return {"primary", tr("Connect"), chosen && !m_state.connecting,
             chosen ? tr("The connection is being made.") : tr("Choose or import a connection profile first.")};
   }
-  return {"primary", tr("Start commissioning"), !m_state.compensationOn,
-          tr("The compensation is ON. Measuring for the model is locked until it is switched off."),
-          m_state.writtenVersion > 0
-              ? tr("Looks at the machine again and goes on to the calibration. Nothing is written and nothing is lost: "
-                   "what was measured stays in the job, and the machine keeps its table.")
-              : QString()};
+  if (tableLost()) {
+    return {"primary",
+            tr("Bring version %1 back").arg(m_state.writtenVersion),
+            true,
+            {},
+            tr("Opens Upload, which compares the table with what the machine holds and asks before it writes.")};
+  }
+  return startAction("primary");
 }
 
 QVector<PageAction> MachinePage::secondary() const {
@@ -204,6 +220,7 @@ QVector<PageAction> MachinePage::secondary() const {
   if (m_state.connected) {
     actions.append({"test", tr("Test again")});
     actions.append({"disconnect", tr("Disconnect")});
+    if (tableLost()) actions.append(startAction("start"));
   } else if (startsVirtual()) {
     actions.append({"connect", tr("Connect")});
   }

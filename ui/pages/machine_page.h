@@ -97,6 +97,8 @@ class MachinePage : public Page {
 
   /// The job's machine is a virtual one that does not run: the main button starts it.
   bool startsVirtual() const;
+  /// The connected machine does not hold what this job wrote: the main button leads to where it is put back.
+  bool tableLost() const;
   QString title() const override;
   QString sentence() const override;
   /// Connect, then Start commissioning.
@@ -123,6 +125,7 @@ class MachinePage : public Page {
   void render() override;
 
  private:
+  PageAction startAction(const QString& id) const;
   QWidget* makeMachine();
   QWidget* makeRegisters();
   void viewShown(int index);

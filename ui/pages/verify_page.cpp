@@ -120,6 +120,7 @@ QStringList VerifyPage::axesOverLimit() const {
 
 /// What matters most comes first: an axis that got worse, then one over its limit, then a correction to look at.
 QString VerifyPage::finishedSentence() const {
+  if (!m_state.notHeld.isEmpty()) return m_state.notHeld + QLatin1Char(' ') + tr("The result below is of before.");
   const QStringList over = axesOverLimit();
   if (m_state.runsDisagree) {
     return tr(
@@ -390,14 +391,14 @@ void VerifyPage::renderCorrection() {
 
 void VerifyPage::renderResiduals() {
   m_plot->setPlaceholder(tr("Shown when the verification is finished"));
-  m_plot->setLimits(
-      {{m_state.threshold_um, tr("threshold"), Judgement::warn}, {-m_state.threshold_um, {}, Judgement::warn}});
   const int row = m_table->currentRow();
   if (row < 0 || row >= m_state.corrections.size()) {
     m_legend->setItems({});
     return m_plot->clear();
   }
   const AxisCorrection& axis = m_state.corrections[row];
+  m_plot->setLimits(
+      {{m_state.threshold_um, tr("threshold"), Judgement::warn}, {-m_state.threshold_um, {}, Judgement::warn}});
   PartStyle style;
   QVector<LegendItem> legend = {{tr("as measured"), colors().bad}};
   if (!axis.corrected_um.isEmpty()) legend.append({tr("with the correction"), colors().ok});

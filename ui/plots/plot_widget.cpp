@@ -394,7 +394,8 @@ void PlotWidget::resizeEvent(QResizeEvent* event) {
 }
 
 void PlotWidget::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {
+  const auto type = event->type();
+  if (type == QEvent::PaletteChange || type == QEvent::StyleChange || type == QEvent::LanguageChange) {
     restyle();
     styleFrame();
   }

@@ -95,7 +95,7 @@ class PlotWidget : public QWidget {
   /// The curve or point nearest to this place of the widget.
   virtual Near nearest(const QPointF& pixel) const = 0;
   virtual QString csv() const = 0;
-  /// Colours of curves after a change of theme.
+  /// Colours of curves and the plot's own words after a change of theme or language.
   virtual void restyle() {}
   QCustomPlot* plot() const { return m_plot; }
   QCPAxis* xAxis() const;

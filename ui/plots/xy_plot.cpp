@@ -117,6 +117,10 @@ void XyPlot::removePart(const QString& id) {
 void XyPlot::clear() {
   const QStringList ids = m_parts.keys();
   for (const QString& id : ids) removePart(id);
+  // Words left beside an empty plot would be about what is gone, in the language it was drawn in.
+  setLimits({});
+  setMarks({});
+  setAxisLabels({}, {});
   showPlaceholder(true);
   replot();
 }

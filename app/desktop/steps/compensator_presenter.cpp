@@ -45,6 +45,7 @@ CompensatorPresenter::CompensatorPresenter(Workbench& bench, ui::CompensatorPage
     : Presenter(bench, page), m_page(page) {
   m_timer.setInterval(drain_ms);
   connect(&m_timer, &QTimer::timeout, this, &CompensatorPresenter::drain);
+  connect(&bench, &Workbench::heldTableChanged, this, [this] { refresh(); });
   connect(page, &ui::Page::primaryTriggered, this, [this] {
     if (!m_running) {
       start();
@@ -183,6 +184,10 @@ void CompensatorPresenter::refresh() {
     state.blocked = tr("Fit a model first: it says from the temperatures what to compensate.");
   } else if (!bench().profile() || (!m_running && !bench().connected())) {
     state.blocked = tr("Connect the machine first.");
+  }
+  const auto held = bench().heldTable();
+  if (held == HeldTable::own || held == HeldTable::another) {
+    state.notNow = tr("The controller compensates with a table of its own: roll it back in Upload first.");
   }
   if (const auto& profile = bench().profile()) state.limit_um = profile->max_um;
   m_page->setState(state);

@@ -17,6 +17,7 @@ class CompensatorPresenter : public Presenter {
   CompensatorPresenter(Workbench& bench, ui::CompensatorPage* page);
   void refresh() override;
   QString standing() const override;
+  bool running() const { return m_running; }
 
  protected:
   bool cancellable() const override { return false; }  // Stop is the page's own button

@@ -103,6 +103,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     if (action == QStringLiteral("disconnect")) this->bench().disconnectMachine();
     if (action == QStringLiteral("virtual")) startVirtual();
     if (action == QStringLiteral("connect")) connectNow();
+    if (action == QStringLiteral("start")) commissionAnew();
   });
   connect(&bench, &Workbench::machineSeen, this, &MachinePresenter::looked);
   connect(&bench, &Workbench::machineLost, this, [this](const Error& error) {
@@ -234,6 +235,11 @@ void MachinePresenter::startVirtual() {
 void MachinePresenter::primary() {
   if (!bench().connected() && m_page->startsVirtual()) return startVirtual();
   if (!bench().connected()) return connectNow();
+  if (m_page->tableLost()) return Q_EMIT pageRequested(QStringLiteral("upload"));
+  commissionAnew();
+}
+
+void MachinePresenter::commissionAnew() {
   startCommissioning([this](bool good) {
     if (good) Q_EMIT nextRequested();
   });

@@ -42,6 +42,7 @@ class MachinePresenter : public Presenter {
  private:
   void importProfile();
   void primary();
+  void commissionAnew();
   void connectNow();
   /// The virtual machine of the job, anew.
   void startVirtual();

@@ -15,6 +15,7 @@ class VerifyPresenter : public RunPresenter {
  public:
   VerifyPresenter(Workbench& bench, ui::VerifyPage* page);
   void refresh() override;
+  QString standing() const override { return tableStanding(); }
   void tour(std::function<void(bool good)> done) override;
 
  Q_SIGNALS:

@@ -61,18 +61,29 @@ Plot residual(const Source& source, const recording::Recording& run) {
   return plot;
 }
 
+/// Of the table that the machine held in this run; empty when the upload is not in the job.
+std::string table_version(const Source& source, const LoadedArtefact& verification) {
+  for (const auto& input : verification.inputs) {
+    if (input.kind != "upload") continue;
+    for (const auto& upload : source.history("upload")) {
+      if (upload.id == input.id) return text_of(upload.body, "version");
+    }
+  }
+  return {};
+}
+
 /// Each verification of the job: a correction is written and proved, or the table of before stays in doubt.
 Table rounds(const Source& source) {
   Table table;
   table.id = "rounds";
   table.title = source.say("Verification runs of this job, largest error left");
-  table.header = {source.say("run"),       source.say("made, UTC"), "X, µm", "Y, µm", "Z, µm",
-                  source.say("limit, µm"), source.say("result")};
+  table.header = {source.say("run"), source.say("made, UTC"), source.say("table version"), "X, µm", "Y, µm",
+                  "Z, µm",           source.say("limit, µm"), source.say("result")};
   table.trace = source.trace("verification", "history");
   const auto& all = source.history("verification");
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& body = all[i].body;
-    std::vector<Cell> row = {std::to_string(i + 1), minute_of(all[i].created_utc)};
+    std::vector<Cell> row = {std::to_string(i + 1), minute_of(all[i].created_utc), table_version(source, all[i])};
     for (const char* axis : {"X", "Y", "Z"}) {
       Trace trace = source.at("verification", fmt::format("/peak_error_after_um/{}", axis));
       trace.id = all[i].id;
@@ -89,7 +100,7 @@ Table rounds(const Source& source) {
 Table correction(const Source& source) {
   Table table;
   table.id = "correction";
-  table.title = source.say("Correction proposed by the residual (kappa = 1 + residual / compensation)");
+  table.title = source.say("Correction that the residual asks for (kappa = 1 + residual / compensation)");
   table.header = {source.say("direction"), source.say("kappa"), source.say("offset, µm"), source.say("why")};
   table.trace = source.trace("verification", "/correction");
   int number = 0;

@@ -38,6 +38,10 @@ void settle(MainWindow& window) {
 int main(int argc, char** argv) {
   QApplication application(argc, argv);
   Theme theme(application);
+  if (argc > 1 && argv[1][0] == '-') {  // an option is no folder
+    std::fprintf(stderr, "usage: zerodrift-ui-gallery [DIR [PAGE-SCENE]]\n");
+    return 2;
+  }
   const QString only = argc > 2 ? QString::fromLocal8Bit(argv[2]) : QString();
   const QDir folder(argc > 1 ? QString::fromLocal8Bit(argv[1]) : "gallery");
   folder.mkpath(".");

@@ -97,6 +97,12 @@ void fillVerify(Page* page, const QString& scene) {
     s.blocked = "Write the table to the machine first: then its effect is measured.";
     return verify->setState(s);
   }
+  if (scene == "again") {
+    fillVerify(page, "correction");
+    s.threshold_um = 3.0;
+    verify->setState(s);
+    return verify->showView(1);
+  }
   const bool finished = scene != "running";
   s.phase = finished ? VerifyPhase::finished : VerifyPhase::running;
   s.peakBefore_um = 58.3;
