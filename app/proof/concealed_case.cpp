@@ -149,6 +149,16 @@ void close_seal(ConcealedCase& one) {
   one.seal = machine::seal(answer.dump());
 }
 
+/// The parameters with which an effect was hidden.
+json sizes_of(const json& answer, const std::string& id) {
+  const json hidden = answer.value("hidden", json::object());
+  const json list = hidden.contains("effects") ? hidden.at("effects") : json::array({hidden});
+  for (const auto& effect : list) {
+    if (effect.value("id", "") == id) return effect.value("parameters", json::object());
+  }
+  return json::object();
+}
+
 /// Lost samples and spikes as a real logger has them, in three cases of ten.
 void spoil(Recording& recording, Noise noise) {
   if (noise.uniform() > 0.3) return;
@@ -222,6 +232,10 @@ Result<OpenedAnswer> truth_from(const std::string& sealed_text, const std::strin
   for (const auto& effect : answer.at("effects")) {
     TrueEffect known{effect.at("id"), std::nullopt, effect.at("channel"), effect.at("law")};
     if (effect.at("position_mm").is_number()) known.position_mm = effect.at("position_mm").get<double>();
+    const json sizes = sizes_of(answer, known.id);
+    for (const auto& [name, value] : sizes.items()) {
+      if (value.is_number()) known.sizes[name] = value.get<double>();
+    }
     truth.effects.push_back(std::move(known));
   }
   return truth;

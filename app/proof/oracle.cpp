@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/diagnoser.h"
+#include "core/diagnosis/refine.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/screening.h"
 
@@ -15,10 +16,12 @@ namespace {
 using diagnosis::Candidate;
 using diagnosis::Dataset;
 using diagnosis::Model;
-using ModelPtr = std::shared_ptr<Model>;
+using diagnosis::ModelPtr;
 
 bool is_form_of(const Candidate& candidate, const TrueEffect& hidden) {
   const auto& spec = candidate.spec;
+  // On a rod a heat that is always there is a source with a constant law.
+  if (hidden.id == "standing_heat" && spec.id == "extra_heat_source") return spec.word_or("law", "") == "constant";
   if (spec.id != hidden.id) return false;
   if (!hidden.channel.empty() && spec.word_or("channel", "") != hidden.channel) return false;
   return hidden.law.empty() || spec.word_or("law", hidden.law) == hidden.law;
@@ -95,7 +98,14 @@ OracleAnswer told_the_truth(const physics::Machine& described, const std::vector
     if (best == nullptr || model->log_evidence() > best->log_evidence()) best = model;
     std::reverse(in_turn.begin(), in_turn.end());
   }
-  if (best != base) best = at_its_own_misfit(best, *usual);
+  if (best != base) {
+    best = at_its_own_misfit(best, *usual);
+    // One who is told starts from the description as well, not only from what it became without the effects.
+    if (const ModelPtr anew = diagnosis::restarted(*best)) {
+      const ModelPtr other = at_its_own_misfit(anew, *usual);
+      if (other->log_evidence_total() > best->log_evidence_total()) best = other;
+    }
+  }
   answer.found = true;
   answer.evidence = best->log_evidence_total() - base->log_evidence_total();
   for (std::size_t i = machine.effects.size(); i < best->machine().effects.size(); ++i) {

@@ -141,22 +141,26 @@ Section confusion_section(const Score& score) {
 
 Section improvement_section(const Score& score) {
   Section section{"improvement", "How much better the simulation fits", {}};
-  section.blocks.emplace_back(
-      Text{"Rms of recording against simulation, median over channels and cases (unlisted effects left out): with the "
-           "description as it was; re-fitted within its tolerances without any effect; with what was found. The floor "
-           "is the sensors' own noise: no simulation can be below it. The true structure is what an analysis reaches "
-           "that is told what is hidden and fits it to the same recording."});
+  section.blocks.emplace_back(Text{
+      "Rms of recording against simulation, median over channels and cases (unlisted effects left out): with the "
+      "description as it was; re-fitted within its tolerances without any effect; with what was found. The floor "
+      "is the sensors' own noise: no simulation can be below it. The true structure is what an analysis reaches "
+      "that is told what is hidden and fits it to the same recording; over that: the ratio of the two medians, over "
+      "the channels where both are known, and the median of the channels' own ratios."});
   Table table;
   table.id = "improvement";
   table.header = {"channels", "recording",     "as described",   "re-fitted", "with the effect",
-                  "floor",    "worst / floor", "true structure", "over that", "unit"};
+                  "floor",    "worst / floor", "true structure", "over that", "median of ratios",
+                  "unit"};
   for (const auto& one : score.improvements()) {
     const auto number = [](double value) { return fmt::format("{:.3f}", value); };
-    table.rows.push_back(
-        {one.kind == "T" ? "temperatures" : one.kind, one.second ? "held out" : "fitted", number(one.nominal),
-         number(one.refitted), number(one.explained), number(one.floor), fmt::format("{:.1f}", one.worst_over_floor),
-         std::isfinite(one.reached) ? number(one.reached) : "",
-         std::isfinite(one.over_reached) ? fmt::format("{:.2f}", one.over_reached) : "", one.kind == "T" ? "K" : "um"});
+    table.rows.push_back({one.kind == "T" ? "temperatures" : one.kind, one.second ? "held out" : "fitted",
+                          number(one.nominal), number(one.refitted), number(one.explained), number(one.floor),
+                          fmt::format("{:.1f}", one.worst_over_floor),
+                          std::isfinite(one.reached) ? number(one.reached) : "",
+                          std::isfinite(one.over_reached) ? fmt::format("{:.4f}", one.over_reached) : "",
+                          std::isfinite(one.median_over_reached) ? fmt::format("{:.4f}", one.median_over_reached) : "",
+                          one.kind == "T" ? "K" : "um"});
   }
   section.blocks.emplace_back(std::move(table));
   return section;
@@ -192,6 +196,35 @@ Section calibration_section(const Score& score) {
   return section;
 }
 
+/// What was not named: could the recording show it, and did the answer say so?
+Section misses_section(const Score& score) {
+  Section section{"misses", "What was not named, and whether it could be", {}};
+  Table table;
+  table.id = "misses";
+  table.header = {"case", "hidden", "answer", "not named", "evidence if told", "hidden size", "would show from", ""};
+  for (const auto& one : score.judgements()) {
+    for (const NotNamed& effect : one.not_named) {
+      const bool told = one.told.has_value();
+      table.rows.push_back({one.name, one.truth, one.answer, effect.id, told ? fmt::format("{:.1f}", *one.told) : "",
+                            effect.compared() ? fmt::format("{:.3g} ({})", effect.hidden, effect.key) : "",
+                            effect.compared() ? fmt::format("{:.3g}", effect.could_show_from) : "",
+                            !one.decidable()    ? "too little even for one who is told"
+                            : effect.was_told() ? "told that it would not show"
+                                                : "should have been found"});
+    }
+  }
+  const Score::Undecidable hard = score.undecidable();
+  section.blocks.emplace_back(Text{fmt::format(
+      "Evidence if told: what the recording says, in natural logarithms, for the hidden effect that shows least, to an "
+      "analysis that is told the answer. An answer needs 8. Of {} listed effects or pairs that were not answered "
+      "rightly {} have less. With every answer stands from which size each other effect would have shown in this "
+      "recording: of {} effects that were not named, and whose size is given in the same unit, {} were smaller than "
+      "that.",
+      hard.wrong, hard.undecidable, hard.compared, hard.said_so)});
+  section.blocks.emplace_back(std::move(table));
+  return section;
+}
+
 Section cases_section(const Score& score) {
   Section section{"cases", "Every case", {}};
   Table table;
@@ -206,13 +239,6 @@ Section cases_section(const Score& score) {
                           fmt::format("{:.1f}", one.seconds), name_of(one.outcome)});
   }
   section.blocks.emplace_back(std::move(table));
-  const Score::Undecidable hard = score.undecidable();
-  section.blocks.emplace_back(Text{fmt::format(
-      "Evidence if told: what the recording says, in natural logarithms, for the hidden effect that shows least, to an "
-      "analysis that is told the answer. An answer needs 8. Of {} listed effects that were not answered rightly {} "
-      "have "
-      "less.",
-      hard.wrong, hard.undecidable)});
   return section;
 }
 
@@ -225,9 +251,9 @@ report::Report report_of(const Trial& trial, const std::optional<ExperimentTrial
                    {"Seed", std::to_string(trial.options.seed)},
                    {"Promises kept", fmt::format("{} of {}", trial.seals_kept, trial.options.cases)},
                    {"Time", fmt::format("{:.0f} s", trial.seconds)}};
-  report.sections = {figures_section(trial),           method_section(trial),
-                     confusion_section(trial.score),   improvement_section(trial.score),
-                     calibration_section(trial.score), cases_section(trial.score)};
+  report.sections = {figures_section(trial),           method_section(trial),       confusion_section(trial.score),
+                     improvement_section(trial.score), misses_section(trial.score), calibration_section(trial.score),
+                     cases_section(trial.score)};
   if (experiments) report.sections.insert(report.sections.end() - 1, experiments_section(*experiments));
   report.provenance = fmt::format("Zerodrift {}, commitments {}", ZERODRIFT_VERSION, trial.digest.substr(0, 16));
   return report;

@@ -68,6 +68,30 @@ Outcome outcome_of(const OpenedAnswer& truth, const json& diagnosis) {
   return hidden.count(id_of(effects.front(), truth)) != 0 ? Outcome::first_right : Outcome::wrong_name;
 }
 
+/// Which hidden effects the answer does not name, and what it said about their sizes.
+std::vector<NotNamed> not_named(const OpenedAnswer& truth, const json& diagnosis) {
+  std::vector<NotNamed> list;
+  if (truth.unlisted) return list;
+  std::multiset<std::string> named;
+  if (diagnosis.value("verdict", "") == "missing_effect") {
+    for (const auto& effect : diagnosis.at("effects")) named.insert(id_of(effect, truth));
+  }
+  const json could = diagnosis.value("could_have_detected", json::object());
+  for (const auto& hidden : truth.effects) {
+    if (const auto at = named.find(hidden.id); at != named.end()) {
+      named.erase(at);
+      continue;
+    }
+    NotNamed one{hidden.id, "", 0.0, 0.0};
+    if (const auto least = could.find(hidden.id); least != could.end()) {
+      const auto size = hidden.sizes.find(least->value("key", ""));
+      if (size != hidden.sizes.end()) one = {hidden.id, size->first, size->second, least->at("value").get<double>()};
+    }
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 ProofFigure share_figure(const std::string& id, const std::string& label, int good, int all, double must, bool least) {
   ProofFigure figure{id, label, "-", "", fmt::format("{} {:.0f} %", least ? "at least" : "at most", 100 * must), {}};
   if (all == 0) return figure;
@@ -75,6 +99,14 @@ ProofFigure share_figure(const std::string& id, const std::string& label, int go
   figure.value = fmt::format("{}/{} = {:.1f}", good, all, 100 * share);
   figure.unit = "%";
   figure.met = least ? share >= must : share <= must;
+  return figure;
+}
+
+/// A share that explains another one and has no limit of its own.
+ProofFigure plain_share(const std::string& id, const std::string& label, int good, int all) {
+  ProofFigure figure = share_figure(id, label, good, all, 0.0, true);
+  figure.limit = "-";
+  figure.met.reset();
   return figure;
 }
 
@@ -95,6 +127,10 @@ std::string OpenedAnswer::words() const {
   for (const auto& effect : effects) ids.push_back(effect.id);
   std::sort(ids.begin(), ids.end());
   return fmt::format("{}", fmt::join(ids, "+"));
+}
+
+bool Judgement::decidable() const {
+  return !told || *told >= least_evidence;
 }
 
 std::string name_of(Outcome outcome) {
@@ -131,6 +167,7 @@ Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
   for (const auto& note : diagnosis.value("notes", std::vector<std::string>{})) {
     m_turned_round += note.rfind("fitted_instead:", 0) == 0 ? 1 : 0;
   }
+  judgement.not_named = not_named(truth, diagnosis);
   const auto& effects = diagnosis.at("effects");
   const bool names = diagnosis.value("verdict", "") == "missing_effect" && !effects.empty();
   if (names) {
@@ -172,6 +209,7 @@ void Score::count_outcome(const OpenedAnswer& truth, const Judgement& judgement)
   } else {
     m_missed.add(judgement.outcome == Outcome::missed);
     if (truth.effects.size() == 2) m_pairs.add(right);
+    if (truth.effects.size() == 2 && judgement.decidable()) m_pairs_decidable.add(right);
   }
 }
 
@@ -276,6 +314,8 @@ std::vector<ProofFigure> Score::figures() const {
                               m_first.all, 0.92, true));
   list.push_back(share_figure("all_right", "all effects right", m_all_right.good, m_all_right.all, 0.91, true));
   list.push_back(share_figure("pairs", "two effects, both named", m_pairs.good, m_pairs.all, 0.95, true));
+  list.push_back(plain_share("pairs_decidable", "pairs that the recording can decide, both named",
+                             m_pairs_decidable.good, m_pairs_decidable.all));
   list.push_back(share_figure("false_alarms", "false alarms when nothing is missing", m_quiet.all - m_quiet.good,
                               m_quiet.all, 0.0, false));
   list.push_back(
@@ -291,7 +331,7 @@ std::vector<ProofFigure> Score::figures() const {
     const double must = one.kind == "T" ? 1.2 : one.kind == "dZ" ? 1.0 : 2.0;
     list.push_back(number_figure("held_out_" + one.kind,
                                  "held-out recording, " + one.kind + ", over what the true structure reaches",
-                                 one.over_reached, 2, "times", must));
+                                 one.over_reached, 4, "times", must));
   }
   list.push_back(number_figure("calibration_error", "confidence: expected calibration error",
                                expected_calibration_error(), 3, "", 0.10));
@@ -306,80 +346,13 @@ Score::Undecidable Score::undecidable() const {
   for (const Judgement& one : m_judgements) {
     if (one.outcome == Outcome::right || !one.told) continue;
     ++count.wrong;
-    count.undecidable += *one.told < least_evidence ? 1 : 0;
+    count.undecidable += one.decidable() ? 0 : 1;
+    for (const NotNamed& effect : one.not_named) {
+      count.compared += effect.compared() ? 1 : 0;
+      count.said_so += effect.was_told() ? 1 : 0;
+    }
   }
   return count;
-}
-
-json Score::to_json() const {
-  json out = {{"cases", m_judgements.size()}, {"turned_round", m_turned_round}, {"figures", json::array()},
-              {"confusion", m_confusion},     {"rmse", json::array()},          {"reliability", json::array()}};
-  out["not_right"] = undecidable().wrong;
-  out["not_right_and_undecidable"] = undecidable().undecidable;
-  for (const auto& figure : figures()) {
-    out["figures"].push_back({{"id", figure.id},
-                              {"label", figure.label},
-                              {"value", figure.value},
-                              {"unit", figure.unit},
-                              {"must", figure.limit},
-                              {"met", figure.met ? json(*figure.met) : json()}});
-  }
-  for (const auto& one : improvements()) {
-    out["rmse"].push_back({{"channels", one.kind},
-                           {"recording", one.second ? "held out" : "fitted"},
-                           {"before", one.nominal},
-                           {"refitted", one.refitted},
-                           {"after", one.explained},
-                           {"floor", one.floor},
-                           {"worst_over_floor", one.worst_over_floor}});
-    if (!std::isfinite(one.reached)) continue;
-    out["rmse"].back()["true_structure"] = one.reached;
-    out["rmse"].back()["over_true_structure"] = one.over_reached;
-    out["rmse"].back()["median_over_true_structure"] = one.median_over_reached;
-  }
-  for (const auto& bin : reliability()) {
-    out["reliability"].push_back({{"from", bin.low},
-                                  {"to", bin.high},
-                                  {"cases", bin.cases},
-                                  {"confidence", bin.confidence},
-                                  {"right", bin.right}});
-  }
-  for (const auto& one : m_judgements) {
-    out["answers"].push_back({{"case", one.name},
-                              {"hidden", one.truth},
-                              {"answer", one.answer},
-                              {"outcome", name_of(one.outcome)},
-                              {"confidence", one.confidence},
-                              {"strength", one.strength},
-                              {"evidence_if_told", one.told ? json(*one.told) : json()},
-                              {"location_error_mm", one.location_error_mm ? json(*one.location_error_mm) : json()},
-                              {"seconds", one.seconds}});
-  }
-  return out;
-}
-
-std::string Score::text() const {
-  std::string out = fmt::format("cases {}\n", m_judgements.size());
-  for (const auto& figure : figures()) {
-    out += fmt::format("{:<50} {:>18} {:<3} (must: {}){}\n", figure.label, figure.value, figure.unit, figure.limit,
-                       figure.met && !*figure.met ? "  NOT MET" : "");
-  }
-  out += fmt::format("{:<22} {:>9} {:>10} {:>12} {:>8} {:>14} {:>15} {:>8}\n", "rms, median", "nominal", "re-fitted",
-                     "with effect", "floor", "worst / floor", "true structure", "over it");
-  for (const auto& one : improvements()) {
-    out += fmt::format("{:<3} {:<18} {:>9.3f} {:>10.3f} {:>12.3f} {:>8.3f} {:>14.2f} {:>15.3f} {:>8.2f}\n", one.kind,
-                       one.second ? "held-out recording" : "fitted recording", one.nominal, one.refitted, one.explained,
-                       one.floor, one.worst_over_floor, one.reached, one.over_reached);
-  }
-  const Undecidable hard = undecidable();
-  out += fmt::format("listed effects not answered rightly: {}, undecidable even for one who is told: {}\n", hard.wrong,
-                     hard.undecidable);
-  for (const auto& [truth, answers] : m_confusion) {
-    out += fmt::format("  {:<44}", truth);
-    for (const auto& [answer, n] : answers) out += fmt::format(" {} x{}", answer, n);
-    out += "\n";
-  }
-  return out;
 }
 
 }  // namespace zerodrift::proof

@@ -14,7 +14,8 @@ struct TrueEffect {
   std::string id;
   std::optional<double> position_mm;
   std::string channel;
-  std::string law;  // of a heat source: "constant", "on", "n", "n2"
+  std::string law;                        // of a heat source: "constant", "on", "n", "n2"
+  std::map<std::string, double> sizes{};  // what it was hidden with, by the name of the parameter
 };
 
 /// The opened answer of one case.
@@ -44,6 +45,16 @@ enum class Outcome {
 };
 std::string name_of(Outcome outcome);
 
+/// A hidden effect that the answer does not name, beside what the answer said that this recording could have shown.
+struct NotNamed {
+  std::string id, key;           // key: of the size, empty where the two are not given in the same unit
+  double hidden = 0.0;           // its size
+  double could_show_from = 0.0;  // the smallest size that would have shown, as the answer says
+  bool compared() const { return !key.empty(); }
+  /// The answer said beforehand that so small an effect would not show.
+  bool was_told() const { return compared() && hidden < could_show_from; }
+};
+
 struct Judgement {
   std::string name, truth, answer;
   Outcome outcome = Outcome::failed;
@@ -52,6 +63,9 @@ struct Judgement {
   double strength = 0.0;
   std::optional<double> location_error_mm;
   std::optional<double> told;  // OpenedAnswer::told
+  std::vector<NotNamed> not_named;
+  /// The recording holds what an answer needs, for one who is told; true where nobody asked.
+  bool decidable() const;
 };
 
 /// A figure of the proof beside what it must reach.
@@ -96,6 +110,7 @@ class Score {
   /// even for one who is told the truth, than any answer needs.
   struct Undecidable {
     int wrong = 0, undecidable = 0;
+    int compared = 0, said_so = 0;  // effects not named whose size can be compared with what could have shown
   };
   Undecidable undecidable() const;
 
@@ -123,7 +138,7 @@ class Score {
   void count_location(const OpenedAnswer& truth, const nlohmann::json& diagnosis, Judgement& judgement);
   void count_rms(const OpenedAnswer& truth, const nlohmann::json& diagnosis);
 
-  Tally m_first, m_all_right, m_pairs, m_quiet, m_missed, m_unlisted, m_channel;
+  Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel;
   int m_turned_round = 0;
   std::vector<double> m_location_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;

@@ -119,6 +119,24 @@ Columns amplitude_columns(const physics::Network& network, std::size_t first_eff
   return columns;
 }
 
+/// How a reading changes with its sensor's lag, as the chord to a usual lag: the tangent at none says little, it stands
+/// for the moments of switching alone, where the timing is uncertain.
+void take_chords_of_lags(const physics::Network& network, const std::vector<Candidate>& group, const Columns& columns,
+                         const std::vector<double>& time_s, physics::Prediction& prediction) {
+  for (std::size_t c = 0; c < group.size(); ++c) {
+    if (group[c].spec.id != "sensor_lag" || columns.of_candidate[c].second == 0) continue;
+    const std::size_t column = columns.of_candidate[c].first;
+    const double usual_s = network.parameters[static_cast<std::size_t>(columns.parameters[column])].sigma;
+    for (physics::PredictedChannel& channel : prediction.channels) {
+      if (channel.channel != group[c].spec.word_or("channel", "")) continue;
+      const std::vector<double> late = physics::lagged(channel.values, time_s, usual_s);
+      for (std::size_t k = 0; k < late.size(); ++k) {
+        channel.derivatives[k * prediction.columns + column] = (late[k] - channel.values[k]) / usual_s;
+      }
+    }
+  }
+}
+
 /// Scores a group of candidates that may stand side by side.
 void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::vector<Candidate>& group) {
   if (group.empty()) return;
@@ -128,8 +146,8 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
   Model wide(std::move(machine), base.shared_data());
   wide.start_from(base, false);
   const Columns columns = amplitude_columns(wide.network(), first_effect, group.size());
-  const physics::Prediction prediction =
-      physics::predict(wide.network(), wide.inputs(), wide.values(), columns.parameters);
+  physics::Prediction prediction = physics::predict(wide.network(), wide.inputs(), wide.values(), columns.parameters);
+  take_chords_of_lags(wide.network(), group, columns, wide.inputs().time_s, prediction);
   RowMatrix s = RowMatrix::Zero(base.residual().size(), static_cast<Index>(columns.parameters.size()));
   std::vector<int> targets(columns.parameters.size());
   for (std::size_t i = 0; i < targets.size(); ++i) targets[i] = static_cast<int>(i);

@@ -2,106 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+
+#include "core/diagnosis/refine.h"
 
 namespace zerodrift::diagnosis {
 namespace {
 
 using ModelPtr = std::shared_ptr<Model>;
 
-const physics::EffectSpec& last_effect(const Model& model) {
-  return model.machine().effects.back();
-}
-
 /// Comparable between models under noises of their own.
 bool by_total(const ModelPtr& a, const ModelPtr& b) {
   return a->log_evidence_total() > b->log_evidence_total();
-}
-
-bool by_evidence(const ModelPtr& a, const ModelPtr& b) {
-  return a->log_evidence() > b->log_evidence();
-}
-
-bool many_forms(const std::string& id) {
-  return id == "extra_heat_source" || id == "contact_resistance" || id == "bearing_preload" || id == "coolant" ||
-         id == "structure_bending" || id == "structure_ambient" || id == "convection" || id == "sensor_lag" ||
-         id == "sensor_offset" || id == "sensor_gain";
-}
-
-struct RefineOptions {
-  int per_family = 2;
-  double least_gain = 6.0;
-  std::size_t most = 18;
-};
-
-/// The best-scored forms, at most a few a family, and not two neighbouring places of one law.
-std::vector<Candidate> leaders(const Model& base, const std::vector<Candidate>& screened,
-                               const RefineOptions& options) {
-  std::map<std::string, int> count;
-  std::vector<Candidate> chosen;
-  for (const auto& candidate : screened) {
-    if (candidate.gain < options.least_gain || chosen.size() >= options.most) break;
-    const std::string& id = candidate.spec.id;
-    if (count[id] >= options.per_family + (many_forms(id) ? 1 : 0)) continue;
-    const physics::Component* component = base.machine().find(candidate.spec.word_or("component", ""));
-    const bool near = component != nullptr && candidate.spec.numbers.count("position_mm") != 0 &&
-                      std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
-                        return other.spec.id == id && other.spec.words == candidate.spec.words &&
-                               std::abs(other.spec.number_or("position_mm", 0) -
-                                        candidate.spec.number_or("position_mm", 0)) < 0.07 * component->length_mm;
-                      });
-    if (near) continue;
-    ++count[id];
-    chosen.push_back(candidate);
-  }
-  return chosen;
-}
-
-/// An unconverged fit with a large gain invents a second effect, so the leaders are polished before they are compared.
-void polish(const ModelPtr& base, std::vector<ModelPtr>& fits) {
-  std::set<const Model*> polished;
-  for (int round = 0; round < 2 && !fits.empty(); ++round) {
-    std::sort(fits.begin(), fits.end(), by_evidence);
-    const double lead = fits.front()->log_evidence();
-    const double margin = std::max(60.0, 0.35 * std::abs(lead - base->log_evidence()));
-    std::map<std::string, int> count;
-    std::vector<ModelPtr> turn;
-    for (const auto& fit : fits) {
-      const std::string& id = last_effect(*fit).id;
-      if (count[id] >= (round == 0 ? 2 : 1) || count.size() > 4) continue;
-      ++count[id];
-      if (polished.count(fit.get()) != 0 || fit->log_evidence() < lead - margin) continue;
-      turn.push_back(fit);
-      polished.insert(fit.get());
-    }
-    in_parallel(turn.size(), [&](std::size_t i) { turn[i]->fit({15, 0.05, true}); });
-  }
-  std::sort(fits.begin(), fits.end(), by_evidence);
-}
-
-std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>& screened,
-                             const RefineOptions& options) {
-  const std::vector<Candidate> chosen = leaders(*base, screened, options);
-  std::vector<ModelPtr> fits(chosen.size());
-  in_parallel(chosen.size(), [&](std::size_t i) {
-    fits[i] = extended(*base, chosen[i]);
-    fits[i]->fit({8, 0.05, false});
-  });
-  polish(base, fits);
-  return fits;
-}
-
-/// The best forms in the place of one effect, fitted, best first; its own family only if `own_family`.
-std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const physics::RunFacts& facts,
-                                  bool own_family) {
-  const ModelPtr without = reduced(best, effect);
-  without->fit({10, 0.05, true});
-  std::vector<Candidate> screened = screen(*without, facts);
-  const std::string& own = best.machine().effects[effect].id;
-  if (!own_family) std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
-  if (screened.size() > 40) screened.resize(40);
-  return refine(without, screened, {1, 6.0, own_family ? 8u : 6u});
 }
 
 class Selector {
@@ -124,11 +36,14 @@ class Selector {
     m_context.progress(0.5, "refitting");
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     const std::vector<ModelPtr> leading = leaders_of(first);
+    if (!leading.empty()) base_from(*leading.front());
     if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= m_options.first) return m_result;
     m_result.best = leading.front();
     for (int level = 2; level <= m_options.most_effects; ++level) {
       const ModelPtr before = m_result.best;
-      add_one(level == 2 ? leading : std::vector<ModelPtr>{m_result.best});
+      std::vector<ModelPtr> beam = leading;
+      if (m_other_valley != nullptr) beam.push_back(m_other_valley);
+      add_one(level == 2 ? beam : std::vector<ModelPtr>{m_result.best});
       m_context.progress(0.4 + 0.25 * level, "further_effects");
       if (m_context.cancelled()) return fail(ErrorCode::cancelled);
       if (m_result.best == before) break;
@@ -139,6 +54,7 @@ class Selector {
       }
       if (m_result.best != grown) eliminate();
     }
+    if (m_options.own_misfit) m_result.best = with_places_tried(m_result.best);
     align();
     return m_result;
   }
@@ -193,6 +109,8 @@ class Selector {
   }
 
  private:
+  static constexpr double clearly_deeper = 0.5;
+
   static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data) {
     auto result = std::make_shared<Model>(model.machine(), data);
     result->continue_from(model);
@@ -228,15 +146,58 @@ class Selector {
 
   /// The best first effects of different families, each under its own misfit. Under the base's misfit, which has
   /// swallowed what it could of a weak effect, even the right one may look worthless.
-  std::vector<ModelPtr> leaders_of(const std::vector<ModelPtr>& fits) const {
+  std::vector<ModelPtr> leaders_of(const std::vector<ModelPtr>& fits) {
     std::vector<ModelPtr> list;
     std::set<std::string> ids;
     for (const auto& fit : fits) {
       if (fit->log_evidence() < m_result.base->log_evidence() - 1.0 || list.size() == 3) break;
-      if (ids.insert(last_effect(*fit).id).second) list.push_back(with_ordinary(fit));
+      if (ids.insert(last_effect(*fit).id).second) list.push_back(fit);
+    }
+    in_parallel(list.size(), [&](std::size_t i) { list[i] = with_ordinary(list[i]); });
+    std::sort(list.begin(), list.end(), by_total);
+    // Another valley is worth some share of what an effect explains: what is further behind does not get to the front.
+    std::vector<ModelPtr> others(list.size());
+    const auto near = [&](const Model& model, double share) {
+      return total_gain(*list.front(), model) < std::max(60.0, share * total_gain(*list.front(), *m_result.base));
+    };
+    in_parallel(list.size(), [&](std::size_t i) { others[i] = near(*list[i], 0.1) ? other_valley(list[i]) : nullptr; });
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (others[i] == nullptr) continue;
+      if (total_gain(*others[i], *list[i]) > clearly_deeper) {
+        std::swap(others[i], list[i]);
+        m_moved = true;
+      }
+      // The lower valley leaves something slow: with a second effect it may be the deeper one.
+      if (excess_of(*others[i]).largest < 2.0 || !near(*others[i], 0.03)) continue;
+      if (m_other_valley == nullptr || by_total(others[i], m_other_valley)) m_other_valley = others[i];
     }
     std::sort(list.begin(), list.end(), by_total);
     return list;
+  }
+
+  /// The valley next to the description, where the model lies in another; none where it lies there or for lumps, whose
+  /// descriptions are guesses.
+  ModelPtr other_valley(const ModelPtr& model) const {
+    if (!m_options.own_misfit || near_its_description(*model)) return nullptr;
+    const ModelPtr anew = restarted(*model);
+    return anew == nullptr ? nullptr : with_ordinary(anew);
+  }
+
+  ModelPtr in_the_deeper_valley(const ModelPtr& model) {
+    const ModelPtr other = other_valley(model);
+    if (other == nullptr || total_gain(*other, *model) <= clearly_deeper) return model;
+    m_moved = true;
+    return other;
+  }
+
+  /// None must be as good as it can be before it is beaten: what the description becomes beside an effect may suit it
+  /// better without the effect too.
+  void base_from(const Model& best) {
+    if (!m_moved) return;
+    ModelPtr without = reduced(best, best.machine().effects.size() - 1);
+    without->fit({15, 0.05, true});
+    without = with_ordinary(without);
+    if (by_total(without, m_result.base)) m_result.best = m_result.base = without;
   }
 
   /// Base and rivals under the final model's misfit, so that they can be told against it.
@@ -252,7 +213,12 @@ class Selector {
         if (fit->machine().effects.size() != size || kept.size() == 4) continue;
         if (ids.insert(last_effect(*fit).id).second) kept.push_back(fit);
       }
-      in_parallel(kept.size(), [&](std::size_t i) { kept[i] = under(*kept[i], data); });
+      in_parallel(kept.size(), [&](std::size_t i) {
+        kept[i] = under(*kept[i], data);
+        if (!m_moved) return;
+        const ModelPtr moved = in_the_valley_of(*kept[i], *m_result.best);
+        if (by_evidence(moved, kept[i])) kept[i] = moved;
+      });
       level = std::move(kept);
     }
   }
@@ -290,7 +256,7 @@ class Selector {
     const Excess before = excess_of(*m_result.best);
     for (const auto& fit : leading) {
       if (accepted(*fit, before)) {
-        m_result.best = fit;
+        m_result.best = in_the_deeper_valley(fit);
         return;
       }
     }
@@ -335,6 +301,8 @@ class Selector {
   SelectionOptions m_options;
   const TaskContext& m_context;
   std::shared_ptr<const Dataset> m_usual;  // with default widths
+  ModelPtr m_other_valley;                 // of a first effect, worth a second one
+  bool m_moved = false;                    // some model was better in another valley than where the base had led it
   Selection m_result;
 };
 

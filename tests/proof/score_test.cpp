@@ -91,4 +91,32 @@ TEST(Score, ASourceThatIsAlwaysOnHasTwoNames) {
   EXPECT_EQ(score.add(hiding({"standing_heat"}), constant).outcome, Outcome::wrong_name);
 }
 
+/// A reader of the misses must see which of them the recording could have shown, and what the answer said of it.
+TEST(Score, SaysWhetherTheRecordingCouldShowWhatWasNotNamed) {
+  OpenedAnswer hard = hiding({"coolant", "radiation"});
+  hard.told = 2.0;
+  hard.effects[1].sizes = {{"emissivity", 0.7}};
+  json d = diagnosis_of("missing_effect", {{"coolant", 0.9}});
+  d["could_have_detected"] = {{"radiation", {{"key", "emissivity"}, {"value", 1.1}}}};
+  Score score;
+  const Judgement one = score.add(hard, d);
+  ASSERT_EQ(one.not_named.size(), 1u);
+  EXPECT_EQ(one.not_named[0].id, "radiation");
+  EXPECT_TRUE(one.not_named[0].was_told());
+  EXPECT_FALSE(one.decidable());
+
+  OpenedAnswer easy = hiding({"coolant", "sensor_lag"});
+  easy.told = 40.0;
+  d["could_have_detected"]["sensor_lag"] = {{"key", "lag_s"}, {"value", 20.0}};
+  const Judgement other = score.add(easy, d);
+  ASSERT_EQ(other.not_named.size(), 1u);
+  EXPECT_FALSE(other.not_named[0].compared());  // nobody said how large it was
+  EXPECT_TRUE(other.decidable());
+
+  EXPECT_EQ(value_of(score, "pairs"), "0/2 = 0.0");
+  EXPECT_EQ(value_of(score, "pairs_decidable"), "0/1 = 0.0");
+  EXPECT_EQ(score.undecidable().undecidable, 1);
+  EXPECT_EQ(score.undecidable().said_so, 1);
+}
+
 }  // namespace zerodrift::proof

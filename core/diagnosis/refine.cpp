@@ -1,0 +1,158 @@
+#include "core/diagnosis/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace zerodrift::diagnosis {
+namespace {
+
+bool many_forms(const std::string& id) {
+  return id == "extra_heat_source" || id == "contact_resistance" || id == "bearing_preload" || id == "coolant" ||
+         id == "structure_bending" || id == "structure_ambient" || id == "convection" || id == "sensor_lag" ||
+         id == "sensor_offset" || id == "sensor_gain";
+}
+
+/// The best-scored forms, at most a few a family, and not two neighbouring places of one law.
+std::vector<Candidate> leaders(const Model& base, const std::vector<Candidate>& screened,
+                               const RefineOptions& options) {
+  std::map<std::string, int> count;
+  std::vector<Candidate> chosen;
+  for (const auto& candidate : screened) {
+    if (candidate.gain < options.least_gain || chosen.size() >= options.most) break;
+    const std::string& id = candidate.spec.id;
+    if (count[id] >= options.per_family + (many_forms(id) ? 1 : 0)) continue;
+    const physics::Component* component = base.machine().find(candidate.spec.word_or("component", ""));
+    const bool near = component != nullptr && candidate.spec.numbers.count("position_mm") != 0 &&
+                      std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
+                        return other.spec.id == id && other.spec.words == candidate.spec.words &&
+                               std::abs(other.spec.number_or("position_mm", 0) -
+                                        candidate.spec.number_or("position_mm", 0)) < 0.07 * component->length_mm;
+                      });
+    if (near) continue;
+    ++count[id];
+    chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+/// An unconverged fit with a large gain invents a second effect, so the leaders are polished before they are compared.
+void polish(const ModelPtr& base, std::vector<ModelPtr>& fits) {
+  std::set<const Model*> polished;
+  for (int round = 0; round < 2 && !fits.empty(); ++round) {
+    std::sort(fits.begin(), fits.end(), by_evidence);
+    const double lead = fits.front()->log_evidence();
+    const double margin = std::max(60.0, 0.35 * std::abs(lead - base->log_evidence()));
+    std::map<std::string, int> count;
+    std::vector<ModelPtr> turn;
+    for (const auto& fit : fits) {
+      const std::string& id = last_effect(*fit).id;
+      if (count[id] >= (round == 0 ? 2 : 1) || count.size() > 4) continue;
+      ++count[id];
+      if (polished.count(fit.get()) != 0 || fit->log_evidence() < lead - margin) continue;
+      turn.push_back(fit);
+      polished.insert(fit.get());
+    }
+    in_parallel(turn.size(), [&](std::size_t i) { turn[i]->fit({15, 0.05, true}); });
+  }
+  std::sort(fits.begin(), fits.end(), by_evidence);
+}
+
+/// Belongs to an effect that is tried, not to the machine as described.
+bool of_a_candidate(const Model& model, std::size_t unknown) {
+  const int effect = model.unknown(unknown).effect;
+  return effect >= 0 && model.machine().effects[static_cast<std::size_t>(effect)].candidate;
+}
+
+/// `to` with the values that the candidates of `from` have.
+void take_candidates(Model& to, const Model& from) {
+  for (std::size_t i = 0; i < from.unknowns(); ++i) {
+    if (of_a_candidate(from, i)) to.set_z(i, from.z()[static_cast<Eigen::Index>(i)]);
+  }
+  to.gain = from.gain;
+}
+
+}  // namespace
+
+const physics::EffectSpec& last_effect(const Model& model) {
+  return model.machine().effects.back();
+}
+
+bool by_evidence(const ModelPtr& a, const ModelPtr& b) {
+  return a->log_evidence() > b->log_evidence();
+}
+
+std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>& screened,
+                             const RefineOptions& options) {
+  const std::vector<Candidate> chosen = leaders(*base, screened, options);
+  std::vector<ModelPtr> fits(chosen.size());
+  in_parallel(chosen.size(), [&](std::size_t i) {
+    fits[i] = extended(*base, chosen[i]);
+    fits[i]->fit({8, 0.05, false});
+  });
+  polish(base, fits);
+  return fits;
+}
+
+std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const physics::RunFacts& facts,
+                                  bool own_family) {
+  const ModelPtr without = reduced(best, effect);
+  without->fit({10, 0.05, true});
+  std::vector<Candidate> screened = screen(*without, facts);
+  const std::string& own = best.machine().effects[effect].id;
+  if (!own_family) std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
+  if (screened.size() > 40) screened.resize(40);
+  return refine(without, screened, {1, 6.0, own_family ? 8u : 6u});
+}
+
+bool near_its_description(const Model& model) {
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    if (!of_a_candidate(model, i) && std::abs(model.z()[static_cast<Eigen::Index>(i)]) > 1.3) return false;
+  }
+  return true;
+}
+
+ModelPtr restarted(const Model& fit) {
+  constexpr double same = 3.0;  // of the cost: it runs back to where it came from
+  auto anew = std::make_shared<Model>(fit.machine(), fit.shared_data());
+  take_candidates(*anew, fit);
+  anew->fit({7, 1.0, false});
+  if (std::abs(anew->cost() - fit.cost()) < same) return nullptr;
+  anew->fit({15, 0.05, true});
+  return anew;
+}
+
+ModelPtr in_the_valley_of(const Model& fit, const Model& other) {
+  auto moved = std::make_shared<Model>(fit.machine(), fit.shared_data());
+  moved->start_from(other, false);
+  take_candidates(*moved, fit);
+  moved->fit({12, 0.05, true});
+  return moved;
+}
+
+ModelPtr with_places_tried(const ModelPtr& model) {
+  constexpr double aside = 0.05;  // of the length
+  std::vector<ModelPtr> tries;
+  for (std::size_t i = 0; i < model->unknowns(); ++i) {
+    if (!of_a_candidate(*model, i) || model->unknown(i).key != "position_mm") continue;
+    const auto& spec = model->machine().effects[static_cast<std::size_t>(model->unknown(i).effect)];
+    const physics::Component* component = model->machine().find(spec.word_or("component", ""));
+    if (component == nullptr) continue;
+    for (const double side : {-aside, aside}) {
+      auto moved = std::make_shared<Model>(model->machine(), model->shared_data());
+      moved->start_from(*model, false);
+      moved->gain = model->gain;
+      moved->set_z(i, model->unknown(i).z_of(model->value(i) + side * component->length_mm));
+      tries.push_back(std::move(moved));
+    }
+  }
+  in_parallel(tries.size(), [&](std::size_t t) { tries[t]->fit({15, 0.05, true}); });
+  ModelPtr best = model;
+  for (const auto& one : tries) {
+    if (by_evidence(one, best)) best = one;
+  }
+  return best;
+}
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,41 @@
+#pragma once
+// Candidates made models: the best-scored forms refitted and polished, and the same models started elsewhere.
+
+#include <memory>
+#include <vector>
+
+#include "core/diagnosis/screening.h"
+
+namespace zerodrift::diagnosis {
+
+using ModelPtr = std::shared_ptr<Model>;
+
+struct RefineOptions {
+  int per_family = 2;
+  double least_gain = 6.0;
+  std::size_t most = 18;
+};
+
+const physics::EffectSpec& last_effect(const Model& model);
+bool by_evidence(const ModelPtr& a, const ModelPtr& b);
+
+/// `base` with each of the best-scored forms, fitted, best first.
+std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>& screened,
+                             const RefineOptions& options);
+/// The best forms in the place of one effect, fitted, best first; its own family only if `own_family`.
+std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const physics::RunFacts& facts,
+                                  bool own_family);
+
+/// The machine's own unknowns stand about where the description puts them.
+bool near_its_description(const Model& model);
+/// The same effects, with the machine's own unknowns started anew at the description. A description fitted without the
+/// effect has bent itself round it - the length follows the wrong body, heat enters the other one - and from there the
+/// fit with the effect does not find back: it is another valley. None where it is the same one.
+ModelPtr restarted(const Model& fit);
+/// The same effects, with the machine's own unknowns started as another model found them.
+ModelPtr in_the_valley_of(const Model& fit, const Model& other);
+/// Each place of a candidate tried again from both sides: where it stands between two sensors, or beside a bearing, has
+/// more than one valley. The best of them, or the model itself.
+ModelPtr with_places_tried(const ModelPtr& model);
+
+}  // namespace zerodrift::diagnosis
