@@ -119,14 +119,16 @@ Columns amplitude_columns(const physics::Network& network, std::size_t first_eff
   return columns;
 }
 
-/// How a reading changes with its sensor's lag, as the chord to a usual lag: the tangent at none says little, it stands
-/// for the moments of switching alone, where the timing is uncertain.
+/// How a reading changes with its sensor's lag, as the chord to a usual lag (in a short run to one that it could show):
+/// the tangent at none says little, it stands for the moments of switching alone, where the timing is uncertain.
 void take_chords_of_lags(const physics::Network& network, const std::vector<Candidate>& group, const Columns& columns,
                          const std::vector<double>& time_s, physics::Prediction& prediction) {
+  constexpr double share_of_run = 0.02;
   for (std::size_t c = 0; c < group.size(); ++c) {
     if (group[c].spec.id != "sensor_lag" || columns.of_candidate[c].second == 0) continue;
     const std::size_t column = columns.of_candidate[c].first;
-    const double usual_s = network.parameters[static_cast<std::size_t>(columns.parameters[column])].sigma;
+    const double spread_s = network.parameters[static_cast<std::size_t>(columns.parameters[column])].sigma;
+    const double usual_s = std::min(spread_s, share_of_run * (time_s.back() - time_s.front()));
     for (physics::PredictedChannel& channel : prediction.channels) {
       if (channel.channel != group[c].spec.word_or("channel", "")) continue;
       const std::vector<double> late = physics::lagged(channel.values, time_s, usual_s);
