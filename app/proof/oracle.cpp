@@ -101,7 +101,7 @@ OracleAnswer told_the_truth(const physics::Machine& described, const std::vector
   if (best != base) {
     best = at_its_own_misfit(best, *usual);
     // One who is told starts from the description as well, not only from what it became without the effects.
-    if (const ModelPtr anew = diagnosis::restarted(*best)) {
+    if (const ModelPtr anew = diagnosis::restarted(*best, facts)) {
       const ModelPtr other = at_its_own_misfit(anew, *usual);
       if (other->log_evidence_total() > best->log_evidence_total()) best = other;
     }

@@ -30,8 +30,9 @@ std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const p
 bool near_its_description(const Model& model);
 /// The same effects, with the machine's own unknowns started anew at the description. A description fitted without the
 /// effect has bent itself round it - the length follows the wrong body, heat enters the other one - and from there the
-/// fit with the effect does not find back: it is another valley. None where it is the same one.
-ModelPtr restarted(const Model& fit);
+/// fit with the effect does not find back: it is another valley. The last effect is tried where it stands and where it
+/// scores best beside the description. None where all lead to the same valley.
+ModelPtr restarted(const Model& fit, const physics::RunFacts& facts);
 /// The same effects, with the machine's own unknowns started as another model found them.
 ModelPtr in_the_valley_of(const Model& fit, const Model& other);
 /// Each place of a candidate tried again from both sides: where it stands between two sensors, or beside a bearing, has

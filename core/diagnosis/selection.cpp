@@ -179,7 +179,7 @@ class Selector {
   /// descriptions are guesses.
   ModelPtr other_valley(const ModelPtr& model) const {
     if (!m_options.own_misfit || near_its_description(*model)) return nullptr;
-    const ModelPtr anew = restarted(*model);
+    const ModelPtr anew = restarted(*model, m_facts);
     return anew == nullptr ? nullptr : with_ordinary(anew);
   }
 
