@@ -10,6 +10,7 @@
 #include "core/diagnosis/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/recording/csv.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -183,7 +184,7 @@ QString rivals_of(const json& diagnosis) {
     }
     names << name;
   }
-  return names.isEmpty() ? QString() : PhysicsView::tr("Cannot be told from: %1").arg(names.join(QStringLiteral(", ")));
+  return names.isEmpty() ? QString() : PhysicsView::tr("Cannot be told from: %1").arg(ui::listText(names));
 }
 
 /// The channel that the effect changes most, in widths of its noise.
@@ -223,7 +224,7 @@ namespace {
 QString parametersInWords(const std::string& parameters) {
   QStringList parts = QString::fromStdString(parameters).split(QStringLiteral(", "));
   for (QString& part : parts) part = coreText(part);
-  return parts.join(QStringLiteral(", "));
+  return ui::listText(parts);
 }
 
 }  // namespace
@@ -260,7 +261,7 @@ QString effect_name(const std::string& id) {
 QString effects_in_words(const std::string& ids) {
   QStringList names;
   for (const QString& id : QString::fromStdString(ids).split(QLatin1Char('+'))) names << effect_name(id.toStdString());
-  return names.join(QStringLiteral(", "));
+  return ui::listText(names);
 }
 
 QVector<ui::TrialCurve> trial_curves(const Recording& recorded, const Recording& simulated, const Recording& refined) {

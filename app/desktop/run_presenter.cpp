@@ -6,6 +6,7 @@
 #include "app/desktop/ask.h"
 #include "app/desktop/pin_dialog.h"
 #include "ui/pages/run_view.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
@@ -86,7 +87,7 @@ bool RunPresenter::agreed(const acquisition::Plan& plan) {
   if (coolant) deeds << tr("the coolant runs");
   return ask(page(), tr("Start the run? The machine will move."),
              tr("For %1 of machine time: %2. Is the work area clear, the door closed and the tool fit for this speed?")
-                 .arg(ui::durationText(plan.duration_s()), deeds.join(QStringLiteral(", "))),
+                 .arg(ui::durationText(plan.duration_s()), ui::listText(deeds)),
              tr("Start"));
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/text/core_text.h"
 #include "core/base/file.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -98,7 +99,7 @@ bool export_with_question(QWidget* parent, Workbench& bench, const compensation:
     show(written.error());
     return false;
   }
-  bench.log(LogKind::good, TableExport::tr("Exported: %1").arg(written->files.join(QStringLiteral(", "))));
+  bench.log(LogKind::good, TableExport::tr("Exported: %1").arg(ui::listText(written->files)));
   for (const auto& line : written->losses) bench.log(LogKind::warning, TableExport::tr("Lost: %1").arg(line));
   for (const auto& line : written->confirm) {
     bench.log(

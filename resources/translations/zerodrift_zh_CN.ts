@@ -59,6 +59,14 @@
     </message>
 </context>
 <context>
+    <name>Lists</name>
+    <message>
+        <source>, </source>
+        <comment>between the words of a list</comment>
+        <translation>、</translation>
+    </message>
+</context>
+<context>
     <name>Moment</name>
     <message>
         <source>d MMM yyyy, HH:mm</source>

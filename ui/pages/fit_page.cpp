@@ -258,7 +258,7 @@ void FitPage::renderWords() {
   }
   QStringList lines;
   if (!m_state.updatedBy.isEmpty()) lines.append(tr("Corrected by the newer run %1.").arg(m_state.updatedBy));
-  if (!m_state.sensors.isEmpty()) lines.append(tr("From %1.").arg(m_state.sensors.join(", ")));
+  if (!m_state.sensors.isEmpty()) lines.append(tr("From %1.").arg(listText(m_state.sensors)));
   lines += m_state.advice;
   m_advice->setText(lines.join('\n'));
 }

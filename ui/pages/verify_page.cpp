@@ -131,19 +131,19 @@ QString VerifyPage::finishedSentence() const {
     QStringList axes;
     for (const WorseThanBefore& axis : m_state.worseThanBefore) axes.append(axis.axis);
     return tr("%1 is worse than with version %2: roll back, or correct it.")
-        .arg(axes.join(QStringLiteral(", ")))
+        .arg(listText(axes))
         .arg(m_state.versionBefore);
   }
   if (!over.isEmpty() && !m_state.outsideRange.isEmpty()) {
     return tr("%1 is above the limit of %2 µm, but this run left the model's range: record a further warm-up run that "
               "goes there and update the fit with it.")
-        .arg(over.join(QStringLiteral(", ")))
+        .arg(listText(over))
         .arg(m_state.peakLimit_um);
   }
   if (!over.isEmpty()) {
     const QString what = m_state.correctionProposed ? tr("Look at the proposed correction.")
                                                     : tr("Fit with a further run, or report it as it is.");
-    return tr("%1 is still above the limit of %2 µm.").arg(over.join(QStringLiteral(", "))).arg(m_state.peakLimit_um) +
+    return tr("%1 is still above the limit of %2 µm.").arg(listText(over)).arg(m_state.peakLimit_um) +
            QLatin1Char(' ') + what;
   }
   return m_state.correctionProposed
@@ -233,7 +233,7 @@ QVector<Figure> VerifyPage::figures() const {
   }
   if (!worse.isEmpty()) {
     removed.judgement = Judgement::bad;
-    removed.word = tr("%1 worse").arg(worse.join(QStringLiteral(", ")));
+    removed.word = tr("%1 worse").arg(listText(worse));
   }
   if (finished) {
     Figure promised = figureOf(tr("Fit promised"), m_state.promised_um, 1, "µm");
@@ -274,7 +274,7 @@ Figure VerifyPage::removedFigure() const {
                     .arg(removed.limit)
                     .arg(m_state.peakLimit_um);
   if (values.isEmpty()) return removed;
-  removed.label = tr("Removed in %1").arg(axes.join(QStringLiteral(", ")));
+  removed.label = tr("Removed in %1").arg(listText(axes));
   removed.value = values.join(QStringLiteral(" / "));
   return removed;
 }
@@ -298,7 +298,7 @@ QStringList VerifyPage::words() const {
   if (!m_state.outsideRange.isEmpty()) {
     lines << tr("Outside the model's range in this run, where it guesses: %1. A further warm-up run that goes there "
                 "widens the range.")
-                 .arg(m_state.outsideRange.join(QStringLiteral(", ")));
+                 .arg(listText(m_state.outsideRange));
   }
   for (const WorseThanBefore& axis : m_state.worseThanBefore) {
     lines << tr("%1 is worse than with version %2: %3 µm rms now; over this same run version %2 would have left %4 µm. "

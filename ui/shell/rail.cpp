@@ -3,6 +3,7 @@
 #include "ui/widgets/colors.h"
 #include "ui/widgets/fitted_text.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -58,7 +59,7 @@ void StepButton::describe() {
   const QString here = isChecked() ? tr("current page") : QString();
   QStringList parts = {text(), m_words, here};
   parts.removeAll(QString());
-  setAccessibleName(parts.join(", "));
+  setAccessibleName(listText(parts));
   setToolTip(m_words.isEmpty() ? text() : text() + ": " + m_words);
 }
 

@@ -1,6 +1,7 @@
 #include "ui/widgets/channel_table.h"
 
 #include "ui/widgets/fitted_text.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::ui {
 
@@ -34,7 +35,7 @@ class ChannelModel : public QAbstractTableModel {
 
   static QString words(QStringList parts) {
     parts.removeAll(QString());
-    return parts.join(QStringLiteral(", "));
+    return listText(parts);
   }
 
   QVariant data(const QModelIndex& index, int role) const override {

@@ -70,7 +70,7 @@ void FigureCard::setFigure(const Figure& figure) {
   const QString value = figure.value.isEmpty() ? tr("no value yet") : figure.value + ' ' + figure.unit;
   QStringList parts = {figure.label, value, figure.word, figure.limit};
   parts.removeAll(QString());
-  setAccessibleName(parts.join(", "));
+  setAccessibleName(listText(parts));
   // Whole here, should the card be too small for it.
   setToolTip(figure.tip.isEmpty() ? accessibleName() : accessibleName() + "\n" + figure.tip);
   update();

@@ -2,6 +2,7 @@
 
 #include "ui/widgets/colors.h"
 #include "ui/widgets/fitted_text.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -23,8 +24,8 @@ void LegendRow::setItems(const QVector<LegendItem>& items) {
   m_items = items;
   QStringList names;
   for (const LegendItem& item : items) names.append(item.text);
-  setAccessibleName(tr("Curves: %1").arg(names.join(", ")));
-  setToolTip(names.join(", "));
+  setAccessibleName(tr("Curves: %1").arg(listText(names)));
+  setToolTip(listText(names));
   update();
 }
 

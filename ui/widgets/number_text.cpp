@@ -1,5 +1,6 @@
 #include "ui/widgets/number_text.h"
 
+#include <QCoreApplication>
 #include <cmath>
 
 namespace zerodrift::ui {
@@ -7,6 +8,10 @@ namespace zerodrift::ui {
 QString fixedText(double value, int decimals) {
   const double least = 0.5 * std::pow(10.0, -decimals);
   return QString::number(std::abs(value) < least ? 0.0 : value, 'f', decimals);
+}
+
+QString listText(const QStringList& words) {
+  return words.join(QCoreApplication::translate("Lists", ", ", "between the words of a list"));
 }
 
 }  // namespace zerodrift::ui

@@ -288,7 +288,7 @@ void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
                     .arg(ui::fixedText(place_mm, 1))
                     .arg(turns ? QStringLiteral("°") : QStringLiteral(" mm"));
   }
-  state.movePosition = position.join(QStringLiteral(", "));
+  state.movePosition = ui::listText(position);
   if (!state.waiting || m_shownFor == waiting) return;
   // Once: whoever is asked sees the camera that is meant.
   m_shownFor = waiting;

@@ -8,6 +8,7 @@
 #include "core/flow/flow.h"
 #include "core/report/limits.h"
 #include "ui/pages/upload_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -18,7 +19,7 @@ namespace {
 QString axes_text(const compensation::Table& table) {
   QStringList axes;
   for (const auto& [name, axis] : table.axes) axes << QString::fromStdString(name);
-  return axes.join(QStringLiteral(", "));
+  return ui::listText(axes);
 }
 
 }  // namespace
@@ -87,8 +88,7 @@ QStringList UploadPresenter::warningsInWords() const {
     }
   }
   if (!sensors.isEmpty()) {
-    warnings.prepend(
-        tr("The machine is outside the range the model was made in: %1").arg(sensors.join(QStringLiteral(", "))));
+    warnings.prepend(tr("The machine is outside the range the model was made in: %1").arg(ui::listText(sensors)));
   }
   return warnings;
 }
