@@ -99,6 +99,15 @@ json machine_description(const HiddenEffects& hidden) {
   return description;
 }
 
+/// The cameras see the tool against the table: headstock, column, bed and screws move it too, and are not described.
+json description_for_cameras(const HiddenEffects& hidden) {
+  json description = machine_description(hidden);
+  for (json& displacement : description["displacements"]) {
+    displacement["accuracy_um"] = displacement["direction"] == "Z" ? 3.0 : 5.0;
+  }
+  return description;
+}
+
 json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden) {
   json sensors = json::array();
   for (int i = 0; i < sensor_count; ++i) {
@@ -125,7 +134,7 @@ json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden)
           {"calibration_span_mm", 1.6},
           {"sensors", sensors},
           {"limits", {{"max_um", 200}, {"max_um_per_s", 2}}},
-          {"machine", machine_description(hidden)}};
+          {"machine", description_for_cameras(hidden)}};
 }
 
 }  // namespace zerodrift::machine

@@ -33,7 +33,7 @@ MeasuredChannel make_channel(const recording::Channel* source, const physics::Ob
     channel.present[k] = true;
     ++channel.samples;
   }
-  channel.drift = ordinary_drift(seen.temperature, range_of(channel));
+  channel.drift = std::hypot(ordinary_drift(seen.temperature, range_of(channel)), seen.accuracy);
   return channel;
 }
 

@@ -209,6 +209,7 @@ void NetworkBuilder::add_displacements() {
     Observation seen;
     seen.channel = displacement.channel;
     seen.temperature = false;
+    seen.accuracy = displacement.accuracy_um;
     const Component* component = displacement.component.empty() ? nullptr : m_machine.find(displacement.component);
     const bool across = displacement.direction == "X" || displacement.direction == "Y";
     const bool grows = component != nullptr && !component->prescribed && component->length_mm > 0.0 &&

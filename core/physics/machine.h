@@ -133,6 +133,7 @@ struct Displacement {
   std::string direction;
   std::string component;  // empty: unknown
   double sign = 1.0;
+  double accuracy_um = 0.0;  // 1 sigma: what parts that are not described may add to it, slowly
 };
 
 /// One effect that the model includes beside conduction and the listed sources.

@@ -24,6 +24,7 @@ constexpr NumberRange density_range{100.0, 25000.0, false, "kg/m3, 100 to 25000 
 constexpr NumberRange heat_capacity_range{50.0, 12000.0, false, "J/(kg K), 50 to 12000 (steel has about 460)"};
 constexpr NumberRange expansion_range{-2e-5, 5e-4, false, "1/K, up to 5e-4 (steel has 1.15e-5)"};
 constexpr NumberRange temperature_range{-60.0, 200.0, false, "degrees Celsius, -60 to 200 (is it in kelvin?)"};
+constexpr NumberRange displacement_range{0.0, 1000.0, false, "micrometres, 0 to 1000"};
 constexpr NumberRange power_range{10.0, 2e6, false, "watts, 10 to 2000000 (is it in kW?)"};
 constexpr NumberRange efficiency_range{0.05, 1.0, false, "a share from 0.05 to 1"};
 constexpr NumberRange speed_range{10.0, 500000.0, false, "rpm, 10 to 500000"};
@@ -217,6 +218,7 @@ void read_displacements(JsonObject& root, Machine& machine) {
     displacement.direction = o.text_or("direction", "unknown");
     displacement.component = o.text_or("component", "");
     displacement.sign = o.number_or("sign", 1.0);
+    displacement.accuracy_um = o.number_or("accuracy_um", 0.0, displacement_range);
     if (!displacement.component.empty() && machine.find(displacement.component) == nullptr) {
       o.reject("component", displacement.component, "one of " + known_components(machine));
     }

@@ -106,8 +106,9 @@ struct Observation {
   int inner_share = -1;
   int scale = -1;  // parameter: multiplies (probe - reference), displacements only
   int offset = -1;
-  int lag_s = -1;  // parameter: sensor lag in s
-  int gain = -1;   // parameter: relative error of the gain
+  int lag_s = -1;         // parameter: sensor lag in s
+  int gain = -1;          // parameter: relative error of the gain
+  double accuracy = 0.0;  // um: what the description says that it leaves out of a displacement, slowly changing
   std::vector<StructureTerm> structure;
 };
 

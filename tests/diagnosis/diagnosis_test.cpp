@@ -45,6 +45,17 @@ TEST(Diagnosis, GivesUpOnWhatTheLibraryLacks) {
   EXPECT_EQ(diagnosed(proof::make_case(31, "unlisted:wandering_heat")).verdict, Verdict::unexplained);
 }
 
+/// A camera sees the whole machine. How much of a displacement the description leaves to parts it does not hold is said
+/// in it, and is then no physics that the simulation lacks.
+TEST(Diagnosis, ADisplacementIsExplainedAsFarAsTheDescriptionSpeaksOfIt) {
+  proof::Case one = proof::make_case(32, "unlisted:creep");
+  EXPECT_EQ(diagnosed(one).verdict, Verdict::unexplained);
+  for (auto& displacement : one.machine["displacements"]) displacement["accuracy_um"] = 15.0;
+  const Diagnosis d = diagnosed(one);
+  EXPECT_EQ(d.verdict, Verdict::consistent);
+  EXPECT_EQ(physics::to_json(d.refined).at("displacements"), one.machine.at("displacements"));
+}
+
 TEST(Diagnosis, RefinedDescriptionSimulatesWhatTheDiagnosisPredicted) {
   const proof::Case one = proof::make_case(41, "cutting_heat");
   const Diagnosis d = diagnosed(one);
