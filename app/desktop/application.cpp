@@ -407,7 +407,10 @@ void Application::lightCamera() {
   const auto count = static_cast<int>(profile->cameras.size());
   const QString cameras = count == 1 ? tr("1 camera") : tr("%1 cameras").arg(count);
   const auto& open = m_bench->openCameras();
-  if (open.empty()) return light(tr("%1 off").arg(cameras), ui::Judgement::none);
+  if (open.empty()) {  // a run has cameras of its own
+    return light(isRunning("warmup") || isRunning("verify") ? tr("%1 in use").arg(cameras) : tr("%1 off").arg(cameras),
+                 ui::Judgement::none);
+  }
   const auto alive = std::count_if(open.begin(), open.end(), [](const auto& one) { return one->newest().has_value(); });
   if (alive == count) return light(cameras, ui::Judgement::ok);
   light(count == 1 ? tr("No picture") : tr("%1 of %2 cameras").arg(alive).arg(count), ui::Judgement::bad);
@@ -442,15 +445,16 @@ void Application::runCommand(const QString& id) {
   if (id.startsWith(QStringLiteral("job:"))) openFiles({id.mid(4)});
 }
 
+bool Application::isRunning(const char* id) const {
+  const auto* run = qobject_cast<const RunPresenter*>(presenter(QString::fromLatin1(id)));
+  return run != nullptr && run->running();
+}
+
 QString Application::whatClosingDoes() const {
-  const auto runs = [this](const char* id) {
-    const auto* run = qobject_cast<const RunPresenter*>(presenter(QString::fromLatin1(id)));
-    return run != nullptr && run->running();
-  };
-  if (runs("warmup")) {
+  if (isRunning("warmup")) {
     return tr("The spindle, the path and the coolant stop. What was recorded is kept and the run can be resumed.");
   }
-  if (runs("verify")) {
+  if (isRunning("verify")) {
     return tr(
         "The spindle, the path and the coolant stop; the compensation stays as it is switched. This run is not "
         "used: a verification is started anew.");

@@ -63,6 +63,8 @@ class Application : public QObject {
   void offerCommands();
   void runCommand(const QString& id);
   void mayClose(bool* allowed);
+  /// Warm-up or verification.
+  bool isRunning(const char* id) const;
   QString whatClosingDoes() const;
 
   ui::Theme& m_theme;

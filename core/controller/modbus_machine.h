@@ -3,7 +3,9 @@
 // requests as the map allows. Reads and harmless writes survive the sporadic faults of a device (busy, late, wrong
 // transaction, truncated, dropped, byte by byte); they are counted in health().
 
+#include <chrono>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -50,8 +52,9 @@ class ModbusMachine : public acquisition::MachineIo {
   /// How long the controller waits for a heartbeat before it takes the host offset out. Longer
   /// only where one thread must look away for a while.
   Status set_watchdog(double host_s);
-  /// Waits until the ramp of the applied compensation has ended; the percentage reached (100 when it does not tell).
-  Result<double> wait_for_ramp(bool on);
+  /// Waits until the ramp of the applied compensation has ended and what is applied has come to rest; the percentage
+  /// reached (100 when it does not tell).
+  Result<double> wait_for_ramp(bool on, const std::stop_token& stop = {});
 
   const LinkHealth& health() const { return m_link.health(); }
   Link& link() { return m_link; }
@@ -61,6 +64,7 @@ class ModbusMachine : public acquisition::MachineIo {
   double host_seconds(double machine_seconds) const;
 
  private:
+  Status wait_until_applied(std::chrono::steady_clock::time_point end, const std::stop_token& stop);
   Result<std::vector<std::uint16_t>> read_span(const ReadSpan& span, const std::string& what);
   Status wait_until_zero(const std::string& name, double host_s, const std::string& what);
 

@@ -4618,6 +4618,10 @@
         <source>The offset runs to 0 and the compensation is switched as it was before.</source>
         <translation>偏置归零，补偿恢复为原来的开关状态。</translation>
     </message>
+    <message>
+        <source>%1 in use</source>
+        <translation>%1使用中</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::AxisErrorsPresenter</name>

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <thread>
 
 #include "core/controller/modbus_machine.h"
 #include "core/controller/modbus_server.h"
@@ -122,6 +123,29 @@ TEST(ModbusMachine, SampleTakesTwoRequests) {
   EXPECT_EQ((*machine)->health().requests, 2);
   EXPECT_DOUBLE_EQ(sample->temperature_C[0], 25.0);
   EXPECT_TRUE(std::isnan(sample->temperature_C[1]));  // broken wire
+}
+
+/// The ramp is told as over while the machine still runs after what the table asks for, at the rate it is limited to.
+TEST(ModbusMachine, WaitsForWhatIsAppliedAndNotForTheRampAlone) {
+  constexpr double last_um = -24.0;
+  constexpr int applied_Z = 44;
+  Device device;
+  device.set(213, 100);
+  Profile profile = device.profile();
+  profile.time_factor = 10.0;
+  auto machine = ModbusMachine::open(profile, engineer());
+  ASSERT_TRUE(machine);
+  std::jthread moving([&device] {
+    for (double um = 0.0; um >= last_um; um -= 0.5) {
+      device.set_float(applied_Z, um);
+      std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    }
+  });
+  ASSERT_TRUE((*machine)->wait_for_ramp(true));
+  EXPECT_DOUBLE_EQ(device.float_at(applied_Z), last_um);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ((*machine)->wait_for_ramp(true, stop.get_token()).error().code, ErrorCode::cancelled);
 }
 
 class SporadicFault : public testing::TestWithParam<std::pair<Kind, const char*>> {};

@@ -133,6 +133,8 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   }
   ZD_TRY(const auto start, devices.machine->read());
   ZD_CHECK(table_is_active(devices, upload.body));
+  // The switch may have been turned a moment ago: what is still on its way would count as error.
+  ZD_CHECK(devices.machine->wait_for_ramp(true, context.stop).map([](double) {}));
   ZD_TRY(const RecordedRun run, record_run(job, devices, run_options, recorder_options, context));
   if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
   ZD_TRY(const auto after, job.read_series(run.series));
