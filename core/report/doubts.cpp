@@ -272,6 +272,12 @@ void about_verification(const Source& source, Doubts& doubts) {
                  "minutes of the runs.",
                  axis, shown(before_um, 1), shown(after_um, 1));
     }
+    constexpr double least_removed_percent = 85.0;
+    const double removed_percent = number_of(*body, "removed_percent", axis);
+    if (before_um > limit_um && removed_percent >= 0.0 && removed_percent < least_removed_percent) {
+      doubts.add(Verdict::doubtful, "removed_percent", "Of the largest error in {} {} % was removed (at least {} %).",
+                 axis, shown(removed_percent, 0), shown(least_removed_percent, 0));
+    }
     const double end_before_um = number_of(*body, "end_error_before_um", axis);
     const double end_after_um = number_of(*body, "end_error_after_um", axis);
     if (end_after_um > end_before_um) {

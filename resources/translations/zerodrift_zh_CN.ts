@@ -4816,8 +4816,8 @@
         <translation>正在补偿</translation>
     </message>
     <message>
-        <source>The controller compensates with a table of its own: roll it back in Upload first.</source>
-        <translation>控制器正在使用自身的补偿表：请先在“上传”页将其回退。</translation>
+        <source>The controller holds a table of its own: roll it back in Upload first.</source>
+        <translation>控制器中有自身的补偿表：请先在“上传”页将其回退。</translation>
     </message>
 </context>
 <context>
@@ -5541,6 +5541,14 @@
     <message>
         <source>The machine holds another table than this job&apos;s: compare them in Upload.</source>
         <translation>机床中的补偿表不是本作业的：请在“上传”步骤中比较。</translation>
+    </message>
+    <message>
+        <source>Above the limit</source>
+        <translation>超过限值</translation>
+    </message>
+    <message>
+        <source>The compensation is OFF: switch it on with the lamp below, then start.</source>
+        <translation>补偿已断开：请用下方的指示灯接通，然后开始。</translation>
     </message>
 </context>
 <context>
@@ -7044,12 +7052,16 @@
         <translation>本作业的机床是虚拟机床：请启动它，或连接其他机床。</translation>
     </message>
     <message>
-        <source>Bring version %1 back</source>
-        <translation>恢复版本 %1</translation>
-    </message>
-    <message>
         <source>Opens Upload, which compares the table with what the machine holds and asks before it writes.</source>
         <translation>打开“上传”页，与机床中的补偿表比较，写入前会询问。</translation>
+    </message>
+    <message>
+        <source>The machine compensates with version %1 of this job: go on in the list on the left. Switch the compensation off only to measure anew.</source>
+        <translation>机床正在使用本作业的版本 %1 进行补偿：请在左侧列表中继续。仅在重新测量时才断开补偿。</translation>
+    </message>
+    <message>
+        <source>Bring the table back</source>
+        <translation>恢复补偿表</translation>
     </message>
 </context>
 <context>
@@ -8827,6 +8839,18 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>The result below is of before.</source>
         <translation>以下为此前的结果。</translation>
+    </message>
+    <message>
+        <source>Every axis keeps its limit of %1 µm, but less than %2 % of the error is removed in one of them.</source>
+        <translation>各轴均在 %1 µm 限值以内，但其中有一轴的误差消除不足 %2 %。</translation>
+    </message>
+    <message>
+        <source>Bring the table back</source>
+        <translation>恢复补偿表</translation>
+    </message>
+    <message>
+        <source>Opens Upload, which compares the table with what the machine holds and asks before it writes.</source>
+        <translation>打开“上传”页，与机床中的补偿表比较，写入前会询问。</translation>
     </message>
 </context>
 <context>

@@ -151,6 +151,11 @@ QString MachinePage::sentence() const {
               "again.")
         .arg(m_state.writtenVersion);
   }
+  if (m_state.compensationOn && m_state.writtenVersion > 0) {
+    return tr("The machine compensates with version %1 of this job: go on in the list on the left. Switch the "
+              "compensation off only to measure anew.")
+        .arg(m_state.writtenVersion);
+  }
   if (m_state.compensationOn)
     return tr("Switch the compensation off: with it on, nothing can be measured for the model.");
   const RestState& rest = m_state.rest;
@@ -206,7 +211,7 @@ PageAction MachinePage::primary() const {
   }
   if (tableLost()) {
     return {"primary",
-            tr("Bring version %1 back").arg(m_state.writtenVersion),
+            tr("Bring the table back"),
             true,
             {},
             tr("Opens Upload, which compares the table with what the machine holds and asks before it writes.")};

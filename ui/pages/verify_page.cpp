@@ -98,6 +98,7 @@ QString VerifyPage::sentence() const {
   switch (m_state.phase) {
     case VerifyPhase::ready:
       if (!m_state.notHeld.isEmpty()) return m_state.notHeld;
+      if (!m_state.switchedOff.isEmpty()) return m_state.switchedOff;
       return tr("Run the machine with the compensation on and measure what is left.");
     case VerifyPhase::running:
       return tr("The compensation works while the camera watches. The measured curve must stay near zero.");
@@ -146,6 +147,12 @@ QString VerifyPage::finishedSentence() const {
     return tr("%1 is still above the limit of %2 µm.").arg(listText(over)).arg(m_state.peakLimit_um) +
            QLatin1Char(' ') + what;
   }
+  const Figure removed = removedFigure();
+  if (removed.judgement == Judgement::bad || removed.judgement == Judgement::warn) {
+    return tr("Every axis keeps its limit of %1 µm, but less than %2 % of the error is removed in one of them.")
+        .arg(m_state.peakLimit_um)
+        .arg(m_state.removedTarget_percent);
+  }
   return m_state.correctionProposed
              ? tr("The proof is complete: every axis keeps its limit. A correction for what is left is proposed.")
              : tr("The proof is complete: every axis keeps its limit. Save the report next.");
@@ -167,7 +174,9 @@ PageAction VerifyPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start verification"), false, m_state.blocked};
   switch (m_state.phase) {
     case VerifyPhase::ready: {
-      const QString reason = m_state.offline.isEmpty() ? m_state.notHeld : m_state.offline;
+      const QString reason = !m_state.offline.isEmpty()   ? m_state.offline
+                             : !m_state.notHeld.isEmpty() ? m_state.notHeld
+                                                          : m_state.switchedOff;
       return {"primary", tr("Start verification"), reason.isEmpty(), reason};
     }
     case VerifyPhase::running:
@@ -175,6 +184,13 @@ PageAction VerifyPage::primary() const {
     case VerifyPhase::paused:
       return {"primary", tr("Resume"), true, {}};
     case VerifyPhase::finished:
+      if (!m_state.notHeld.isEmpty()) {
+        return {"primary",
+                tr("Bring the table back"),
+                true,
+                {},
+                tr("Opens Upload, which compares the table with what the machine holds and asks before it writes.")};
+      }
       if (rollbackNeeded()) {
         return {"primary",
                 tr("Roll back to version %1").arg(m_state.versionBefore),

@@ -63,6 +63,7 @@ struct VerifyState {
   bool runsDisagree = false;   // an earlier run found that version worse than this one
   QString offline{};           // why no run can be started now; empty: it can
   QStringList outsideRange{};  // sensors beyond the model's range in this run, in words
+  QString switchedOff{};       // the same, when the compensation is off
   QString notHeld{};           // the same, when the machine does not hold the job's table: said on the page, too
   double compared_s = std::numeric_limits<double>::quiet_NaN();
   double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most

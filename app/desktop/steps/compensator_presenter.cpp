@@ -187,7 +187,7 @@ void CompensatorPresenter::refresh() {
   }
   const auto held = bench().heldTable();
   if (held == HeldTable::own || held == HeldTable::another) {
-    state.notNow = tr("The controller compensates with a table of its own: roll it back in Upload first.");
+    state.notNow = tr("The controller holds a table of its own: roll it back in Upload first.");
   }
   if (const auto& profile = bench().profile()) state.limit_um = profile->max_um;
   m_page->setState(state);

@@ -79,6 +79,8 @@ void VerifyPresenter::primary() {
     if (!warmup.is_object()) return;
     const auto plan = acquisition::plan_from_json(warmup.value("plan", json::object()), "the warm-up's plan");
     if (plan && agreed(flow::verification_plan(*plan))) start({});
+  } else if (!m_page->state().notHeld.isEmpty()) {
+    Q_EMIT pageRequested(QStringLiteral("upload"));
   } else if (m_page->rollbackNeeded()) {
     Q_EMIT rollbackWanted(m_page->state().versionBefore);
   } else if (m_page->correctionNeeded()) {
@@ -284,6 +286,13 @@ bool VerifyPresenter::ofAnotherTable() {
   });
 }
 
+QString VerifyPresenter::standing() const {
+  if (const QString table = tableStanding(); !table.isEmpty()) return table;
+  if (bench().job() == nullptr || running()) return {};
+  if (flow::status_of(*bench().job(), "verify").state != flow::StepState::current) return {};
+  return bench().body("verification").value("verdict", "") == "failed" ? tr("Above the limit") : QString();
+}
+
 void VerifyPresenter::refresh() {
   ui::VerifyState state;
   const auto* job = bench().job();
@@ -297,6 +306,9 @@ void VerifyPresenter::refresh() {
   if (held == HeldTable::none) state.notHeld = tr("The machine holds no table: write it in Upload, or bring it back.");
   if (held == HeldTable::another) {
     state.notHeld = tr("The machine holds another table than this job's: compare them in Upload.");
+  }
+  if (held == HeldTable::own && !bench().compensationOn()) {
+    state.switchedOff = tr("The compensation is OFF: switch it on with the lamp below, then start.");
   }
   state.threshold_um = m_threshold_um;
   state.peakLimit_um = flow::VerifyOptions().limit_um;

@@ -15,7 +15,8 @@ class VerifyPresenter : public RunPresenter {
  public:
   VerifyPresenter(Workbench& bench, ui::VerifyPage* page);
   void refresh() override;
-  QString standing() const override { return tableStanding(); }
+  /// A run that failed is no step that is done.
+  QString standing() const override;
   void tour(std::function<void(bool good)> done) override;
 
  Q_SIGNALS:

@@ -42,7 +42,8 @@ Figure left_in(const Source& source, const std::string& direction) {
 Plot before_and_after(const Source& source, const std::vector<std::string>& directions) {
   Plot plot;
   plot.id = "before_after";
-  plot.title = source.say("Error at the nose: dashed without, solid with compensation");
+  plot.title =
+      source.say("Error at the nose: dashed the warm-up run without, solid the verification with compensation");
   plot.x_label = source.say("hours since the start of each run");
   plot.y_label = "µm";
   const auto add = [&](const char* kind, Stroke stroke, const char* words) {
@@ -119,7 +120,7 @@ std::optional<Table> brief(const Source& source) {
       {source.say("Written to the controller"),
        source.tell("compensation table version {}, checksum {} read back, {} UTC", text_of(upload->body, "version"),
                    text_of(upload->body, "crc32"), minute_of(upload->created_utc))});
-  table.rows.push_back({source.say("Largest change against the table before"),
+  table.rows.push_back({source.say("Largest change against the table before, when it was written"),
                         shown(number_of(upload->body, "largest_change_um"), 1) + " µm"});
   table.rows.push_back({source.say("Valid range"), valid_range(source, object_of(upload->body, "table"))});
   if (const auto* verification = source.find("verification")) {

@@ -63,6 +63,7 @@ std::vector<TextEntry> texts_of_doubts() {
       {"At the end {} was worse with the compensation ({} µm) than without ({} µm).",
        "结束时 {} 向有补偿（{} µm）反而比无补偿（{} µm）差。"},
       {"Verification run", "验证运行"},
+      {"Of the largest error in {} {} % was removed (at least {} %).", "{} 方向最大误差消除了 {} %（至少应为 {} %）。"},
       {"With table version {} the error left in {} would have been {} µm RMS in this run instead of {} µm.",
        "若使用补偿表版本 {}，本次运行中 {} 的剩余误差均方根应为 {} µm，而不是 {} µm。"},
       {"Which of the last two tables is better changes from run to run.", "最近两张补偿表孰优孰劣，各次运行结果不一。"},
