@@ -80,6 +80,15 @@ void MachineWritesTest::verifyProposesTheCorrection() {
   QCOMPARE(threshold.count(), 1);
 }
 
+static void leave(VerifyState& state, double before_um, double after_um) {
+  for (auto& axis : state.results) {
+    axis.before_um = before_um;
+    axis.after_um = after_um;
+    axis.removed_percent = 100.0 * (1.0 - after_um / before_um);
+  }
+  state.peakAfter_um = after_um;
+}
+
 void MachineWritesTest::proofIsOnlyCompleteWithinTheLimit() {
   VerifyPage page;
   samples::fillVerify(&page, "correction");
@@ -90,10 +99,12 @@ void MachineWritesTest::proofIsOnlyCompleteWithinTheLimit() {
   page.setState(state);
   QVERIFY(!page.sentence().contains("complete"));
   QVERIFY(page.sentence().contains("X"));
-  for (auto& axis : state.results) axis.after_um = 3.0;
-  state.peakAfter_um = 3.0;
+  leave(state, 12.0, 3.0);
   page.setState(state);
-  QVERIFY(page.sentence().contains("complete"));
+  QVERIFY2(page.sentence().contains("less than 85 %"), qPrintable(page.sentence()));
+  leave(state, 30.0, 3.0);
+  page.setState(state);
+  QVERIFY2(page.sentence().contains("complete"), qPrintable(page.sentence()));
   state.versionBefore = 1;
   state.worseThanBefore = {{"X", 1.2, 2.4}};
   page.setState(state);
@@ -163,8 +174,7 @@ void MachineWritesTest::aCorrectionWithinTheLimitsIsOffered() {
   VerifyPage page;
   samples::fillVerify(&page, "correction");
   VerifyState state = page.state();
-  for (auto& axis : state.results) axis.after_um = 2.5;
-  state.peakAfter_um = 2.5;
+  leave(state, 30.0, 2.5);
   page.setState(state);
   QVERIFY(page.state().correctionProposed && !page.correctionNeeded());
   QCOMPARE(page.primaryAction().text, QString("Go on"));
