@@ -354,7 +354,7 @@ void CalibratePage::renderMoves() {
   if (!m_state.movePosition.isEmpty() && !m_state.running) {
     notes << tr("First the machine drives to %1; an axis not named here stays where it is.").arg(m_state.movePosition);
   }
-  if (m_state.moveOf > 1) notes << tr("Before the next camera is calibrated, you are asked again.");
+  if (m_state.moveNumber < m_state.moveOf) notes << tr("Before the next camera is calibrated, you are asked again.");
   m_moveNote->setText(notes.join(QLatin1Char(' ')));
   m_moveNote->setVisible(!notes.isEmpty());
 }

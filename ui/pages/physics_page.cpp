@@ -203,8 +203,11 @@ QVector<PageAction> PhysicsPage::secondary() const {
 }
 
 QVector<Figure> PhysicsPage::figures() const {
-  Figure agreement = figureAtMost(tr("Simulation against recording"), m_state.rmse_K, 2, "K",
-                                  std::isnan(m_state.noise_K) ? 0.1 : std::ceil(20.0 * m_state.noise_K) / 10.0);
+  // The limit follows from the sensors' noise: before that is known there is none.
+  const QString label = tr("Simulation against recording");
+  Figure agreement = std::isnan(m_state.noise_K)
+                         ? figureOf(label, m_state.rmse_K, 2, "K")
+                         : figureAtMost(label, m_state.rmse_K, 2, "K", std::ceil(20.0 * m_state.noise_K) / 10.0);
   if (agreement.judgement == Judgement::ok) agreement.word = tr("down to noise");
   if (agreement.judgement == Judgement::bad) agreement.word = tr("something missing");
   agreement.tip = m_state.adopted ? tr("With what was adopted.") : tr("As the machine is described.");

@@ -228,8 +228,6 @@ void CalibratePresenter::fillResult(ui::CalibrateState& state, const json& camer
   state.umPerPxSigma = calibration->sigma()(0, 0);
   state.rotation_deg = calibration->rotation_deg;
   state.rms_um = calibration->rms_um;
-  state.rmsLimit_um = report::limits::calibration_rms_um;
-  state.uncertaintyLimit_um = report::limits::calibration_uncertainty_um;
   // What the calibration adds to an error of 100 um.
   state.uncertainty_um = 100.0 / calibration->scale_um_per_px * state.umPerPxSigma;
   state.points.clear();
@@ -298,6 +296,8 @@ void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
 
 void CalibratePresenter::refresh() {
   ui::CalibrateState state;
+  state.rmsLimit_um = report::limits::calibration_rms_um;
+  state.uncertaintyLimit_um = report::limits::calibration_uncertainty_um;
   const auto& profile = bench().profile();
   if (!profile || !bench().has("machine")) {
     state.blocked = tr("Connect a machine and start the commissioning first.");

@@ -314,7 +314,11 @@ void VerifyPresenter::refresh() {
   state.peakLimit_um = flow::VerifyOptions().limit_um;
   state.compensationOn = bench().compensationOn();
   const auto warmup = bench().body("warmup");
-  if (warmup.is_object()) state.peakBefore_um = largest(warmup, "peak_um");
+  if (warmup.is_object()) {
+    state.peakBefore_um = largest(warmup, "peak_um");
+    state.frameLimit_s =
+        missed_measurements * warmup.value("plan", json::object()).value("measure_period_s", state.frameLimit_s / 3.0);
+  }
   const json body = bench().body("verification");
   if (running()) {
     fillRun(state);
