@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/diagnoser.h"
+#include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/refine.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/screening.h"
@@ -63,6 +64,19 @@ ModelPtr at_its_own_misfit(const ModelPtr& model, const Dataset& usual) {
   return result;
 }
 
+/// The other recordings with default widths. They refer to `recordings`.
+diagnosis::OtherRecordings others_of(const physics::Machine& machine,
+                                     const std::vector<recording::Recording>& recordings) {
+  diagnosis::OtherRecordings others;
+  for (std::size_t i = 1; i < recordings.size(); ++i) {
+    const physics::Network network = physics::build_network(machine, recordings[i]);
+    auto usual = std::make_shared<Dataset>(diagnosis::make_dataset(recordings[i], network));
+    diagnosis::set_timing_noise(*usual, network, physics::make_inputs(network, recordings[i]));
+    others.push_back(std::move(usual));
+  }
+  return others;
+}
+
 std::map<std::string, double> reached_in(const Model& model, const recording::Recording& other) {
   const double hold = model.values()[static_cast<std::size_t>(model.network().hold_parameter)];
   std::map<std::string, double> reached;
@@ -106,13 +120,19 @@ OracleAnswer told_the_truth(const physics::Machine& described, const std::vector
       if (other->log_evidence_total() > best->log_evidence_total()) best = other;
     }
   }
+  const diagnosis::OtherRecordings others = others_of(machine, recordings);
   answer.found = true;
   answer.evidence = best->log_evidence_total() - base->log_evidence_total();
   for (std::size_t i = machine.effects.size(); i < best->machine().effects.size(); ++i) {
     auto less = diagnosis::reduced(*best, i);
     less->fit({20, 0.02, true});
     less = at_its_own_misfit(less, *usual);
-    answer.beside[best->machine().effects[i].id] = best->log_evidence_total() - less->log_evidence_total();
+    double& shown = answer.beside[best->machine().effects[i].id];
+    shown = best->log_evidence_total() - less->log_evidence_total();
+    if (others.empty() || diagnosis::happened_once(*best)) continue;
+    std::vector<ModelPtr> asked = {best};
+    diagnosis::ask_elsewhere(asked, *less, others);
+    shown += best->elsewhere;
   }
   if (recordings.size() > 1) answer.reached = reached_in(*best, recordings[1]);
   return answer;

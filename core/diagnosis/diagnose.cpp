@@ -8,6 +8,7 @@
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/contradiction.h"
 #include "core/diagnosis/diagnoser.h"
+#include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
@@ -48,7 +49,9 @@ Diagnoser::Diagnoser(const Machine& machine, const std::vector<Recording>& recor
       m_recordings(recordings),
       m_fitted(thinned(recordings.front(), most_rows)),
       m_options(options),
-      m_context(context) {}
+      m_context(context) {
+  for (std::size_t i = 1; i < recordings.size(); ++i) m_other_rows.push_back(thinned(recordings[i], most_rows));
+}
 
 Result<Diagnosis> Diagnoser::run() {
   const auto start = std::chrono::steady_clock::now();
@@ -89,6 +92,12 @@ Status Diagnoser::prepare() {
   set_timing_noise(data, network, inputs);
   ZD_CHECK(check_scale(m_machine, data, physics::predict(network, inputs, network.start_values())));
   m_data = m_default_data = std::make_shared<Dataset>(std::move(data));
+  for (const Recording& other : m_other_rows) {
+    const physics::Network there = physics::build_network(m_bodies, other);
+    auto seen = std::make_shared<Dataset>(make_dataset(other, there));
+    set_timing_noise(*seen, there, physics::make_inputs(there, other));
+    m_limits.others.push_back(std::move(seen));
+  }
   m_facts = facts_of(m_bodies, recording());
   m_lumps_only = std::all_of(m_machine.components.begin(), m_machine.components.end(),
                              [](const auto& component) { return component.lump; });
@@ -185,6 +194,7 @@ void Diagnoser::effects() {
     const auto without = reduced(best, index);
     without->fit({8, 0.05, true});
     found.log_evidence_gain = best.log_evidence() - without->log_evidence();
+    if (index + 1 == best.machine().effects.size()) found.log_evidence_gain += best.elsewhere;
     std::string worst;
     double before = 0.0, after = 0.0, size = 0.0;
     const physics::Prediction other = without->prediction();
@@ -215,7 +225,7 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   constexpr double temperature = 3.0;
   double others = std::exp(-(found.log_evidence_gain - m_limits.first) / temperature);
   std::map<std::string, double> seen;
-  const double best = m_selection.best->log_evidence();
+  const double best = evidence_of(*m_selection.best);
   for (const auto& level : m_selection.levels) {
     for (const auto& fit : level) {
       if (fit->machine().effects.size() != m_selection.best->machine().effects.size()) continue;
@@ -225,8 +235,8 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
           std::any_of(m_selection.best->machine().effects.begin(), m_selection.best->machine().effects.end(),
                       [&](const auto& spec) { return spec.id == id; });
       if (own || seen.count(id) != 0) continue;
-      seen[id] = fit->log_evidence();
-      others += std::exp(std::min(0.0, fit->log_evidence() - best) / temperature);
+      seen[id] = evidence_of(*fit);
+      others += std::exp(std::min(0.0, evidence_of(*fit) - best) / temperature);
     }
   }
   const double poor = m_out.excess_after > 3.0 ? 0.8 : 1.0;
@@ -264,7 +274,7 @@ void Diagnoser::hidden_by_steadiness() {
 void Diagnoser::rivals() {
   if (m_out.verdict == Verdict::consistent && steady_inputs()) return hidden_by_steadiness();
   if (m_out.verdict != Verdict::missing_effect || m_selection.effects().empty()) return;
-  const double best = m_selection.best->log_evidence();
+  const double best = evidence_of(*m_selection.best);
   // What of a strong effect's law is not quite right must not exclude a rival; where the description is good that is
   // little.
   const double not_quite = m_limits.own_misfit && !m_wide ? 0.003 : 0.02;
@@ -287,19 +297,19 @@ void Diagnoser::rivals() {
   for (const auto& fit : others) {
     const std::string& id = fit->machine().effects.back().id;
     const bool own = std::any_of(m_out.effects.begin(), m_out.effects.end(), [&](auto& e) { return e.id == id; });
-    if (own || best - fit->log_evidence() > margin) continue;
+    if (own || best - evidence_of(*fit) > margin) continue;
     auto& kept = families[id];
-    if (kept == nullptr || fit->log_evidence() > kept->log_evidence()) kept = fit;
+    if (kept == nullptr || evidence_of(*fit) > evidence_of(*kept)) kept = fit;
   }
   std::vector<std::shared_ptr<Model>> nearest;
   for (const auto& [id, fit] : families) nearest.push_back(fit);
-  std::sort(nearest.begin(), nearest.end(), [](auto& a, auto& b) { return a->log_evidence() > b->log_evidence(); });
+  std::sort(nearest.begin(), nearest.end(), [](auto& a, auto& b) { return evidence_of(*a) > evidence_of(*b); });
   if (nearest.size() > 3) nearest.resize(3);
   tell_rivals(std::move(nearest));
 }
 
 void Diagnoser::tell_rivals(std::vector<std::shared_ptr<Model>> nearest) {
-  const double best = m_selection.best->log_evidence();
+  const double best = evidence_of(*m_selection.best);
   for (const auto& fit : nearest) {
     Rival rival;
     rival.id = fit->machine().effects.back().id;
@@ -307,7 +317,7 @@ void Diagnoser::tell_rivals(std::vector<std::shared_ptr<Model>> nearest) {
     rival.component = spec.word_or("component", "");
     rival.channel = spec.word_or("channel", "");
     if (spec.numbers.count("position_mm") != 0) rival.position_mm = spec.numbers.at("position_mm");
-    rival.behind = best - fit->log_evidence();
+    rival.behind = best - evidence_of(*fit);
     rival.why = explain_rival(rival);
     m_out.ambiguous_with.push_back(rival);
   }

@@ -299,6 +299,9 @@ void Diagnoser::notes() {
     return high - low > 12.0 * c.noise;
   });
   if (!excited) m_out.notes.emplace_back("no_excitation");
+  if (m_out.verdict == Verdict::missing_effect && m_selection.best->elsewhere != 0.0) {
+    m_out.notes.push_back("decided_with_others:" + m_selection.best->machine().effects.back().id);
+  }
   for (const auto& other : m_out.held_out) {
     for (const auto& [channel, rms] : other.explained) {
       for (const auto& report : m_out.channels) {

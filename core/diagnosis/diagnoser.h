@@ -49,6 +49,7 @@ class Diagnoser {
   const physics::Machine m_bodies;    // what is fitted: with the insides of its rods
   const std::vector<recording::Recording>& m_recordings;
   const recording::Recording m_fitted;
+  std::vector<recording::Recording> m_other_rows;  // thinned alike
   DiagnoseOptions m_options;
   const TaskContext& m_context;
   SelectionOptions m_limits;

@@ -10,6 +10,10 @@ namespace zerodrift::diagnosis {
 
 using Eigen::Index;
 
+static bool is_same(const physics::Parameter& a, const physics::Parameter& b) {
+  return a.key == b.key && a.component == b.component && a.channel == b.channel && a.effect == b.effect;
+}
+
 Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool own_start_only)
     : m_machine(std::move(machine)), m_data(std::move(data)) {
   m_network = physics::build_network(m_machine, *m_data->recording);
@@ -56,14 +60,11 @@ std::vector<double> Model::values_at(const Eigen::VectorXd& z) const {
 }
 
 void Model::start_from(const Model& parent, bool columns) {
-  const auto same = [](const physics::Parameter& a, const physics::Parameter& b) {
-    return a.key == b.key && a.component == b.component && a.channel == b.channel && a.effect == b.effect;
-  };
   std::vector<bool> used(parent.unknowns(), false);
   std::vector<std::pair<Index, Index>> taken;  // columns: mine, the parent's
   for (std::size_t i = 0; i < unknowns(); ++i) {
     for (std::size_t k = 0; k < parent.unknowns(); ++k) {
-      if (used[k] || !same(unknown(i), parent.unknown(k))) continue;
+      if (used[k] || !is_same(unknown(i), parent.unknown(k))) continue;
       used[k] = true;
       m_z[static_cast<Index>(i)] =
           std::clamp(parent.m_z[static_cast<Index>(k)], m_low[static_cast<Index>(i)], m_high[static_cast<Index>(i)]);
@@ -84,6 +85,45 @@ void Model::start_from(const Model& parent, bool columns) {
 void Model::set_z(std::size_t i, double z) {
   const Index at = static_cast<Index>(i);
   m_z[at] = std::clamp(z, m_low[at], m_high[at]);
+}
+
+void Model::learn_from(const Model& other) {
+  const Index n = static_cast<Index>(m_free.size());
+  std::vector<Index> mine, theirs;
+  for (std::size_t i = 0; i < unknowns(); ++i) {
+    for (std::size_t k = 0; k < other.unknowns(); ++k) {
+      if (unknown(i).per_recording || !is_same(unknown(i), other.unknown(k))) continue;
+      mine.push_back(static_cast<Index>(i));
+      theirs.push_back(static_cast<Index>(k));
+      break;
+    }
+  }
+  const Index known = static_cast<Index>(mine.size());
+  const Index all = other.m_z.size();
+  const Eigen::MatrixXd covariance = other.hessian().llt().solve(Eigen::MatrixXd::Identity(all, all));
+  const Eigen::MatrixXd shared = covariance(theirs, theirs);
+  const Eigen::MatrixXd inverse = shared.llt().solve(Eigen::MatrixXd::Identity(known, known));
+  m_learned.setIdentity(n, n);
+  m_learned(mine, mine) = inverse;
+  m_learned_z.setZero(n);
+  for (Index i = 0; i < known; ++i) {
+    m_learned_z[mine[static_cast<std::size_t>(i)]] = m_z[mine[static_cast<std::size_t>(i)]] =
+        other.m_z[theirs[static_cast<std::size_t>(i)]];
+  }
+  // In the place of the effects' own, which the other recording has paid: the prior's density in more than one unknown.
+  m_log_prior = 0.5 * Eigen::LDLT<Eigen::MatrixXd>(inverse).vectorD().array().max(1e-300).log().sum();
+  m_ready = false;
+}
+
+double Model::prior_cost(const Eigen::VectorXd& z) const {
+  if (m_learned.size() == 0) return z.squaredNorm();
+  const Eigen::VectorXd off = z - m_learned_z;
+  return off.dot(m_learned * off);
+}
+
+Eigen::VectorXd Model::prior_slope() const {
+  if (m_learned.size() == 0) return m_z;
+  return m_learned * (m_z - m_learned_z);
 }
 
 std::vector<int> Model::all_unknowns() const {
@@ -138,7 +178,7 @@ void Model::refresh(const std::vector<int>& unknowns) {
   physics::Prediction prediction = predict_at(m_z, unknowns);
   m_log_determinant = whiten(*m_data, prediction, &m_residual);
   take_columns(prediction, unknowns);
-  m_cost = m_residual.squaredNorm() + m_z.squaredNorm();
+  m_cost = m_residual.squaredNorm() + prior_cost(m_z);
   if (unknowns.size() == m_free.size()) {
     m_simulated = std::move(prediction);
   } else {
@@ -153,7 +193,7 @@ void Model::continue_from(const Model& same) {
   m_borrowed = same.m_borrowed;
   m_log_determinant = whiten(*m_data, m_simulated, &m_residual);
   take_columns(m_simulated, all_unknowns());
-  m_cost = m_residual.squaredNorm() + m_z.squaredNorm();
+  m_cost = m_residual.squaredNorm() + prior_cost(m_z);
   m_have_columns = m_ready = true;
 }
 
@@ -177,6 +217,7 @@ Eigen::MatrixXd Model::hessian() const {
     }
   }
   m_stale.assign(m_free.size(), false);
+  if (m_learned.size() != 0) return m_gram + m_learned;
   return m_gram + Eigen::MatrixXd::Identity(n, n);
 }
 
@@ -195,7 +236,7 @@ void Model::fit(const FitOptions& options) {
   Eigen::VectorXd trial_residual;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const Eigen::MatrixXd h = hessian();
-    const Eigen::VectorXd g = m_jacobian.transpose() * m_residual - m_z;
+    const Eigen::VectorXd g = m_jacobian.transpose() * m_residual - prior_slope();
     bool better = false;
     bool promising = true;
     bool fresh_effects = false;
@@ -209,7 +250,7 @@ void Model::fit(const FitOptions& options) {
       fresh_effects = attempt == 0;
       trial = predict_at(z, fresh_effects ? effects : std::vector<int>{});
       m_log_determinant = whiten(*m_data, trial, &trial_residual);
-      const double cost = trial_residual.squaredNorm() + z.squaredNorm();
+      const double cost = trial_residual.squaredNorm() + prior_cost(z);
       if (cost < m_cost) {
         gained = m_cost - cost;
         m_z = z;

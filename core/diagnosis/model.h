@@ -46,6 +46,10 @@ class Model {
   /// Takes over everything from the same hypothesis under other noise: what was simulated there is only whitened anew.
   void continue_from(const Model& same);
   void set_z(std::size_t i, double z);
+  /// The same machine in another recording: what its fit there knows about the unknowns that both share, with their
+  /// uncertainties, stands in the place of the description. The evidence is then that of this recording beside the
+  /// other.
+  void learn_from(const Model& other);
 
   void fit(const FitOptions& options);
 
@@ -54,11 +58,12 @@ class Model {
   double log_evidence_total() const;  // with the noise's own determinant: comparable between noise levels
   const Eigen::VectorXd& residual() const { return m_residual; }
   const RowMatrix& jacobian() const { return m_jacobian; }
-  Eigen::MatrixXd hessian() const;  // J'J + I
+  Eigen::MatrixXd hessian() const;  // J'J and the prior's: I, or what was learned
   physics::Prediction prediction() const { return physics::predict(m_network, m_inputs, values()); }
   /// The same model on another recording of the machine; per-recording unknowns at their means.
   std::vector<std::string> bounds_reached() const;
-  double gain = 0.0;  // of the score test that suggested it
+  double gain = 0.0;       // of the score test that suggested it
+  double elsewhere = 0.0;  // log evidence that other recordings add, beside the best without it; 0 where not asked
 
  private:
   /// The prediction at z with its derivatives by some unknowns.
@@ -67,6 +72,8 @@ class Model {
   void take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns);
   void refresh(const std::vector<int>& unknowns);
   void keep(const physics::Prediction& prediction, const std::vector<int>& unknowns);
+  double prior_cost(const Eigen::VectorXd& z) const;
+  Eigen::VectorXd prior_slope() const;
   std::vector<int> all_unknowns() const;
   std::vector<int> effect_unknowns() const;
 
@@ -85,7 +92,9 @@ class Model {
   bool m_ready = false;  // residual and columns are there before the first step
   double m_cost = 0.0;
   double m_log_determinant = 0.0;
-  double m_log_prior = 0.0;                      // of the candidates it has
+  double m_log_prior = 0.0;   // of the candidates it has
+  Eigen::MatrixXd m_learned;  // inverse covariance of what another recording has shown; or empty
+  Eigen::VectorXd m_learned_z;
   mutable std::optional<double> m_log_evidence;  // of today's columns and cost
 };
 

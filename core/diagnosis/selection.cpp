@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/refine.h"
 
 namespace zerodrift::diagnosis {
@@ -37,7 +38,11 @@ class Selector {
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     const std::vector<ModelPtr> leading = leaders_of(first);
     if (!leading.empty()) base_from(*leading.front());
-    if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= m_options.first) return m_result;
+    if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= m_options.first) {
+      ask_others();
+      if (m_result.best != m_result.base) align();
+      return m_result;
+    }
     m_result.best = leading.front();
     for (int level = 2; level <= m_options.most_effects; ++level) {
       const ModelPtr before = m_result.best;
@@ -55,7 +60,9 @@ class Selector {
       if (m_result.best != grown) eliminate();
     }
     if (m_options.own_misfit) m_result.best = with_places_tried(m_result.best);
+    ask_others();
     align();
+    tell_apart();
     return m_result;
   }
 
@@ -114,6 +121,7 @@ class Selector {
   static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data) {
     auto result = std::make_shared<Model>(model.machine(), data);
     result->continue_from(model);
+    result->elsewhere = model.elsewhere;
     result->fit({20, 0.05, true});
     return result;
   }
@@ -198,6 +206,56 @@ class Selector {
     without->fit({15, 0.05, true});
     without = with_ordinary(without);
     if (by_total(without, m_result.base)) m_result.best = m_result.base = without;
+  }
+
+  /// An effect that this recording leaves in doubt may show in another of the machine: both must show together what one
+  /// alone has to. Only what this one does not speak against is asked.
+  void ask_others() {
+    const Model& best = *m_result.best;
+    if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return;
+    std::vector<Candidate> screened = screen(best, m_facts);
+    // What a room sensor does wrong is its own in each recording.
+    std::erase_if(screened, [](const Candidate& candidate) {
+      return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault";
+    });
+    std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, 4});
+    in_parallel(doubtful.size(), [&](std::size_t i) { doubtful[i] = with_ordinary(doubtful[i]); });
+    std::erase_if(doubtful, [&](const ModelPtr& fit) {
+      return total_gain(*fit, best) < 0.0 || !worth_naming(*fit) || doubles_a_joint(*fit);
+    });
+    ask_elsewhere(doubtful, best, m_options.others);
+    if (doubtful.empty()) return;
+    const auto together = [&](const ModelPtr& fit) { return total_gain(*fit, best) + fit->elsewhere; };
+    std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
+    const bool none = m_result.best == m_result.base;
+    // What is not quite right about a strong effect's law shows in both.
+    const double least = none ? m_options.first : least_gain(2.0 * total_gain(best, *m_result.base));
+    if (together(doubtful.front()) <= least) return;
+    m_result.levels.push_back(doubtful);
+    m_result.best = doubtful.front();
+  }
+
+  /// What this recording can hardly tell apart the others may.
+  void tell_apart() {
+    constexpr double in_doubt = 8.0;
+    const ModelPtr best = m_result.best;
+    if (m_options.others.empty() || !m_options.own_misfit || best == m_result.base || best->elsewhere != 0.0) return;
+    if (happened_once(*best)) return;
+    std::vector<ModelPtr> near = {best};
+    for (const auto& level : m_result.levels) {
+      for (const auto& fit : level) {
+        const bool other = last_effect(*fit).id != last_effect(*best).id && worth_naming(*fit) && !happened_once(*fit);
+        if (!other || fit->machine().effects.size() != best->machine().effects.size()) continue;
+        if (best->log_evidence() - fit->log_evidence() < in_doubt) near.push_back(fit);
+      }
+    }
+    if (near.size() == 1) return;
+    const ModelPtr less = reduced(*best, best->machine().effects.size() - 1);
+    less->fit({15, 0.05, true});
+    ask_elsewhere(near, *less, m_options.others);
+    for (const ModelPtr& fit : near) {
+      if (evidence_of(*fit) > evidence_of(*m_result.best)) m_result.best = fit;
+    }
   }
 
   /// Base and rivals under the final model's misfit, so that they can be told against it.

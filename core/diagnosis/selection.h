@@ -19,6 +19,8 @@ struct SelectionOptions {
   int most_effects = 3;
   bool own_misfit = true;        // models are compared at the ordinary misfit that suits each best
   bool excess_must_fall = true;  // a second effect must also remove much of what is slow in some channel
+  /// Other recordings of the machine, with default widths: asked where the fitted one leaves an effect in doubt.
+  std::vector<std::shared_ptr<const Dataset>> others;
 };
 
 struct Excess {

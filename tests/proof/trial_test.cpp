@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "app/proof/concealed_case.h"
 #include "app/proof/diagnose_files.h"
 #include "app/proof/oracle.h"
@@ -106,6 +108,24 @@ TEST(ConcealedCase, WhatOneRecordingCannotNameTheOtherMay) {
   EXPECT_EQ(both->at("effects")[0].at("id"), "bearing_viscosity");
   EXPECT_EQ(both->at("effects")[1].at("id"), "sensor_lag");
   EXPECT_EQ(both->at("effects")[1].at("channel"), one.truth.effects[0].channel);
+  fs::remove_all(folder);
+}
+
+/// Radiation at ordinary rises is a larger film to one recording; two days tell.
+TEST(ConcealedCase, WhatOneRecordingLeavesInDoubtTwoMayShow) {
+  const ConcealedCase one = draw_case(5550123, 102, "radiation", false);
+  const fs::path folder = fs::path(testing::TempDir()) / ("zd_doubt_" + std::to_string(::getpid()));
+  ASSERT_TRUE(write_case_files(one, folder));
+  const auto alone = diagnose_files(folder, {"recording.csv"}, "alone.json", {});
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->at("verdict"), "consistent");
+  const auto both = diagnose_files(folder, {"recording.csv", "second.csv"}, "both.json", {});
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->at("verdict"), "missing_effect");
+  ASSERT_EQ(both->at("effects").size(), 1u);
+  EXPECT_EQ(both->at("effects")[0].at("id"), "radiation");
+  const auto notes = both->at("notes").get<std::vector<std::string>>();
+  EXPECT_NE(std::find(notes.begin(), notes.end(), "decided_with_others:radiation"), notes.end());
   fs::remove_all(folder);
 }
 

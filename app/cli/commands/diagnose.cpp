@@ -61,6 +61,10 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
       output.warnings.push_back("the first recording does not show it: " + note.substr(15) +
                                 " was fitted and the first held out");
     }
+    if (note.rfind("decided_with_others:", 0) == 0) {
+      output.warnings.push_back("the first recording leaves " + note.substr(20) +
+                                " in doubt: the others were asked too (what was fitted is fitted to the first alone)");
+    }
     if (note.rfind("the recording", 0) == 0) output.warnings.push_back(note);
   }
   return output;

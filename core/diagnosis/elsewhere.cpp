@@ -1,0 +1,81 @@
+#include "core/diagnosis/elsewhere.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/selection.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+struct Elsewhere {
+  double evidence = 0.0;
+  double left = 0.0;  // what is slow where it fits worst
+};
+
+Elsewhere elsewhere(const Model& fit, const OtherRecordings& others) {
+  Elsewhere sum;
+  const Model* known = &fit;
+  ModelPtr last;
+  for (const auto& usual : others) {
+    Model there(fit.machine(), usual);
+    there.learn_from(*known);
+    there.fit({10, 0.1, true});
+    // At the misfit that suits it, as in the first recording.
+    auto suited = std::make_shared<Dataset>(with_discrepancy(*usual, ordinary_discrepancy(*usual, there.prediction())));
+    auto own = std::make_shared<Model>(fit.machine(), std::move(suited));
+    own->learn_from(*known);
+    own->continue_from(there);
+    own->fit({12, 0.05, true});
+    sum.evidence += own->log_evidence_total();
+    sum.left = std::max(sum.left, excess_of(*own).largest);
+    last = std::move(own);
+    known = last.get();
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool happened_once(const Model& model) {
+  return std::any_of(model.machine().effects.begin(), model.machine().effects.end(),
+                     [](const auto& spec) { return physics::happens_once(spec.id); });
+}
+
+bool worth_naming(const Model& model) {
+  constexpr double usual = 0.2;  // of the width of what is usual
+  const int last = static_cast<int>(model.machine().effects.size()) - 1;
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    const physics::Parameter& unknown = model.unknown(i);
+    if (unknown.effect != last || !unknown.amplitude) continue;
+    if (std::abs(model.value(i)) >= usual * unknown.sigma) return true;
+  }
+  return false;
+}
+
+void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others) {
+  constexpr double fits = 2.3;  // excess, as of a description that nothing is missing in
+  if (models.empty()) return;
+  const double reference = elsewhere(without, others).evidence;
+  std::vector<double> left(models.size());
+  in_parallel(models.size(), [&](std::size_t i) {
+    const Elsewhere there = elsewhere(*models[i], others);
+    models[i]->elsewhere = there.evidence - reference;
+    left[i] = there.left;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    if (left[i] <= fits) {
+      models[kept++] = models[i];
+    } else {
+      models[i]->elsewhere = 0.0;
+    }
+  }
+  models.resize(kept);
+}
+
+double evidence_of(const Model& model) {
+  return model.log_evidence() + model.elsewhere;
+}
+
+}  // namespace zerodrift::diagnosis

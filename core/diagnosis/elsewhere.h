@@ -1,0 +1,24 @@
+#pragma once
+// What other recordings of the machine say of an effect that the fitted one leaves in doubt.
+
+#include "core/diagnosis/refine.h"
+
+namespace zerodrift::diagnosis {
+
+using OtherRecordings = std::vector<std::shared_ptr<const Dataset>>;  // with default widths
+
+/// Something that happened in one recording says nothing about another.
+bool happened_once(const Model& model);
+/// Whether the last effect is large enough to be what is missing. Every machine has a little of some: its nose, too,
+/// loses more when it turns, and oil that thins by a thousandth a kelvin is what its sheet says. Two recordings
+/// together may well show so little.
+bool worth_naming(const Model& model);
+
+/// Sets for each model the log evidence that the other recordings, in turn, have beside `without`: of each recording
+/// under what the fit to those before it knows of the machine. Leaves out models that do not fit there - a recording of
+/// another machine judges nobody.
+void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others);
+/// Of the fitted recording, and of the others where they were asked.
+double evidence_of(const Model& model);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,88 @@
+// What the machine's other recordings say beside the first.
+#include "core/diagnosis/elsewhere.h"
+
+#include <gtest/gtest.h>
+
+#include "core/diagnosis/bodies.h"
+#include "core/physics/machine.h"
+#include "tests/proof/case_generator.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+std::shared_ptr<const Dataset> dataset_of(const physics::Machine& machine, const recording::Recording& recording) {
+  const physics::Network network = physics::build_network(machine, recording);
+  auto data = std::make_shared<Dataset>(make_dataset(recording, network));
+  set_timing_noise(*data, network, physics::make_inputs(network, recording));
+  return data;
+}
+
+double evidence_of_both(const physics::Machine& machine, const std::shared_ptr<const Dataset>& first,
+                        const std::shared_ptr<const Dataset>& then) {
+  Model one(machine, first);
+  one.fit({40, 0.01, true});
+  Model other(machine, then);
+  other.learn_from(one);
+  other.fit({40, 0.01, true});
+  return one.log_evidence_total() + other.log_evidence_total();
+}
+
+}  // namespace
+
+/// p(a) p(b | a) = p(b) p(a | b).
+TEST(Elsewhere, TheEvidenceOfTwoRecordingsDoesNotDependOnTheirOrder) {
+  const proof::Case one = proof::make_case(42, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const physics::Machine bodies = with_inner_bodies(*machine);
+  const auto a = dataset_of(bodies, one.recordings[0]);
+  const auto b = dataset_of(bodies, one.recordings[1]);
+  Model alone(bodies, b);
+  alone.fit({40, 0.01, true});
+  Model beside_nothing(bodies, a);
+  beside_nothing.fit({40, 0.01, true});
+  const double together = evidence_of_both(bodies, a, b);
+  EXPECT_NEAR(together, evidence_of_both(bodies, b, a), 1.0);
+  // One machine explains both: what the first has shown saves the second much of the description's vagueness.
+  EXPECT_GT(together, beside_nothing.log_evidence_total() + alone.log_evidence_total() + 10.0);
+}
+
+TEST(Elsewhere, WhatWasLearnedIsKnownAtLeastAsWellThere) {
+  const proof::Case one = proof::make_case(42, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const physics::Machine bodies = with_inner_bodies(*machine);
+  Model first(bodies, dataset_of(bodies, one.recordings[0]));
+  first.fit({});
+  Model second(bodies, dataset_of(bodies, one.recordings[1]));
+  second.learn_from(first);
+  second.fit({});
+  int shared = 0;
+  for (std::size_t i = 0; i < second.unknowns(); ++i) {
+    const physics::Parameter& want = second.unknown(i);
+    if (want.per_recording || want.logarithmic) continue;
+    for (std::size_t k = 0; k < first.unknowns(); ++k) {
+      const physics::Parameter& have = first.unknown(k);
+      if (have.key != want.key || have.component != want.component || have.channel != want.channel) continue;
+      EXPECT_LE(second.sigma(i), 1.001 * first.sigma(k)) << want.key;
+      ++shared;
+    }
+  }
+  EXPECT_GT(shared, 2);
+}
+
+/// Its offsets and temperatures fit no better with any effect of the first machine.
+TEST(Elsewhere, ARecordingOfAnotherMachineJudgesNobody) {
+  const proof::Case one = proof::make_case(42, "none");
+  const proof::Case other = proof::make_case(1234, "convection");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const physics::Machine bodies = with_inner_bodies(*machine);
+  auto first = std::make_shared<Model>(bodies, dataset_of(bodies, one.recordings[0]));
+  first->fit({});
+  std::vector<ModelPtr> asked = {first};
+  ask_elsewhere(asked, *first, {dataset_of(bodies, one.recordings[1])});
+  EXPECT_EQ(asked.size(), 1u);
+  EXPECT_NEAR(first->elsewhere, 0.0, 1e-6);
+  ask_elsewhere(asked, *first, {dataset_of(bodies, other.recordings[0])});
+  EXPECT_TRUE(asked.empty());
+}
+
+}  // namespace zerodrift::diagnosis
