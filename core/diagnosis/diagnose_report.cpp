@@ -117,6 +117,16 @@ void Diagnoser::without_effects() {
   }
 }
 
+/// The channel that switches the strongest named effect; empty: none of them.
+std::string Diagnoser::driver_of_first() const {
+  const auto named = m_selection.effects();
+  if (named.empty()) return {};
+  const std::string& id = m_selection.best->machine().effects[named.front()].id;
+  if (id == "coolant") return "coolant_on";
+  if (id == "cutting_heat") return "spindle_load_W";
+  return {};
+}
+
 void Diagnoser::mismatch() {
   Mismatch& m = m_out.mismatch;
   if (m_out.verdict == Verdict::consistent) return;
@@ -145,7 +155,7 @@ void Diagnoser::locate() {
     m.best_position_mm = scan.best_mm;
     m.scan_position_mm = scan.position_mm;
     m.scan_evidence = scan.evidence;
-    m.regime = regime_of(scan, recording());
+    m.regime = regime_of(scan, recording(), driver_of_first());
     double sum = 0.0;
     for (const double w : scan.watts) sum += std::abs(w);
     m.missing_heat_W = scan.watts.empty() ? 0.0 : sum / static_cast<double>(scan.watts.size());

@@ -34,6 +34,7 @@ class Diagnoser {
   void series();
   double usual_noise(bool temperature) const;
   void without_effects();
+  std::string driver_of_first() const;
   void mismatch();
   void locate();
   void times();

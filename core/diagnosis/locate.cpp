@@ -1,9 +1,11 @@
 #include "core/diagnosis/locate.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "core/diagnosis/screening.h"
 
@@ -169,7 +171,36 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
   return scan;
 }
 
-std::string regime_of(const SourceScan& scan, const recording::Recording& recording) {
+namespace {
+
+/// The load of a spindle that only turns follows its speed: a recording in which it does says nothing of cutting.
+bool cuts(const recording::Recording& recording) {
+  const recording::Channel* load = recording.find("spindle_load_W");
+  const recording::Channel* speed = recording.find("spindle_rpm");
+  if (load == nullptr || speed == nullptr) return load != nullptr;
+  std::vector<std::size_t> rows;
+  double largest_rpm = 1.0;
+  for (std::size_t k = 0; k < recording.rows(); ++k) {
+    if (!std::isfinite(load->values[k]) || !std::isfinite(speed->values[k])) continue;
+    rows.push_back(k);
+    largest_rpm = std::max(largest_rpm, std::abs(speed->values[k]));
+  }
+  if (rows.size() < 10) return true;
+  Eigen::MatrixXd terms(rows.size(), 4);
+  Eigen::VectorXd watts(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double n = std::abs(speed->values[rows[i]]) / largest_rpm;
+    terms.row(static_cast<Eigen::Index>(i)) << 1.0, n > 0.0 ? 1.0 : 0.0, n, n * n;
+    watts[static_cast<Eigen::Index>(i)] = load->values[rows[i]];
+  }
+  const Eigen::VectorXd left = watts - terms * terms.colPivHouseholderQr().solve(watts).eval();
+  const double spread = (watts.array() - watts.mean()).square().sum();
+  return left.squaredNorm() > 0.03 * spread;
+}
+
+}  // namespace
+
+std::string regime_of(const SourceScan& scan, const recording::Recording& recording, const std::string& driven_by) {
   struct Driver {
     const char* channel;
     double power;
@@ -188,10 +219,13 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
   spread = std::sqrt(spread / static_cast<double>(scan.watts.size()));
   if (spread < 0.35 * std::abs(mean)) return "all the time";
   std::string best = "at no regular time";
-  double largest = 0.55;
+  constexpr double least = 0.55;
+  double largest = least;
   for (const auto& driver : drivers) {
     const recording::Channel* channel = recording.find(driver.channel);
     if (channel == nullptr) continue;
+    const bool load = std::string_view(driver.channel) == "spindle_load_W";
+    if (load && !cuts(recording)) continue;
     std::vector<double> level;
     for (const double t : scan.time_s) {
       double sum = 0.0;
@@ -205,6 +239,8 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
       level.push_back(count > 0 ? sum / count : 0.0);
     }
     const double r = std::abs(correlation(level, scan.watts));
+    // Speed and coolant go together in most plans: the evidence for the named effect tells more than a correlation.
+    if (driven_by == driver.channel && r > least) return driver.words;
     if (r > largest) {
       largest = r;
       best = driver.words;

@@ -21,7 +21,8 @@ struct SourceScan {
 
 /// Linearised at the base's nominal values (every unknown at its mean): at the fitted values they absorb the place.
 SourceScan scan_sources(const Model& nominal, const std::string& component);
-/// "while the spindle turns", "while the coolant runs" ... the input that the missing heat follows best.
-std::string regime_of(const SourceScan& scan, const recording::Recording& recording);
+/// "while the spindle turns", "while the coolant runs" ... the input that the missing heat follows best. `driven_by`:
+/// the channel that the named effect follows, empty: none; it is the one where the heat follows it at all.
+std::string regime_of(const SourceScan& scan, const recording::Recording& recording, const std::string& driven_by);
 
 }  // namespace zerodrift::diagnosis

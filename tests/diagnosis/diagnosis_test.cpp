@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/locate.h"
 #include "core/physics/simulate.h"
 #include "tests/proof/case_generator.h"
 
@@ -110,6 +111,29 @@ TEST(Diagnosis, ARecordingWithoutExcitationIsNeverAConfidentEffect) {
   const Diagnosis d = diagnosed(one);
   EXPECT_EQ(d.verdict, Verdict::consistent);
   EXPECT_NE(std::find(d.notes.begin(), d.notes.end(), "no_excitation"), d.notes.end());
+}
+
+/// In a plan where coolant and speed go together the effect that was named says which of them it was; a load that
+/// follows the speed is no cutting.
+TEST(Diagnosis, TheRegimeIsThatOfTheNamedEffect) {
+  SourceScan scan;
+  recording::Recording run;
+  recording::Channel speed{"spindle_rpm", {}}, coolant{"coolant_on", {}}, load{"spindle_load_W", {}};
+  for (int minute = 0; minute < 360; ++minute) {
+    const double rpm = minute < 90 ? 0.0 : minute < 180 ? 3000.0 : minute < 270 ? 6000.0 : 0.0;
+    run.time_s.push_back(60.0 * minute);
+    speed.values.push_back(rpm);
+    coolant.values.push_back(rpm > 0.0 ? 1.0 : 0.0);
+    load.values.push_back(30.0 + 0.1 * rpm);
+    if (minute % 30 == 0) {
+      scan.time_s.push_back(60.0 * minute);
+      scan.watts.push_back(-1e-6 * rpm * rpm);
+    }
+  }
+  run.channels = {speed, coolant, load};
+  EXPECT_NE(regime_of(scan, run, "").find("spindle speed"), std::string::npos);
+  EXPECT_EQ(regime_of(scan, run, "coolant_on"), "while the coolant runs");
+  EXPECT_NE(regime_of(scan, run, "spindle_load_W"), "while the machine cuts");
 }
 
 }  // namespace zerodrift::diagnosis
