@@ -65,11 +65,18 @@ Result<Diagnosis> Diagnoser::run() {
   if (m_lumps_only) {
     ZD_TRY(m_selection, grow_effects(m_bodies, m_data, m_facts, m_limits, m_context));
   } else {
-    ZD_TRY(m_selection, select_effects(m_bodies, m_data, m_facts, m_limits, m_context));
-    m_data = m_selection.best->shared_data();
-    ZD_CHECK(choose_drift());
+    ZD_CHECK(select());
   }
   held_out();
+  if (m_selection.best->elsewhere != 0.0 && refuted()) {
+    // What the others were asked about they do not bear out after all: the fitted one decides alone.
+    m_limits.others.clear();
+    m_wide = false;
+    m_data = m_default_data;
+    m_out.held_out.clear();
+    ZD_CHECK(select());
+    held_out();
+  }
   decide();
   series();
   mismatch();
@@ -83,6 +90,12 @@ Result<Diagnosis> Diagnoser::run() {
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   m_context.progress(1.0, "done");
   return std::move(m_out);
+}
+
+Status Diagnoser::select() {
+  ZD_TRY(m_selection, select_effects(m_bodies, m_data, m_facts, m_limits, m_context));
+  m_data = m_selection.best->shared_data();
+  return choose_drift();
 }
 
 Status Diagnoser::prepare() {

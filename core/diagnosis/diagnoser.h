@@ -22,6 +22,7 @@ class Diagnoser {
   /// What is fitted: the first recording, thinned if it is long.
   const recording::Recording& recording() const { return m_fitted; }
   Status prepare();
+  Status select();
   Status choose_drift();
   double leftover(const physics::Prediction& prediction) const;
   void decide();

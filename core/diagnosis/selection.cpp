@@ -38,7 +38,7 @@ class Selector {
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     const std::vector<ModelPtr> leading = leaders_of(first);
     if (!leading.empty()) base_from(*leading.front());
-    if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= m_options.first) {
+    if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= least_first(*leading.front())) {
       ask_others();
       if (m_result.best != m_result.base) align();
       return m_result;
@@ -227,9 +227,8 @@ class Selector {
     if (doubtful.empty()) return;
     const auto together = [&](const ModelPtr& fit) { return total_gain(*fit, best) + fit->elsewhere; };
     std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
-    const bool none = m_result.best == m_result.base;
     // What is not quite right about a strong effect's law shows in both.
-    const double least = none ? m_options.first : least_gain(2.0 * total_gain(best, *m_result.base));
+    const double least = std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
     if (together(doubtful.front()) <= least) return;
     m_result.levels.push_back(doubtful);
     m_result.best = doubtful.front();
@@ -323,10 +322,16 @@ class Selector {
   /// What an effect more has to gain where the others leave nothing slow.
   double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
 
+  /// What an effect against none has to gain.
+  double least_first(const Model& fit) const {
+    return m_options.own_misfit && !worth_naming(fit) ? m_options.tiny : m_options.first;
+  }
+
   bool accepted(const Model& fit, const Excess& before) const {
     if (doubles_a_joint(fit)) return false;
     const double gained = total_gain(fit, *m_result.best);
     const double so_far = total_gain(*m_result.best, *m_result.base);
+    if (m_options.own_misfit && gained <= m_options.tiny && !worth_naming(fit)) return false;
     if (before.largest < 2.0) return gained > least_gain(so_far);
     if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
     if (!m_options.excess_must_fall) return true;
