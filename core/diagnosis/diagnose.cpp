@@ -175,7 +175,8 @@ void Diagnoser::decide() {
   } else {
     // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
     // imitated less well. The proof has the distribution of both.
-    const bool wrong = m_out.refuted = refuted();
+    m_out.refuted = refuted();
+    const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0;
     const bool poor = wrong || (asked > 3.0 && leftover(of_best) > most_left * leftover(of_base));
     m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
     // A wrong effect can worsen the prediction of another run: it is used only if it really helps.

@@ -33,7 +33,8 @@ std::pair<double, double> limits(const recording::Channel& channel) {
 std::vector<double> jumps(const recording::Channel& channel, const std::vector<double>& time_s) {
   std::vector<std::pair<double, double>> list;
   const double noise = physics::noise_width(channel.values, 0.05);
-  for (std::size_t k = 2; k + 2 < time_s.size(); ++k) {
+  constexpr std::size_t at_the_ends = 5;  // samples: a step there is no more than a disturbed start or end
+  for (std::size_t k = at_the_ends; k + at_the_ends < time_s.size(); ++k) {
     const auto& v = channel.values;
     const double jump = std::abs(0.5 * (v[k] + v[k + 1]) - 0.5 * (v[k - 1] + v[k - 2]));
     if (std::isfinite(jump) && jump > 4.0 * noise) list.emplace_back(jump, time_s[k]);

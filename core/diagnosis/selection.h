@@ -38,8 +38,9 @@ struct Selection {
   std::shared_ptr<Model> best;
   std::vector<Candidate> screened;                          // around the base
   std::vector<std::vector<std::shared_ptr<Model>>> levels;  // refits with one effect more, best first
-  std::size_t described = 0;                                // effects that the description had
-  std::vector<std::size_t> effects() const;                 // indices in best->machine().effects
+  double falling_heat = 0.0;  // log evidence by which heat that falls with speed beats the best; 0: it does not
+  std::size_t described = 0;  // effects that the description had
+  std::vector<std::size_t> effects() const;  // indices in best->machine().effects
 };
 
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,

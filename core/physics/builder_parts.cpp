@@ -243,7 +243,7 @@ void NetworkBuilder::add_displacements() {
     offset.key = "offset_um";
     offset.channel = displacement.channel;
     // A probe is set to zero at some moment: on a machine that starts warm that says little.
-    offset.sigma = warm_start_profiles(m_machine, m_inputs).empty() ? 1.5 : 30.0;
+    offset.sigma = starts_warm(m_machine, m_inputs) ? 30.0 : 1.5;
     offset.per_recording = true;
     seen.offset = add_parameter(offset);
     m_network.observations.push_back(std::move(seen));
@@ -253,8 +253,13 @@ void NetworkBuilder::add_displacements() {
 void NetworkBuilder::build() {
   m_initial_C = initial_temperatures(m_machine, m_inputs);
   double sum = 0.0;
-  for (const auto& [id, value] : m_initial_C) sum += value;
-  if (!m_initial_C.empty()) m_mean_initial_C = sum / static_cast<double>(m_initial_C.size());
+  int count = 0;
+  for (const auto& [id, value] : m_initial_C) {
+    if (m_machine.find(id)->prescribed) continue;  // something else heats it
+    sum += value;
+    ++count;
+  }
+  if (count > 0) m_mean_initial_C = sum / count;
   Parameter hold;
   hold.key = "hold";
   hold.mean = 0.3;

@@ -66,6 +66,23 @@ std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const
   return warm;
 }
 
+bool starts_warm(const Machine& machine, const recording::Recording& inputs) {
+  if (!warm_start_profiles(machine, inputs).empty()) return true;
+  std::vector<double> parts_C;  // what is driven from outside
+  std::vector<double> others_C;
+  double least_K = 0.8;
+  for (const auto& sensor : machine.sensors) {
+    const Component* component = machine.find(sensor.component);
+    const double value = first_value(inputs, sensor.channel);
+    if (component == nullptr || !std::isfinite(value)) continue;
+    (component->prescribed ? parts_C : others_C).push_back(value);
+    least_K = std::max(least_K, 5.0 * sensor.accuracy_C);
+  }
+  if (others_C.empty()) return false;
+  const double rest_C = *std::max_element(others_C.begin(), others_C.end());
+  return std::count_if(parts_C.begin(), parts_C.end(), [&](double value) { return value > rest_C + least_K; }) >= 2;
+}
+
 double profile_at(const Profile& profile, double position_mm) {
   if (position_mm <= profile.front().first) return profile.front().second;
   for (std::size_t i = 1; i < profile.size(); ++i) {

@@ -18,6 +18,8 @@ using Profile = std::vector<std::pair<double, double>>;
 double first_value(const recording::Recording& recording, const std::string& channel);
 /// The start profile of each rod that is clearly not uniform.
 std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const recording::Recording& inputs);
+/// A rod is clearly not uniform, or parts that something else heats are warm already.
+bool starts_warm(const Machine& machine, const recording::Recording& inputs);
 /// Linear between the points, held beyond them.
 double profile_at(const Profile& profile, double position_mm);
 

@@ -71,17 +71,7 @@ std::vector<double> at_typical_size(const Network& network, int effect) {
   return values;
 }
 
-class Effects : public testing::TestWithParam<const Effect*> {};
-
-std::string name_of_effect(const testing::TestParamInfo<const Effect*>& info) {
-  return std::string(info.param->id);
-}
-
-}  // namespace
-
-TEST_P(Effects, DerivativesAgreeWithCentralDifferences) {
-  Setting s = setting_for(*GetParam());
-  ASSERT_TRUE(s.found);
+void expect_exact_derivatives(Setting s) {
   s.machine.effects.push_back(s.spec);
   const int effect = static_cast<int>(s.machine.effects.size()) - 1;
   const Network network = build_network(s.machine, s.run);
@@ -113,6 +103,20 @@ TEST_P(Effects, DerivativesAgreeWithCentralDifferences) {
       EXPECT_LT(worst, 1e-6 * (1.0 + largest)) << parameter.key << " on " << exact.channels[c].channel;
     }
   }
+}
+
+class Effects : public testing::TestWithParam<const Effect*> {};
+
+std::string name_of_effect(const testing::TestParamInfo<const Effect*>& info) {
+  return std::string(info.param->id);
+}
+
+}  // namespace
+
+TEST_P(Effects, DerivativesAgreeWithCentralDifferences) {
+  const Setting s = setting_for(*GetParam());
+  ASSERT_TRUE(s.found);
+  expect_exact_derivatives(s);
 }
 
 TEST_P(Effects, AbsentChangesNothing) {
@@ -165,6 +169,21 @@ TEST_P(Effects, SaysWhatItIs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(List, Effects, testing::ValuesIn(all_effects()), name_of_effect);
+
+/// The middle form of an effect stands for all above; these differ from it in what they add.
+TEST(Effect, FurtherFormsOfLumpsHaveExactDerivatives) {
+  Setting s = setting_for(*find_effect("structure_lag"));
+  const std::string channel = s.spec.word_or("channel", "");
+  for (const EffectSpec& spec : {
+           EffectSpec{"structure_lag", true, {{"lag_s", 0.0}}, {{"channel", channel}}},
+           EffectSpec{"structure_lag", true, {{"um_per_K", 0.0}, {"second_lag_s", 900.0}}, {{"channel", channel}}},
+           EffectSpec{"convection", true, {{"conductance_W_K", 0.0}, {"room_lag_s", 4000.0}}, {{"component", "b"}}},
+           free_speed_heat(s.machine.components.front()),
+       }) {
+    s.spec = spec;
+    expect_exact_derivatives(s);
+  }
+}
 
 TEST(Effect, RadiationIsTheFourthPowerLaw) {
   Machine machine = test::spindle();

@@ -1,6 +1,8 @@
 // Heat lost to the room over the outer surface: rho c A dT/dt = ... - h P (T - T_room). The published spindle model
-// writes this term and then drops it. A lump of unknown surface has a conductance instead.
+// writes this term and then drops it. A lump of unknown surface has a conductance instead; with a room lag it feels the
+// room late: tau dE/dt = T_room - E, -G (T - E).
 #include "core/physics/effects/laws.h"
+#include "core/physics/initial_state.h"
 
 namespace zerodrift::physics {
 namespace convection {
@@ -65,9 +67,54 @@ void add_tilt(NetworkBuilder& builder, const Component& component, const EffectS
   builder.add(std::move(term));
 }
 
+/// What stands between a part and the room - a cover, the machine around it - and is too large to be moved by the part.
+int add_shell(NetworkBuilder& builder, const EffectSpec& spec, int index) {
+  constexpr double large_J_K = 1e6;
+  const double room_C = first_value(builder.inputs(), builder.machine().room.channel);
+  const int shell = builder.add_node(large_J_K, -1, std::isfinite(room_C) ? room_C : builder.mean_initial_C());
+  Parameter start;
+  start.key = "shell_start_K";
+  start.component = spec.word_or("component", "");
+  start.effect = index;
+  start.sigma = 1.0;
+  start.per_recording = true;
+  builder.network().initial_parts.push_back({builder.add_parameter(start), {{shell, 1.0}}});
+  Term film;
+  film.kind = TermKind::film;
+  film.law_kind = LawKind::constant;
+  film.label = start.component + "/shell";
+  film.first_node = shell;
+  film.weights = {large_J_K};
+  film.environment = builder.room();
+  film.parameters = {builder.effect_parameter(spec, index, "room_lag_s", 7200.0)};
+  film.law = [](const LawPoint& at) {
+    Strength s;
+    s.value = 1.0 / at.values[0];
+    s.by_parameter[0] = -s.value * s.value;
+    return s;
+  };
+  builder.add(std::move(film));
+  return shell;
+}
+
+void add_late(NetworkBuilder& builder, const EffectSpec& spec, int index, int conductance) {
+  for_components(builder, spec, [&](const Component& component) {
+    if (!component.lump) return;
+    Term link;
+    link.kind = TermKind::link;
+    link.law_kind = LawKind::constant;
+    link.label = component.id + "/convection";
+    link.links = {{builder.place(component.id).first, add_shell(builder, spec, index), 1.0}};
+    link.parameters = {conductance};
+    link.law = proportional_law;
+    builder.add(std::move(link));
+  });
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
   const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
+  if (by_conductance && spec.numbers.count("room_lag_s") != 0) return add_late(builder, spec, index, strength);
   for_components(builder, spec, [&](const Component& component) {
     if (!by_conductance && !has_surface(component)) return;
     Term film = builder.film_over(component.id, 0.0, component.length_mm);
@@ -83,7 +130,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   });
 }
 
-std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
+std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
   std::vector<EffectSpec> list;
   bool surfaces = false;
   const bool all_described =
@@ -98,7 +145,11 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
     for (const auto& spec : machine.effects) {
       described = described || (spec.id == "convection" && spec.word_or("component", "") == component.id);
     }
-    if (!described) list.push_back({"convection", true, {{"conductance_W_K", 0.0}}, {{"component", component.id}}});
+    if (described) continue;
+    list.push_back({"convection", true, {{"conductance_W_K", 0.0}}, {{"component", component.id}}});
+    if (!facts.room_logged || !component.lump) continue;
+    list.push_back(
+        {"convection", true, {{"conductance_W_K", 0.0}, {"room_lag_s", 7200.0}}, {{"component", component.id}}});
   }
   if (surfaces && !all_described) list.push_back({"convection", true, {{"h_W_m2K", 0.0}}, {}});
   return list;
@@ -109,11 +160,14 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect convection_effect;
 const Effect convection_effect = {
     "convection",
-    "-h P (T - T_room) over the outer surface; a lump of unknown surface: -G (T - T_room)",
+    "-h P (T - T_room) over the outer surface; a lump of unknown surface: -G (T - T_room), or late: -G (T - "
+    "lag(T_room))",
     "Newton's law; VDI Heat Atlas F: 5 to 25 W/(m2 K) for free, up to 100 for forced air",
     "All temperatures are simulated too hot, more so the longer it runs; the measured cool-down is faster",
     "speed_convection radiation",
-    {{"h_W_m2K", 25.0, 0.0, 300.0, true}, {"conductance_W_K", 0.5, 0.0, 100.0, true}},
+    {{"h_W_m2K", 25.0, 0.0, 300.0, true},
+     {"conductance_W_K", 0.5, 0.0, 100.0, true},
+     {"room_lag_s", 0.8, 300.0, 2e5, false, 0.0, true}},
     {"h_W_m2K", "conductance_W_K"},
     convection::add,
     convection::candidates};

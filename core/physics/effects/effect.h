@@ -65,6 +65,9 @@ const Effect* find_effect(std::string_view id);
 double log_prior_of(std::string_view id);
 /// An event of one recording - a slip, an open door - that the next need not show.
 bool happens_once(std::string_view id);
+/// Heat of a lump that is free at each quarter of the speed, also to fall with it: no effect, but the rival of all
+/// laws.
+EffectSpec free_speed_heat(const Component& component);
 /// "convection, speed_convection, ..."
 std::string effect_ids();
 

@@ -1,5 +1,6 @@
 // A displacement follows the temperature of another component directly: d += g lag(T_other - T_start, tau).
 #include "core/physics/effects/sensor_effects.h"
+#include "core/physics/inputs.h"
 
 namespace zerodrift::physics {
 namespace structure_driver {
@@ -15,7 +16,9 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     for (const auto& environment : known) {
       if (environment.name != driver->id || environment.series < 0) continue;
       const int series = environment.series;
-      const double start_C = builder.reference_C(driver->id);
+      // Its first sample, where the displacement is zero too: a heated part is elsewhere soon after.
+      const auto* seen = builder.inputs().find(builder.network().linear_channels[series]);
+      const double start_C = mended(seen->values, builder.inputs().time_s).front();
       term.signal = builder.signal({"rise of " + driver->id, [=](const double*, const double* linear, double) {
                                       return linear[series] - start_C;
                                     }});

@@ -1,0 +1,162 @@
+// Descriptions of lumps alone, a sensor each: recordings integrated here, apart from the program's own simulation.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "core/diagnosis/diagnosis.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+recording::Recording empty_run(double hours, double period_s, const std::vector<std::string>& channels) {
+  recording::Recording run;
+  run.name = "run.csv";
+  for (double t_s = 0.0; t_s <= hours * 3600.0; t_s += period_s) run.time_s.push_back(t_s);
+  for (const auto& channel : channels) run.channels.push_back({channel, std::vector<double>(run.rows(), 0.0)});
+  return run;
+}
+
+/// dT/dt = rate, in steps of 5 s; the state's first values are given.
+void integrate(recording::Recording& run, std::vector<double> state,
+               const std::function<std::vector<double>(double time_s, const std::vector<double>& state)>& rate,
+               const std::function<void(std::size_t row, const std::vector<double>& state)>& write) {
+  for (std::size_t k = 0; k < run.rows(); ++k) {
+    for (double t_s = k == 0 ? 0.0 : run.time_s[k - 1]; t_s < run.time_s[k]; t_s += 5.0) {
+      const std::vector<double> by_s = rate(t_s, state);
+      for (std::size_t i = 0; i < state.size(); ++i) state[i] += 5.0 * by_s[i];
+    }
+    write(k, state);
+  }
+}
+
+double room_C(double time_s) {
+  const double day = 2.0 * 3.14159265 * time_s / 86400.0;
+  return 22.0 - 1.5 * std::sin(day) + 0.5 * std::sin(3.7 * day);
+}
+
+/// Two hours on, two off, at other speeds in turn.
+double speed_rpm(double time_s) {
+  constexpr std::array speeds = {1000.0, 2000.0, 4000.0, 3000.0};
+  const double hours = time_s / 3600.0;
+  return std::fmod(hours, 4.0) < 2.0 ? speeds[static_cast<std::size_t>(hours / 4.0) % 4] : 0.0;
+}
+
+/// A part heated by the spindle's turning, W by speed, that exchanges heat with the room or what follows it late.
+recording::Recording part_run(double room_lag_s, const std::function<double(double rpm)>& heat_K_s) {
+  recording::Recording run = empty_run(32.0, 120.0, {"spindle_rpm", "room_C", "T1_C"});
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise_K(0.0, 0.01);
+  const auto rate = [&](double t_s, const std::vector<double>& state) -> std::vector<double> {
+    const double around_C = room_lag_s > 0.0 ? state[1] : room_C(t_s);
+    return {heat_K_s(speed_rpm(t_s)) - (state[0] - around_C) / 5400.0,
+            room_lag_s > 0.0 ? (room_C(t_s) - state[1]) / room_lag_s : 0.0};
+  };
+  integrate(run, {22.0, 22.0}, rate, [&](std::size_t k, const std::vector<double>& state) {
+    run.channels[0].values[k] = speed_rpm(run.time_s[k]);
+    run.channels[1].values[k] = room_C(run.time_s[k]) + noise_K(random);
+    run.channels[2].values[k] = state[0] + noise_K(random);
+  });
+  return run;
+}
+
+Diagnosis of_part(const recording::Recording& run) {
+  const auto machine = physics::machine_from_json(nlohmann::json::parse(R"({"format": "zerodrift-machine/1",
+    "components": [{"id": "part", "kind": "lump", "heat_sources": [
+      {"id": "turning", "kind": "speed", "channel": "spindle_rpm", "law": ["on", "n", "n2"], "power_unknown": true}]}],
+    "sensors": [{"channel": "T1_C", "component": "part", "accuracy_C": 0.1},
+                {"channel": "room_C", "component": "ambient"}],
+    "room": {"channel": "room_C"}})"),
+                                                  "part.json");
+  EXPECT_TRUE(machine.has_value());
+  auto result = diagnose(*machine, {run}, {false});
+  EXPECT_TRUE(result.has_value());
+  return result ? *result : Diagnosis{};
+}
+
+double heat_with_speed(double rpm) {
+  return 4e-4 * rpm / 1000.0;
+}
+
+}  // namespace
+
+TEST(Lumps, FeelTheRoomAtOnce) {
+  const Diagnosis d = of_part(part_run(0.0, heat_with_speed));
+  EXPECT_EQ(d.verdict, Verdict::missing_effect);
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects[0].id, "convection");
+  EXPECT_EQ(d.effects[0].parameters.count("room_lag_s"), 0U);
+}
+
+TEST(Lumps, FeelTheRoomLate) {
+  const Diagnosis d = of_part(part_run(9000.0, heat_with_speed));
+  EXPECT_EQ(d.verdict, Verdict::missing_effect);
+  ASSERT_EQ(d.effects.size(), 1U);
+  EXPECT_EQ(d.effects[0].id, "convection");
+  ASSERT_EQ(d.effects[0].parameters.count("room_lag_s"), 1U);
+  EXPECT_NEAR(d.effects[0].parameters.at("room_lag_s"), 9000.0, 2500.0);
+}
+
+/// Every law of the library rises with speed: heat that falls is not explained by what stands in for it.
+TEST(Lumps, HeatThatFallsWithSpeedIsUnexplained) {
+  const auto falling = [](double rpm) { return rpm == 0.0 ? 0.0 : 2e-3 - 4e-4 * rpm / 1000.0; };
+  const Diagnosis d = of_part(part_run(0.0, falling));
+  EXPECT_EQ(d.verdict, Verdict::unexplained);
+  EXPECT_TRUE(d.effects.empty());
+}
+
+/// A law that the description lacks, but a rising one.
+TEST(Lumps, HeatThatRisesLessAndLessIsNotCalledFalling) {
+  const auto saturating = [](double rpm) { return 2e-3 * std::tanh(rpm / 1500.0); };
+  const Diagnosis d = of_part(part_run(0.0, saturating));
+  EXPECT_EQ(d.verdict, Verdict::missing_effect);
+  EXPECT_FALSE(d.effects.empty());
+}
+
+TEST(Lumps, AFrameThatGrowsLateBesideABedThatLiftsTheNose) {
+  recording::Recording run = empty_run(5.0, 60.0, {"dZ_um", "frame_C", "bed_C"});
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  // The run begins while the bed is being heated; frame and what is bolted to it: 1200 s behind.
+  const auto bed_C = [](double t_s) {
+    return t_s < 7200.0 ? 100.0 - 72.0 * std::exp(-t_s / 300.0) : 25.0 + 75.0 * std::exp(-(t_s - 7200.0) / 1500.0);
+  };
+  const auto rate = [&](double t_s, const std::vector<double>& state) -> std::vector<double> {
+    return {(bed_C(t_s) - state[0]) / 9000.0 - (state[0] - 22.0) / 2000.0, (state[0] - state[1]) / 1200.0};
+  };
+  integrate(run, {22.0, 22.0}, rate, [&](std::size_t k, const std::vector<double>& state) {
+    const double bed = bed_C(run.time_s[k]);
+    run.channels[0].values[k] = 1.5 * (bed - 28.0) - 12.0 * (state[0] - 22.0) - 9.0 * (state[1] - 22.0) + noise(random);
+    run.channels[1].values[k] = state[0] + 0.02 * noise(random);
+    run.channels[2].values[k] = bed + 0.02 * noise(random);
+  });
+  const auto machine = physics::machine_from_json(nlohmann::json::parse(R"({"format": "zerodrift-machine/1",
+    "components": [{"id": "bed", "kind": "lump", "prescribed": true},
+      {"id": "frame", "kind": "lump", "length_mm": 500, "material": {"expansion_1_K": 2.4e-5}}],
+    "couplings": [{"between": [{"component": "bed"}, {"component": "frame"}], "conductance_W_K": null}],
+    "sensors": [{"channel": "frame_C", "component": "frame", "accuracy_C": 0.3},
+                {"channel": "bed_C", "component": "bed", "accuracy_C": 0.3}],
+    "displacements": [{"channel": "dZ_um", "direction": "Z", "component": "frame", "sign": -1}],
+    "room": {"sigma_C": 2.0, "per_recording": true}})"),
+                                                  "gantry.json");
+  ASSERT_TRUE(machine.has_value());
+  const auto d = diagnose(*machine, {run}, {false});
+  ASSERT_TRUE(d.has_value());
+  std::set<std::string> ids;
+  for (const auto& effect : d->effects) {
+    ids.insert(effect.id);
+    if (effect.id == "structure_driver") {
+      EXPECT_NEAR(effect.parameters.at("um_per_K"), 1.5, 0.15);
+    }
+    if (effect.id == "structure_lag") {
+      EXPECT_NEAR(effect.parameters.at("um_per_K"), -9.0, 1.5);
+    }
+  }
+  EXPECT_EQ(ids, (std::set<std::string>{"convection", "structure_driver", "structure_lag"}));
+}
+
+}  // namespace zerodrift::diagnosis
