@@ -56,15 +56,21 @@ static() {
   cppcheck --enable=warning,performance,portability --inline-suppr --std=c++20 --language=c++ -q -I "$root" \
     --suppress=unknownMacro --suppress=missingInclude --suppress=passedByValue \
     --suppress=syntaxError:"$root/app/machine/register_bank.cpp" --error-exitcode=1 "$root/core" "$root/app" "$root/ui"
-  # The batches of a build, without its precompiled headers: the analyser takes the sources that a batch includes for
-  # sources of their own, and their common headers are read once instead of six times.
+  # The batches of a build: the analyser takes the sources that a batch includes for sources of their own, and their
+  # common headers are read once instead of six times. Instead of the precompiled header, which another compiler cannot
+  # read, the Qt side gets the header that it is made of.
   cmake -S "$root" -B "$root/build/tidy" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++ \
     -DZERODRIFT_UNITY=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DBUILD_TESTING=OFF >/dev/null
   /usr/bin/python3 - "$root/build/tidy/compile_commands.json" <<'END' | xargs -d '\n' -n 1 -P 2 clang-tidy --quiet \
     -p "$root/build/tidy" --header-filter="^$root/(core|ui|app)/" --checks=-bugprone-suspicious-include
 import json, sys
-for entry in json.load(open(sys.argv[1])):
-    made = ("_pch.cpp", "mocs_compilation.cpp")
+commands = json.load(open(sys.argv[1]))
+for entry in commands:
+    if "/QtWidgets" in entry["command"]:
+        entry["command"] += " -include QtWidgets"
+json.dump(commands, open(sys.argv[1], "w"))
+made = ("_pch.cpp", "mocs_compilation.cpp")
+for entry in commands:
     if not entry["file"].endswith(made) and "/qrc_" not in entry["file"]:
         print(entry["file"])
 END

@@ -152,7 +152,7 @@ ui::HeatMapData residual_map(const physics::Machine& machine, const std::string&
   map.to_mm = sensors.back().position_mm;
   map.columns = map_columns;
   map.rows = map_rows;
-  map.values.resize(map_columns * map_rows);
+  map.values.resize(qsizetype{map_columns} * map_rows);
   for (int c = 0; c < map_columns; ++c) {
     std::vector<double> values;
     const auto from = rows * static_cast<std::size_t>(c) / map_columns;

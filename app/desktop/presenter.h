@@ -32,7 +32,7 @@ class Presenter : public QObject {
   /// Takes back the last choice on this page (Ctrl+Z).
   virtual void undo() {}
   /// What the tour does on this page: starts the step and calls `done` when it has ended. The default calls it at once.
-  virtual void tour(std::function<void(bool good)> done) { done(true); }
+  virtual void tour(std::function<void(bool good)> done) { std::move(done)(true); }
   /// Into the banner; asked again when the language changes.
   void tell(std::function<ui::Problem()> problem);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double displacement_noise_um = 0.2;
 
-constexpr double rest_s = 10.0 * 3600.0;
+constexpr int rest_rows = 60;  // ten hours
 constexpr double rest_row_s = 600.0;
 
 /// Stepped speeds with stops, coolant and cutting at times of their own: what tells the effects apart.
@@ -65,7 +65,7 @@ class CaseRecorder {
 
   /// Stands still; only the room is recorded, everything else is an empty cell.
   void rest() {
-    for (double rested = 0.0; rested < rest_s; rested += rest_row_s) {
+    for (int row = 0; row < rest_rows; ++row) {
       m_out.time_s.push_back(m_model.time_s());
       for (auto& channel : m_out.channels) {
         const bool input = recording::is_input(channel.kind());

@@ -121,7 +121,7 @@ Status work(const Options& options, const sigset_t& endings) {
   if (options.conceal.empty()) return serve(options, hidden, endings);
   const Commitment commitment = commit_to(hidden);
   fmt::print(stderr, "concealed sha256={}\n", commitment.sha256);
-  const Status done = serve(options, hidden, endings);
+  Status done = serve(options, hidden, endings);
   fmt::print(stderr, "opened salt={} answer={}\n", commitment.salt, commitment.answer);
   return done;
 }

@@ -38,11 +38,9 @@ bool is_judged(const recording::Channel& channel) {
 HiddenEffects without(const HiddenEffects& hidden, const std::string& id) {
   std::vector<HiddenEffect> rest;
   for (HiddenEffect effect : hidden.list()) {
-    if (effect.id != id) rest.push_back(std::move(effect));
-    if (effect.id == id && id == "convection") {
-      effect.size = no_film_W_m2K;
-      rest.push_back(std::move(effect));
-    }
+    if (effect.id == id && id != "convection") continue;
+    if (effect.id == id) effect.size = no_film_W_m2K;
+    rest.push_back(std::move(effect));
   }
   return HiddenEffects(std::move(rest));
 }

@@ -30,7 +30,7 @@ std::string kind_of(const std::string& channel) {
 
 /// A source that is always on has two names in the list of effects; either is right.
 std::string id_of(const json& effect, const OpenedAnswer& truth) {
-  const std::string id = effect.at("id");
+  std::string id = effect.at("id");
   const auto hidden = [&](const char* other) {
     return std::find_if(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return e.id == other; });
   };
@@ -44,7 +44,7 @@ std::string id_of(const json& effect, const OpenedAnswer& truth) {
 }
 
 std::string answer_of(const json& diagnosis, const OpenedAnswer& truth) {
-  const std::string verdict = diagnosis.value("verdict", "");
+  std::string verdict = diagnosis.value("verdict", "");
   if (verdict != "missing_effect") return verdict;
   std::string answer;
   for (const auto& effect : diagnosis.at("effects")) {

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 288> models = {{
+constexpr std::array<const char*, 291> models = {{
     QT_TRANSLATE_NOOP("core", "near heat"),
     QT_TRANSLATE_NOOP("core", "a length in mm, 2 to 30000 (is it in metres?)"),
     QT_TRANSLATE_NOOP("core", "a diameter in mm, 1 to 5000 (is it in metres?)"),
@@ -51,6 +51,11 @@ constexpr std::array<const char*, 288> models = {{
     QT_TRANSLATE_NOOP("core", "%1, channel %2"),
     QT_TRANSLATE_NOOP("core", "%1 as its middle value"),
     QT_TRANSLATE_NOOP("core", "degrees Celsius (is it in kelvin or millidegrees?)"),
+    QT_TRANSLATE_NOOP("core", "%1, column time_s"),
+    QT_TRANSLATE_NOOP("core", "a row each %1 s, %2 s in all"),
+    QT_TRANSLATE_NOOP("core",
+                      "seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one "
+                      "time wrong?)"),
     QT_TRANSLATE_NOOP("core", "the simulation left all bounds"),
     QT_TRANSLATE_NOOP("core", "Bearings are simulated too cold, more so the warmer or the faster they run"),
     QT_TRANSLATE_NOOP("core",

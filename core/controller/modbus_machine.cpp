@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -345,22 +346,27 @@ Result<double> ModbusMachine::wait_for_ramp(bool on, const std::stop_token& stop
 Status ModbusMachine::wait_until_applied(std::chrono::steady_clock::time_point end, const std::stop_token& stop) {
   if (m_map.find("applied_um") == nullptr) return {};
   const double slow_um_s = std::min(0.5, 0.25 * m_profile.max_um_per_s);
-  const double apart_s = std::max(1.0, 0.3 / slow_um_s);
-  auto since = std::chrono::steady_clock::now();
-  ZD_TRY(RegisterValues before, read_values({"applied_um"}));
-  while (since < end) {
-    pause_ms(static_cast<int>(std::max(50.0, 1e3 * apart_s / m_profile.time_factor)));
+  const double machine_s = std::max(1.0, 0.3 / slow_um_s);
+  const std::chrono::duration<double> apart(std::max(0.05, machine_s / m_profile.time_factor));
+  struct Seen {
+    std::chrono::steady_clock::time_point at;
+    std::vector<double> applied_um;
+  };
+  std::deque<Seen> seen;
+  while (seen.empty() || seen.back().at < end) {
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
     const auto now = std::chrono::steady_clock::now();
     ZD_TRY(const RegisterValues values, read_values({"applied_um"}));
-    const double passed_s = std::chrono::duration<double>(now - since).count() * m_profile.time_factor;
-    const auto& was = before.at("applied_um");
-    const auto& is = values.at("applied_um");
+    seen.push_back({now, values.at("applied_um")});
+    while (seen.size() > 1 && now - seen[1].at >= apart) seen.pop_front();
+    const Seen& before = seen.front();
+    const double passed_s = std::chrono::duration<double>(now - before.at).count() * m_profile.time_factor;
     double largest_um = 0.0;
-    for (std::size_t i = 0; i < is.size(); ++i) largest_um = std::max(largest_um, std::abs(is[i] - was[i]));
-    if (largest_um < slow_um_s * passed_s) return {};
-    before = values;
-    since = now;
+    for (std::size_t i = 0; i < before.applied_um.size(); ++i) {
+      largest_um = std::max(largest_um, std::abs(seen.back().applied_um[i] - before.applied_um[i]));
+    }
+    if (now - before.at >= apart && largest_um < slow_um_s * passed_s) return {};
+    pause_ms(std::max(10, static_cast<int>(200.0 * apart.count())));
   }
   return {};
 }

@@ -55,6 +55,12 @@ Diagnoser::Diagnoser(const Machine& machine, const std::vector<Recording>& recor
 
 Result<Diagnosis> Diagnoser::run() {
   const auto start = std::chrono::steady_clock::now();
+  constexpr double shortest_s = 60.0;  // nothing of a machine warms up in less
+  const double whole_s = recording().time_s.back() - recording().time_s.front();
+  if (whole_s < shortest_s) {
+    return fail(ErrorCode::not_enough_data,
+                {{"what", recording().name}, {"found", fmt::format("{:g} s", whole_s)}, {"needed", "60 s"}});
+  }
   ZD_CHECK(prepare());
   if (m_data->samples() < 20) {
     return fail(ErrorCode::not_enough_data,

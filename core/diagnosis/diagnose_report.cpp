@@ -6,6 +6,7 @@
 #include "core/diagnosis/experiment.h"
 #include "core/diagnosis/locate.h"
 #include "core/diagnosis/refined.h"
+#include "core/physics/effects/effect.h"
 
 namespace zerodrift::diagnosis {
 
@@ -121,10 +122,8 @@ void Diagnoser::without_effects() {
 std::string Diagnoser::driver_of_first() const {
   const auto named = m_selection.effects();
   if (named.empty()) return {};
-  const std::string& id = m_selection.best->machine().effects[named.front()].id;
-  if (id == "coolant") return "coolant_on";
-  if (id == "cutting_heat") return "spindle_load_W";
-  return {};
+  const auto* effect = physics::find_effect(m_selection.best->machine().effects[named.front()].id);
+  return effect ? std::string(effect->driven_by) : std::string();
 }
 
 void Diagnoser::mismatch() {

@@ -91,6 +91,24 @@ bool means_missing(std::string_view cell) {
   return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN";
 }
 
+/// Times in another unit than seconds would make each simulated step thousands of steps, and every time constant wrong.
+Status check_times(const Recording& recording, const std::string& file) {
+  constexpr double longest_period_s = 3600.0;
+  constexpr double longest_s = 100.0 * 86400.0;
+  if (recording.rows() < 2) return {};
+  std::vector<double> periods_s(recording.rows() - 1);
+  for (std::size_t k = 0; k < periods_s.size(); ++k) periods_s[k] = recording.time_s[k + 1] - recording.time_s[k];
+  const auto middle = periods_s.begin() + std::ssize(periods_s) / 2;
+  std::nth_element(periods_s.begin(), middle, periods_s.end());
+  const double whole_s = recording.time_s.back() - recording.time_s.front();
+  if (*middle <= longest_period_s && whole_s <= longest_s) return {};
+  return fail(ErrorCode::data_does_not_fit,
+              {{"what", file + ", column time_s"},
+               {"found", fmt::format("a row each {:g} s, {:g} s in all", *middle, whole_s)},
+               {"expected",
+                "seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one time wrong?)"}});
+}
+
 }  // namespace
 
 int TextTable::column(std::string_view name) const {
@@ -182,6 +200,7 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
       out.channels[c - 1].values.push_back(value);
     }
   }
+  ZD_CHECK(check_times(out, file));
   return out;
 }
 

@@ -3705,6 +3705,18 @@
         <source>The sensors rose nearly together: a stretch with the spindle at rest separates them.</source>
         <translation>各传感器几乎同步升温：增加一段主轴静止的过程可将它们区分开。</translation>
     </message>
+    <message>
+        <source>%1, column time_s</source>
+        <translation>%1，列 time_s</translation>
+    </message>
+    <message>
+        <source>a row each %1 s, %2 s in all</source>
+        <translation>每 %1 s 一行，共 %2 s</translation>
+    </message>
+    <message>
+        <source>seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one time wrong?)</source>
+        <translation>以秒为单位，至少每小时一行，总长不超过 100 天（是否以毫秒为单位，或有一个时间错误？）</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

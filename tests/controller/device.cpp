@@ -46,6 +46,7 @@ Profile Device::profile() const {
   p.name = "Device";
   p.controller.port = m_server->port();
   p.controller.timeout_ms = 60;
+  p.time_factor = 20.0;  // an upload waits a machine's second for what is applied
   for (int i = 1; i <= 20; ++i) p.sensors.push_back({"T" + std::to_string(i) + "_C", "", "", {}, 0.1});
   return p;
 }

@@ -54,6 +54,22 @@ TEST(Csv, FaultsNameLineAndColumn) {
   EXPECT_EQ(parse_recording("time_s,T1_C\n0,20,5\n", "a").error().code, ErrorCode::csv_cell_count);
 }
 
+TEST(Csv, TimesInAnotherUnitAreNamed) {
+  std::string in_ms = "time_s,T1_C\n", with_one_far = in_ms, slow = in_ms;
+  for (int k = 0; k < 20; ++k) {
+    in_ms += std::to_string(30000 * k) + ",20\n";
+    with_one_far += std::to_string(30 * k + (k == 19 ? 1000000000 : 0)) + ",20\n";
+    slow += std::to_string(3600 * k) + ",20\n";
+  }
+  for (const std::string& text : {in_ms, with_one_far, std::string("time_s,T1_C\n0,20\n30,20\n1e300,20\n")}) {
+    const auto recording = parse_recording(text, "a.csv");
+    ASSERT_FALSE(recording.has_value());
+    EXPECT_EQ(recording.error().code, ErrorCode::data_does_not_fit);
+    EXPECT_NE(describe(recording.error()).find("time_s"), std::string::npos) << describe(recording.error());
+  }
+  EXPECT_TRUE(parse_recording(slow, "a.csv").has_value());
+}
+
 TEST(Csv, NumbersAtTheEndsOfTheirRange) {
   const auto extremes = parse_recording("time_s,T1_C\n0,1e300\n1,5e-324\n2,-0\n3,+1.5\n4,nan\n", "a.csv");
   ASSERT_TRUE(extremes.has_value());

@@ -57,7 +57,7 @@ double HeatMap::positionToPixel(double position_mm) const {
 void HeatMap::setData(const HeatMapData& map) {
   m_data = map;
   auto* cells = m_map->data();
-  const bool some = map.columns > 0 && map.rows > 0 && map.values.size() >= map.columns * map.rows;
+  const bool some = map.columns > 0 && map.rows > 0 && map.values.size() >= qsizetype{map.columns} * map.rows;
   showPlaceholder(!some);
   m_map->setVisible(some);
   m_scale->setVisible(some);
@@ -70,7 +70,7 @@ void HeatMap::setData(const HeatMapData& map) {
   double largest = 0.0;
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
-      const double value = map.values[row * map.columns + column];
+      const double value = map.values[qsizetype{row} * map.columns + column];
       cells->setCell(m_across ? row : column, m_across ? column : row, value);
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     }

@@ -38,7 +38,9 @@ void ComponentDrawing::paintBody(QPainter& painter, const QRectF& body) const {
   painter.setPen(QPen(c.muted, 1.6));
   painter.drawLine(QPointF(body.left(), body.top() - 8), QPointF(body.left(), body.bottom() + 8));
   painter.setPen(QPen(c.muted, 1));
-  for (double y = body.top() - 4; y < body.bottom() + 8; y += 7) {
+  const int strokes = static_cast<int>(std::ceil((body.height() + 12) / 7));
+  for (int k = 0; k < strokes; ++k) {
+    const double y = body.top() - 4 + 7 * k;
     painter.drawLine(QPointF(body.left(), y), QPointF(body.left() - 7, y + 7));
   }
   painter.setPen(QPen(mix(c.panel, c.muted, 0.7), 1.4));

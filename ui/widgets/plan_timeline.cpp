@@ -124,17 +124,17 @@ void PlanTimeline::paintScale(QPainter& painter) const {
       break;
     }
   }
-  for (double t = 0.0; t <= total() + 1.0; t += step) {
-    const double x = f.left() + f.width() * t / total();
+  for (int k = 0; k * step <= total() + 1.0; ++k) {
+    const double x = f.left() + f.width() * k * step / total();
     painter.setPen(c.muted);
-    const auto minutes = static_cast<int>(std::lround(t / 60.0));
+    const auto minutes = static_cast<int>(std::lround(k * step / 60.0));
     painter.drawText(QRectF(x - 30, f.bottom() + 10, 60, 16), Qt::AlignCenter,
                      QStringLiteral("%1:%2").arg(minutes / 60).arg(minutes % 60, 2, 10, QChar('0')));
   }
   if (m_measurePeriod_s <= 0.0 || f.width() * m_measurePeriod_s / total() < 3.0) return;
   painter.setPen(QPen(c.accent, 1.5));
-  for (double t = m_measurePeriod_s; t <= total() + 1.0; t += m_measurePeriod_s) {
-    const double x = f.left() + f.width() * t / total();
+  for (int k = 1; k * m_measurePeriod_s <= total() + 1.0; ++k) {
+    const double x = f.left() + f.width() * k * m_measurePeriod_s / total();
     painter.drawLine(QPointF(x, f.bottom() + 2), QPointF(x, f.bottom() + 7));
   }
 }

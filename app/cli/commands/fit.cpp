@@ -64,8 +64,9 @@ std::string text_of(const analysis::Model& model) {
 
 /// Each run with the displacements that the machine description says; `machine` receives the description as read.
 Result<std::vector<recording::Recording>> simulated(const Options& options,
-                                                    std::vector<recording::Recording> recordings, std::string& machine,
-                                                    std::vector<std::string>& warnings, const TaskContext& context) {
+                                                    const std::vector<recording::Recording>& recordings,
+                                                    std::string& machine, std::vector<std::string>& warnings,
+                                                    const TaskContext& context) {
   if (options.method != "physics") {
     return fail(ErrorCode::bad_argument,
                 {{"what", "--machine"}, {"found", "--method " + options.method}, {"expected", "--method physics"}});
@@ -115,7 +116,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   CommandOutput output;
   std::string machine;
   if (!options.machine.empty()) {
-    ZD_TRY(recordings, simulated(options, std::move(recordings), machine, output.warnings, context));
+    ZD_TRY(recordings, simulated(options, recordings, machine, output.warnings, context));
   }
   analysis::Model model;
   if (options.update.empty()) {

@@ -143,7 +143,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
 
 QString MachinePresenter::jobsFolder() {
   const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  const QString folder = (documents.isEmpty() ? QDir::homePath() : documents) + QStringLiteral("/Zerodrift");
+  QString folder = (documents.isEmpty() ? QDir::homePath() : documents) + QStringLiteral("/Zerodrift");
   QDir().mkpath(folder);
   return folder;
 }

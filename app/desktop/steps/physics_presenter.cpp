@@ -42,7 +42,7 @@ double over_temperatures(const json& by_channel) {
 }
 
 void fill_search(const json& body, ui::PhysicsState& state) {
-  const json diagnosis = body.at("diagnosis");
+  const json& diagnosis = body.at("diagnosis");
   state.verdict = verdict_of(diagnosis.value("verdict", ""));
   state.verdictSentence = sentences_of(diagnosis);
   const json experiment = diagnosis.value("suggested_experiment", json());

@@ -151,7 +151,7 @@ void UploadPresenter::noteSign(const controller::SignCheckRecord& record) {
 
 bool UploadPresenter::signStands() const {
   return m_sign && m_sign->result && m_signMachine == machineId() &&
-         m_signAt.secsTo(QDateTime::currentDateTime()) < 60 * sign_stands_min;
+         m_signAt.secsTo(QDateTime::currentDateTime()) < qint64{60} * sign_stands_min;
 }
 
 bool UploadPresenter::confirmed(const QString& heading, const QString& text, const QString& deed) const {

@@ -148,8 +148,6 @@ void VerifyPresenter::fillRun(ui::VerifyState& state) {
   if (!feed().receiving()) return;
   state.peakAfter_um = feed().largestError_um();
   state.afterAxis = feed().largestErrorAxis();
-  const json plan = bench().body("warmup").value("plan", json::object());
-  state.frameLimit_s = missed_measurements * plan.value("measure_period_s", 60.0);
   if (feed().measuredAt_s() >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - feed().measuredAt_s());
 }
 
@@ -287,7 +285,7 @@ bool VerifyPresenter::ofAnotherTable() {
 }
 
 QString VerifyPresenter::standing() const {
-  if (const QString table = tableStanding(); !table.isEmpty()) return table;
+  if (QString table = tableStanding(); !table.isEmpty()) return table;
   if (bench().job() == nullptr || running()) return {};
   if (flow::status_of(*bench().job(), "verify").state != flow::StepState::current) return {};
   return bench().body("verification").value("verdict", "") == "failed" ? tr("Above the limit") : QString();
@@ -316,8 +314,7 @@ void VerifyPresenter::refresh() {
   const auto warmup = bench().body("warmup");
   if (warmup.is_object()) {
     state.peakBefore_um = largest(warmup, "peak_um");
-    state.frameLimit_s =
-        missed_measurements * warmup.value("plan", json::object()).value("measure_period_s", state.frameLimit_s / 3.0);
+    state.frameLimit_s = missed_measurements * warmup.value("plan", json::object()).value("measure_period_s", 60.0);
   }
   const json body = bench().body("verification");
   if (running()) {

@@ -110,6 +110,7 @@ const Effect coolant_effect = {
      {"temperature_C", 2.0, -20.0, 90.0}},
     {"h_W_m2K", "conductance_W_K"},
     coolant::add,
-    coolant::candidates};
+    coolant::candidates,
+    "coolant_on"};
 
 }  // namespace zerodrift::physics

@@ -37,6 +37,7 @@ const Effect cutting_heat_effect = {
     {{"share", 0.05, 0.0, 1.0, true}},
     {"share"},
     cutting_heat::add,
-    cutting_heat::candidates};
+    cutting_heat::candidates,
+    "spindle_load_W"};
 
 }  // namespace zerodrift::physics

@@ -39,6 +39,7 @@ struct Effect {
   void (*add)(NetworkBuilder& builder, const EffectSpec& spec, int index);
   /// The forms in which the effect could be missing from this machine in this run; parameters at their start values.
   std::vector<EffectSpec> (*candidates)(const Machine& machine, const RunFacts& facts);
+  std::string_view driven_by = {};  // the input that switches it, where it acts in no other time
 
   const EffectParameter& parameter(std::string_view key) const;
 };

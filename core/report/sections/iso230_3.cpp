@@ -42,8 +42,11 @@ double room_slope(const recording::Recording& run) {
   const auto* room = run.find("ambient_C");
   if (room == nullptr || run.rows() < 2) return std::nan("");
   double steepest = 0.0;
-  const double end = run.time_s.back();
-  for (double from = run.time_s.front(); from + first_hour_s <= end; from += first_hour_s / 4.0) {
+  double next = run.time_s.front();  // each quarter of an hour in which there is a row
+  for (const double from : run.time_s) {
+    if (from + first_hour_s > run.time_s.back()) break;
+    if (from < next) continue;
+    next = from + first_hour_s / 4.0;
     steepest = std::max(steepest, std::abs(recording::value_at(run, *room, from + first_hour_s) -
                                            recording::value_at(run, *room, from)));
   }
