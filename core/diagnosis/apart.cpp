@@ -30,6 +30,9 @@ void merge(Diagnosis& all, Diagnosis part, std::size_t described) {
   }
   if (part.verdict == Verdict::unexplained) {
     for (const auto& channel : part.mismatch.channels) all.notes.push_back("unexplained:" + channel);
+    for (const auto& note : part.notes) {
+      if (note.starts_with("heat_falls_with_speed")) all.notes.push_back(note);
+    }
   }
   const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(all.effects, part.effects);

@@ -308,6 +308,9 @@ void Diagnoser::notes() {
     return high - low > 12.0 * c.noise;
   });
   if (!excited) m_out.notes.emplace_back("no_excitation");
+  if (m_out.verdict == Verdict::unexplained && m_selection.falling_heat > 0.0 && !m_out.mismatch.channels.empty()) {
+    m_out.notes.push_back("heat_falls_with_speed:" + m_out.mismatch.channels.front());
+  }
   if (m_out.verdict == Verdict::missing_effect && m_selection.best->elsewhere != 0.0) {
     m_out.notes.push_back("decided_with_others:" + m_selection.best->machine().effects.back().id);
   }

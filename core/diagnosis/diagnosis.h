@@ -128,7 +128,8 @@ struct DiagnoseOptions {
 /// The first recording is fitted; the others are held out. Where what was fitted misses one of them by far, that one is
 /// fitted instead if the first then bears it out (contradiction.h; note "fitted_instead:NAME"). Where the fitted one
 /// leaves an effect in doubt or can hardly tell two apart, the others decide with it (elsewhere.h; note
-/// "decided_with_others:ID"); what is fitted is fitted to the first alone.
+/// "decided_with_others:ID"); what is fitted is fitted to the first alone. Note "heat_falls_with_speed:CHANNEL": no law
+/// has such heat, and nothing is named there.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

@@ -107,6 +107,7 @@ TEST(Lumps, HeatThatFallsWithSpeedIsUnexplained) {
   const Diagnosis d = of_part(part_run(0.0, falling));
   EXPECT_EQ(d.verdict, Verdict::unexplained);
   EXPECT_TRUE(d.effects.empty());
+  EXPECT_EQ(std::count(d.notes.begin(), d.notes.end(), "heat_falls_with_speed:T1_C"), 1);
 }
 
 /// A law that the description lacks, but a rising one.

@@ -105,6 +105,7 @@ TEST(RealRecordings, SpindlePartsHaveWhatAStudyByHandFinds) {
   EXPECT_TRUE(late.count("L7") == 1U && late.count("L11") == 1U);
   EXPECT_EQ(late.count("L1") + late.count("L2") + late.count("L3"), 0U);
   EXPECT_EQ(std::count(d.notes.begin(), d.notes.end(), "unexplained:t5_C"), 1);
+  EXPECT_EQ(std::count(d.notes.begin(), d.notes.end(), "heat_falls_with_speed:t5_C"), 1);
   EXPECT_EQ(cooled, (std::set<std::string>{"L1", "L2"}));
   EXPECT_EQ(heated, (std::set<std::string>{"L9"}));
   EXPECT_LT(d.seconds, 60.0);

@@ -57,6 +57,10 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
     if (note.rfind("held_out_differs", 0) == 0) {
       output.warnings.push_back("a held-out recording does not fit this machine (" + note.substr(17) + ")");
     }
+    if (note.rfind("heat_falls_with_speed:", 0) == 0) {
+      output.warnings.push_back("the heat on " + note.substr(22) +
+                                " is less at some speed than at a lower one: no law has that, nothing is named there");
+    }
     if (note.rfind("fitted_instead:", 0) == 0) {
       output.warnings.push_back("the first recording does not show it: " + note.substr(15) +
                                 " was fitted and the first held out");
