@@ -30,6 +30,20 @@ bool BandedCholesky::compute(const Eigen::MatrixXd& matrix, int band) {
 
 void BandedCholesky::solve_in_place(Eigen::MatrixXd& right) const {
   const int n = static_cast<int>(m_factor.rows());
+  if (right.cols() == 1) {
+    auto x = right.col(0);
+    for (int i = 0; i < n; ++i) {
+      const int first = std::max(0, i - m_band);
+      const auto own = m_factor.row(i).segment(first - i + m_band, i - first);
+      x(i) = (x(i) - own.dot(x.segment(first, i - first))) * m_factor(i, m_band);
+    }
+    for (int i = n - 1; i >= 0; --i) {
+      const int first = std::max(0, i - m_band);
+      x(i) *= m_factor(i, m_band);
+      x.segment(first, i - first) -= x(i) * m_factor.row(i).segment(first - i + m_band, i - first).transpose();
+    }
+    return;
+  }
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> x = right;
   for (int i = 0; i < n; ++i) {
     for (int j = std::max(0, i - m_band); j < i; ++j) x.row(i) -= m_factor(i, j - i + m_band) * x.row(j);

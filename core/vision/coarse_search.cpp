@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/vision/opencv_image.h"
+#include "core/vision/row_sums.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -49,6 +50,15 @@ GrayImage flattened(const GrayImage& image) {
   cv::Mat(cv::min(cv::max(level - around, -largest_relief), largest_relief) * (127.0 / largest_relief) + 128.0)
       .convertTo(flat, CV_8U);
   return gray_from_mat(flat);
+}
+
+// The full resolution is not searched where there is another.
+std::vector<GrayImage> flattened(const std::vector<GrayImage>& pyramid) {
+  std::vector<GrayImage> out(pyramid.size());
+  for (std::size_t level = pyramid.size() > 1 ? 1 : 0; level < pyramid.size(); ++level) {
+    out[level] = flattened(pyramid[level]);
+  }
+  return out;
 }
 
 GrayImage cut(const GrayImage& image, const Region& region) {
@@ -127,17 +137,13 @@ class Climb {
   double correlation(int x, int y) const {
     std::int64_t product = 0, sum = 0, squares = 0;
     for (int row = 0; row < m_pattern.height; ++row) {
-      const std::uint8_t* a = m_frame.ptr(y + row) + x;
-      const std::uint8_t* b = m_pattern.pixels.data() + static_cast<std::size_t>(row) * m_pattern.width;
-      std::int32_t p = 0, s = 0, q = 0;
-      for (int k = 0; k < m_pattern.width; ++k) {
-        p += a[k] * b[k];
-        s += a[k];
-        q += a[k] * a[k];
-      }
-      product += p;
-      sum += s;
-      squares += q;
+      const std::uint8_t* from = m_frame.ptr(y + row) + x;
+      const std::uint8_t* pattern = m_pattern.pixels.data() + static_cast<std::size_t>(row) * m_pattern.width;
+      std::int32_t sums[3];
+      byte_sums(from, pattern, m_pattern.width, sums);
+      product += sums[0];
+      sum += sums[1];
+      squares += sums[2];
     }
     const double n = static_cast<double>(m_pattern.pixels.size());
     const double spread = static_cast<double>(squares) - static_cast<double>(sum) * static_cast<double>(sum) / n;
@@ -171,7 +177,7 @@ CoarseSearch::CoarseSearch(const GrayImage& image, const Region& region) : m_reg
   std::size_t levels = 1;
   while (levels <= deepest_level && (std::min(region.width, region.height) >> levels) >= smallest_template_px) ++levels;
   m_templates = pyramid(cut(image, region), levels);
-  for (std::size_t level = 0; level < levels; ++level) m_flat.push_back(flattened(m_templates[level]));
+  m_flat = flattened(m_templates);
 }
 
 std::vector<Candidate> CoarseSearch::find(const GrayImage& frame, int count) const {
@@ -187,9 +193,7 @@ std::vector<Candidate> CoarseSearch::find(const GrayImage& frame, int count) con
   // The full resolution costs much and finds nothing that the half did not.
   if (top > 1) add(find_from(frames, m_templates, 1, count));
   if (sure()) return found;
-  std::vector<GrayImage> flat;
-  for (const GrayImage& one : frames) flat.push_back(flattened(one));
-  add(find_from(flat, m_flat, top, count));
+  add(find_from(flattened(frames), m_flat, top, count));
   return found;
 }
 

@@ -28,15 +28,20 @@ FramePatch::FramePatch(const GrayImage& frame, const Region& region, const Eigen
       state(static_cast<std::size_t>(at.width) * at.height, seen) {
   int left = at.width, top = at.height, right = -1, bottom = -1;
   for (int y = 0; y < at.height; ++y) {
+    std::uint8_t* here = state.data() + static_cast<std::size_t>(y) * at.width;
+    const int fy = at.y + y;
+    if (fy < 0 || fy >= frame.height) {
+      std::fill_n(here, at.width, outside);
+      continue;
+    }
+    const std::uint8_t* levels = frame.pixels.data() + static_cast<std::size_t>(fy) * frame.width;
     for (int x = 0; x < at.width; ++x) {
-      const std::size_t here = static_cast<std::size_t>(y) * at.width + x;
       const int fx = at.x + x;
-      const int fy = at.y + y;
-      if (fx < 0 || fy < 0 || fx >= frame.width || fy >= frame.height) {
-        state[here] = outside;
-      } else if (frame.at(fx, fy) >= saturated_level) {
+      if (fx < 0 || fx >= frame.width) {
+        here[x] = outside;
+      } else if (levels[fx] >= saturated_level) {
         if (m_dark.empty()) m_dark.assign(state.size(), 1);
-        m_dark[here] = 0;
+        m_dark[static_cast<std::size_t>(y) * at.width + x] = 0;
         left = std::min(left, x), right = std::max(right, x);
         top = std::min(top, y), bottom = std::max(bottom, y);
       }

@@ -13,56 +13,74 @@ constexpr float crowd_full = 0.80f;   // and at which it counts fully; normal no
 constexpr float mean_limit = 5.0f;    // of the patch's mean over its standard deviation
 constexpr float known_enough = 3.0f;  // fewer pixels say nothing
 
-// Sums over (2 radius + 1)^2 windows, in place; beyond the border there is nothing.
-void box_sums(std::vector<float>& map, int width, int height, int radius, std::vector<float>& scratch) {
-  scratch.assign(map.size(), 0.0f);
-  for (int y = 0; y < height; ++y) {
-    const float* from = map.data() + static_cast<std::ptrdiff_t>(y) * width;
-    float* to = scratch.data() + static_cast<std::ptrdiff_t>(y) * width;
-    for (int shift = -radius; shift <= radius; ++shift) {
-      for (int x = std::max(0, -shift); x < width - std::max(0, shift); ++x) to[x] += from[x + shift];
-    }
+// to[x] = sum of from[x - radius .. x + radius].
+template <int radius>
+inline void add_along(const float* from, int count, float* to) {
+  for (int x = 0; x < count; ++x) {
+    float sum = from[x - radius];
+    for (int shift = 1 - radius; shift <= radius; ++shift) sum += from[x + shift];
+    to[x] = sum;
   }
-  std::vector<float> sum(static_cast<std::size_t>(width), 0.0f);
-  const auto row = [&](int y) { return scratch.data() + static_cast<std::ptrdiff_t>(y) * width; };
-  for (int y = -radius; y < height; ++y) {
-    if (y + radius < height) {
-      for (int x = 0; x < width; ++x) sum[x] += row(y + radius)[x];
+}
+
+// Sums over (2 radius + 1)^2 windows, in place, of a map with a border of zeros that is at least as wide.
+template <int radius>
+void box_sums(std::vector<float>& map, int stride, std::vector<float>& scratch) {
+  scratch.assign(map.size(), 0.0f);
+  const int height = static_cast<int>(map.size()) / stride;
+  add_along<radius>(map.data() + radius, static_cast<int>(map.size()) - 2 * radius, scratch.data() + radius);
+  std::vector<float> sum(static_cast<std::size_t>(stride), 0.0f);
+  const auto row = [stride](std::vector<float>& of, int y) {
+    return of.data() + static_cast<std::ptrdiff_t>(y) * stride;
+  };
+  for (int y = 0; y < radius; ++y) {
+    for (int x = 0; x < stride; ++x) sum[x] += row(scratch, y)[x];
+  }
+  const std::vector<float> nothing(static_cast<std::size_t>(stride), 0.0f);
+  for (int y = 0; y < height; ++y) {
+    const float* ahead = y + radius < height ? row(scratch, y + radius) : nothing.data();
+    const float* behind = y - radius - 1 >= 0 ? row(scratch, y - radius - 1) : nothing.data();
+    float* to = row(map, y);
+    for (int x = 0; x < stride; ++x) {
+      sum[x] += ahead[x] - behind[x];
+      to[x] = sum[x];
     }
-    if (y - radius - 1 >= 0) {
-      for (int x = 0; x < width; ++x) sum[x] -= row(y - radius - 1)[x];
-    }
-    if (y >= 0) std::copy(sum.begin(), sum.end(), map.begin() + static_cast<std::ptrdiff_t>(y) * width);
   }
 }
 
 }  // namespace
 
 NeighbourWeights::NeighbourWeights(const TemplateModel& model, double correlated)
-    : m_model(model),
-      m_correlated(static_cast<float>(correlated)),
-      m_width(*std::max_element(model.column.begin(), model.column.end()) + 1),
-      m_height(*std::max_element(model.row.begin(), model.row.end()) + 1) {}
+    : m_model(model), m_correlated(static_cast<float>(correlated)), m_stride(model.width + 2 * patch_radius_px) {}
+
+// What does not change from one call to the next.
+void NeighbourWeights::prepare() {
+  m_place.resize(static_cast<std::size_t>(m_model.pixels));
+  m_known.assign(static_cast<std::size_t>(m_stride) * m_model.height, 0.0f);
+  for (int k = 0; k < m_model.pixels; ++k) {
+    m_place[k] = m_model.row[k] * m_stride + m_model.column[k] + patch_radius_px;
+    m_known[m_place[k]] = 1.0f;
+  }
+  box_sums<crowd_radius_px>(m_known, m_stride, m_scratch);
+}
 
 void NeighbourWeights::judge(const Eigen::VectorXf& standard_errors, const Eigen::VectorXf& own_weights,
                              Eigen::VectorXf& out) {
-  const std::size_t size = static_cast<std::size_t>(m_width) * m_height;
-  for (std::vector<float>* map : {&m_known, &m_kept, &m_sum, &m_squares}) map->assign(size, 0.0f);
+  if (m_place.empty()) prepare();
+  for (std::vector<float>* map : {&m_kept, &m_sum, &m_squares}) map->assign(m_known.size(), 0.0f);
   const int n = m_model.pixels;
   for (int k = 0; k < n; ++k) {
-    const std::size_t at = static_cast<std::size_t>(m_model.row[k]) * m_width + m_model.column[k];
+    const std::size_t at = static_cast<std::size_t>(m_place[k]);
     const float w = own_weights(k);
-    m_known[at] = 1.0f;
     m_kept[at] = w;
     m_sum[at] = w * standard_errors(k);
     m_squares[at] = w * w;
   }
-  box_sums(m_known, m_width, m_height, crowd_radius_px, m_scratch);
-  box_sums(m_kept, m_width, m_height, crowd_radius_px, m_scratch);
-  box_sums(m_sum, m_width, m_height, patch_radius_px, m_scratch);
-  box_sums(m_squares, m_width, m_height, patch_radius_px, m_scratch);
+  box_sums<crowd_radius_px>(m_kept, m_stride, m_scratch);
+  box_sums<patch_radius_px>(m_sum, m_stride, m_scratch);
+  box_sums<patch_radius_px>(m_squares, m_stride, m_scratch);
   for (int k = 0; k < n; ++k) {
-    const std::size_t at = static_cast<std::size_t>(m_model.row[k]) * m_width + m_model.column[k];
+    const std::size_t at = static_cast<std::size_t>(m_place[k]);
     float weight = 1.0f;
     if (m_known[at] >= known_enough) {
       weight = std::clamp((m_kept[at] / m_known[at] - crowd_none) / (crowd_full - crowd_none), 0.0f, 1.0f);

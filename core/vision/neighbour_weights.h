@@ -19,10 +19,12 @@ class NeighbourWeights {
   void judge(const Eigen::VectorXf& standard_errors, const Eigen::VectorXf& own_weights, Eigen::VectorXf& out);
 
  private:
+  void prepare();
+
   const TemplateModel& m_model;
   float m_correlated;
-  int m_width;
-  int m_height;
+  int m_stride;              // of a row of the maps, with a border of zeros on both sides
+  std::vector<int> m_place;  // in the maps, of the model's pixels
   std::vector<float> m_known, m_kept, m_sum, m_squares, m_scratch;
 };
 

@@ -34,6 +34,7 @@ constexpr int largest_rounds = 6;
 constexpr int shared_patch_px = 24;  // further apart, two patches are less work than one around both
 constexpr float seen_through = 0.02f;
 constexpr int within_outline_px = 8;
+constexpr double straight = 0.01;      // a solve that bent the target more may have been caught by a reflection
 constexpr double outline_share = 0.7;  // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
@@ -84,8 +85,8 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   return true;
 }
 
-// The source with what lies well within its outline left out; nothing where that would be lost too much, or where
-// there is no outline.
+// The source with what lies well within its outline left out; nothing where that would be lost too much, or
+// where there is no outline.
 std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model) {
   if (!source.backdrop || model.shown.empty()) return std::nullopt;
   const FloatImage& clear = source.backdrop->clear;
@@ -252,8 +253,9 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
       setup.with_field = true;
       continue;
     }
-    const Registration found = solver.fit(model.pixels);
-    if (m_outline && source == &m_source && found.structure > doubtful_structure) {
+    Registration found = solver.fit(model.pixels);
+    const bool another = m_outline && (m_outline_model->pixels < m_model.pixels || linear_change(found) > straight);
+    if (another && source == &m_source && found.structure > doubtful_structure) {
       // What disagrees may be what is reflected within the outline: from here on it does without.
       source = &*m_outline;
       match_blur(solver.extra_blur_px2(), setup);
@@ -267,10 +269,10 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     field_helped = setup.with_field;
     if (on_trial) {
       // A trial of the field: what was found without it stands unless it was biased.
-      Registration with_field = found;
-      solver.tell_uncertainty(with_field);
-      if (!biased(out, with_field)) break;
+      solver.tell_uncertainty(found);
+      if (!biased(out, found)) break;
     }
+    const bool told = on_trial;
     out = found;
     if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
     solver.hand_over(start);
@@ -280,7 +282,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     next.with_field = setup.with_field || (!blurs && (needs_field(out) || on_trial));
     const bool last = (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
     // What only leads to a better matched blur need not be known so well.
-    if (last || !blurs) {
+    if (!told && (last || !blurs)) {
       if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
       solver.tell_uncertainty(out);
     }

@@ -35,6 +35,11 @@ struct Registration {
   std::vector<float> residual_map;  // only if asked for: one a pixel of the region in units of the scale, NaN if unused
 };
 
+/// Largest element by which the linear part differs from none.
+inline double linear_change(const Registration& r) {
+  return (r.linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
+}
+
 struct RegistrationStart;
 class PatchOfFrame;
 

@@ -4,17 +4,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/vision/registration_solver.h"
 
 namespace zerodrift::vision {
 namespace {
 
-constexpr int tiles_a_side = 8;
 constexpr int tiles = tiles_a_side * tiles_a_side;
 constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
 constexpr double most_of_tile = 0.95;
 constexpr double least_rim_energy = 0.05;  // of the gradient energy: with less the rim says nothing
+
+bool in_rim(int tile) {
+  const int row = tile / tiles_a_side;
+  const int column = tile % tiles_a_side;
+  return std::min(row, column) == 0 || std::max(row, column) == tiles_a_side - 1;
+}
 
 }  // namespace
 
@@ -39,34 +45,23 @@ std::vector<float> RegistrationSolver::residual_map(int width, int height) const
   return out;
 }
 
-int RegistrationSolver::tile_of(int k) const {
-  return m_model.row[k] * tiles_a_side / m_height * tiles_a_side + m_model.column[k] * tiles_a_side / m_width;
-}
-
-bool RegistrationSolver::in_rim(int k) const {
-  const int row = tile_of(k) / tiles_a_side;
-  const int column = tile_of(k) % tiles_a_side;
-  return std::min(row, column) == 0 || std::max(row, column) == tiles_a_side - 1;
-}
-
 void RegistrationSolver::tell_fit(int count, Registration& out) const {
   double sum_w = 0.0, sum_m = 0.0, sum_g = 0.0, energy = 0.0, kept_energy = 0.0, rim_energy = 0.0, rim_kept = 0.0;
   int inliers = 0, seen = 0, bright = 0;
   // The smooth field is taken off the frame first: it is no part of the target.
-  const auto light_of_target = [&](int k) {
-    return static_cast<double>(m_rows.col(k).segment<light_count>(motion_count).dot(m_light.cast<float>()));
-  };
-  std::vector<double> model(static_cast<std::size_t>(count));
+  Eigen::Matrix<float, row_length, 1> light = Eigen::Matrix<float, row_length, 1>::Zero();
+  light.segment<light_count>(motion_count) = -m_light.cast<float>();
+  Eigen::VectorXf model = Eigen::VectorXf::Zero(count);
+  subtract_model(m_rows.data(), light.data(), count, model.data(), model.data());
   for (int k = 0; k < count; ++k) {
     const double w = m_robust(k);
-    model[k] = light_of_target(k);
     sum_w += w;
-    sum_m += w * model[k];
-    sum_g += w * (model[k] + m_error(k));
+    sum_m += w * model(k);
+    sum_g += w * (model(k) + m_error(k));
     const double e = double{m_model.fx[k]} * m_model.fx[k] + double{m_model.fy[k]} * m_model.fy[k];
     energy += e;
     if (w > 0.25) kept_energy += e;
-    if (m_pixel_state[k] == FramePatch::seen && in_rim(k)) {
+    if (m_pixel_state[k] == FramePatch::seen && in_rim(m_model.tile[k])) {
       rim_energy += e;
       if (w > 0.25) rim_kept += e;
     }
@@ -74,11 +69,13 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
     seen += m_pixel_state[k] != FramePatch::outside;
     bright += m_pixel_state[k] == FramePatch::too_bright;
   }
+  const double mean_m = sum_m / sum_w;
+  const double mean_g = sum_g / sum_w;
   double mm = 0.0, gg = 0.0, mg = 0.0;
   for (int k = 0; k < count; ++k) {
     const double w = m_robust(k);
-    const double m = model[k] - sum_m / sum_w;
-    const double g = model[k] + m_error(k) - sum_g / sum_w;
+    const double m = model(k) - mean_m;
+    const double g = model(k) + m_error(k) - mean_g;
     mm += w * m * m;
     gg += w * g * g;
     mg += w * m * g;
@@ -95,17 +92,37 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
 // row times row.
 RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const {
   Scores out;
-  Rows rows = m_rows.leftCols(count);
-  rows.topRows<motion_count>() *= static_cast<float>(m_prepared.gain);
-  if (m_field != nullptr) m_field->take_off(rows, count, m_prepared.field_share.cast<float>());
-  const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
-  for (int begin = 0, end = 0; begin < count; begin = end) {
-    const int tile = tile_of(begin);
+  std::array<int, tiles + 1> first{};
+  for (int k = 0; k < count; ++k) ++first[m_model.tile[k] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  const auto gain_now = static_cast<float>(m_prepared.gain);
+  Rows without_field;
+  if (m_field != nullptr) {
+    without_field = m_rows.leftCols(count);
+    without_field.topRows<motion_count>() *= gain_now;
+    m_field->take_off(without_field, count, m_prepared.field_share.cast<float>());
+  }
+  const Rows& from = m_field != nullptr ? without_field : m_rows;
+  // Tile after tile, for sums over many pixels at once.
+  Rows rows(row_length, count);
+  Eigen::VectorXf weights(count), weighted_errors(count);
+  std::array<int, tiles + 1> next = first;
+  for (int k = 0; k < count; ++k) {
+    const int at = next[m_model.tile[k]]++;
+    rows.col(at) = from.col(k);
+    weights(at) = m_weight(k);
+    weighted_errors(at) = m_weight(k) * m_error(k);
+  }
+  if (m_field == nullptr) rows.topRows<motion_count>() *= gain_now;
+  for (int tile = 0; tile < tiles; ++tile) {
+    const int begin = first[tile];
+    const int size = first[tile + 1] - begin;
+    if (size == 0) continue;
+    out.used[tile] = weights.segment(begin, size).maxCoeff() > 0.0f;
     Eigen::Matrix<double, row_length, 1> gradient = Eigen::Matrix<double, row_length, 1>::Zero();
-    for (end = begin; end < count && tile_of(end) == tile; ++end) out.used[tile] |= m_weight(end) > 0.0f;
-    add_products(rows.col(begin).data(), weighted_errors.data() + begin, end - begin, gradient.data());
-    out.gradient[tile] += gradient.head<column_count>();
-    out.normal[tile] += normal_of(rows.data(), m_weight.data(), begin, end);
+    add_products(rows.col(begin).data(), weighted_errors.data() + begin, size, gradient.data());
+    out.gradient[tile] = gradient.head<column_count>();
+    out.normal[tile] = normal_of(rows.data(), weights.data(), begin, begin + size);
   }
   return out;
 }
@@ -137,7 +154,7 @@ double RegistrationSolver::tell_structure(int count, Registration& out) const {
     const double z = m_error(k) * m_noise_root(k);
     ++used;
     psi2 += w * z * w * z;
-    const int tile = tile_of(k);
+    const int tile = m_model.tile[k];
     error[tile] += w * z;
     weight[tile] += w;
   }

@@ -32,8 +32,6 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
     : m_model(model),
       m_patch(patch),
       m_field(field),
-      m_width(*std::max_element(model.column.begin(), model.column.end()) + 1),
-      m_height(*std::max_element(model.row.begin(), model.row.end()) + 1),
       m_whole_px(start.whole_px),
       m_shift(start.shift_px),
       m_linear(start.linear),
@@ -84,6 +82,10 @@ void RegistrationSolver::sample(int count) {
   m_place.resize(m_frame.size());
   m_fx.resize(m_frame.size());
   m_fy.resize(m_frame.size());
+  if (!m_model.shown.empty()) {
+    m_seen_x.resize(m_frame.size());
+    m_seen_y.resize(m_frame.size());
+  }
   for (int k = 0; k < count; ++k) {
     const float x = m_model.x[k];
     const float y = m_model.y[k];
@@ -102,6 +104,10 @@ void RegistrationSolver::sample(int count) {
     m_place[k] = known ? row * width + column : SplineImage::first_place(width);
     m_fx[k] = ux - whole_x;
     m_fy[k] = uy - whole_y;
+    if (!m_seen_x.empty()) {
+      m_seen_x[k] = static_cast<float>(m_patch.at.x + column) + m_fx[k];
+      m_seen_y[k] = static_cast<float>(m_patch.at.y + row) + m_fy[k];
+    }
     m_pixel_state[k] = known ? m_patch.state[m_place[k]] : std::uint8_t{FramePatch::outside};
   }
   m_patch.spline.sample(m_place.data(), m_fx.data(), m_fy.data(), count, m_frame.data());
@@ -110,15 +116,11 @@ void RegistrationSolver::sample(int count) {
 
 // The model's values where the target lets through what now stands behind it.
 void RegistrationSolver::look_behind(int count) {
-  const int width = m_patch.spline.width();
-  const auto left = static_cast<float>(m_patch.at.x);
-  const auto top = static_cast<float>(m_patch.at.y);
   for (std::size_t i = 0; i < m_model.shown.size() && m_model.shown[i] < count; ++i) {
     const int k = m_model.shown[i];
     if (m_pixel_state[k] == FramePatch::outside) continue;
-    const float x = left + static_cast<float>(m_place[k] % width) + m_fx[k];
-    const float y = top + static_cast<float>(m_place[k] / width) + m_fy[k];
-    const float value = m_model.value[k] + m_model.clear[i] * (m_model.backdrop->at(x, y) - m_model.behind[i]);
+    const float behind = m_model.backdrop->at(m_seen_x[k], m_seen_y[k]);
+    const float value = m_model.value[k] + m_model.clear[i] * (behind - m_model.behind[i]);
     m_rows(gain, k) = value;
     m_rows(gain_x, k) = value * m_model.x[k] / static_cast<float>(length_px);
     m_rows(gain_y, k) = value * m_model.y[k] / static_cast<float>(length_px);

@@ -85,15 +85,12 @@ class RegistrationSolver {
   void apply(const Vector& p);
   void tell_fit(int count, Registration& out) const;
   double tell_structure(int count, Registration& out) const;
-  int tile_of(int k) const;
-  bool in_rim(int k) const;
   Scores scores_of_tiles(int count) const;
   Eigen::Vector2d jackknife(const Scores& scores) const;
 
   const TemplateModel& m_model;
   const FramePatch& m_patch;
   const SmoothField* m_field;
-  int m_width, m_height;  // of what the model uses of the region
   Eigen::Vector2d m_whole_px;
   Eigen::Vector2d m_shift;
   Eigen::Matrix2d m_linear;
@@ -108,8 +105,9 @@ class RegistrationSolver {
   Eigen::VectorXf m_weight;                      // all three together
   std::vector<std::uint8_t> m_pixel_state;
   std::vector<float> m_scratch;
-  std::vector<int> m_place;             // in the frame's spline, of the pixels sampled
-  std::vector<float> m_fx, m_fy, m_at;  // fractions there, and the values
+  std::vector<int> m_place;               // in the frame's spline, of the pixels sampled
+  std::vector<float> m_fx, m_fy;          // fractions there
+  std::vector<float> m_seen_x, m_seen_y;  // and where that is in the frame, px; of a target with a backdrop
   NeighbourWeights m_judge;
   double m_tukey = 0.0;
   bool m_all_pixels = false;  // after the glance

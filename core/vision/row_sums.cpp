@@ -117,4 +117,14 @@ ZERODRIFT_WIDE void tukey_weights(const float* __restrict errors, const float* _
   }
 }
 
+ZERODRIFT_WIDE void byte_sums(const std::uint8_t* a, const std::uint8_t* b, int count, std::int32_t* sums) {
+  std::int32_t product = 0, sum = 0, squares = 0;
+  for (int k = 0; k < count; ++k) {
+    product += a[k] * b[k];
+    sum += a[k];
+    squares += a[k] * a[k];
+  }
+  sums[0] = product, sums[1] = sum, sums[2] = squares;
+}
+
 }  // namespace zerodrift::vision

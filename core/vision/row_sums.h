@@ -29,4 +29,7 @@ void subtract_shared(float* rows, const float* shares, int count, const float* c
 void tukey_weights(const float* errors, const float* roots, float inverse, const std::uint8_t* use, int count,
                    float* weights);
 
+/// sums of a * b, a and a * a over one row of a picture: product, sum, squares.
+void byte_sums(const std::uint8_t* a, const std::uint8_t* b, int count, std::int32_t* sums);
+
 }  // namespace zerodrift::vision

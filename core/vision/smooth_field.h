@@ -22,7 +22,7 @@ class SmoothField {
   void subtract_from(Eigen::VectorXf& error, int count, const Eigen::VectorXf& coefficients) const;
   /// Sum of weight * basis * value.
   Eigen::VectorXf project(const Eigen::VectorXf& weighted_values, int count) const;
-  /// Sum of weight * basis * basis.
+  /// Sum of weight * basis * basis; the lower half.
   Eigen::MatrixXf normal(const Eigen::VectorXf& weights, int count) const;
   using Rows = Eigen::Matrix<float, row_length, Eigen::Dynamic>;  // a column each
   /// Sum of weight * basis * row; size() x row_length.

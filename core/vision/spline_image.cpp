@@ -16,36 +16,41 @@ constexpr int largest_lattice_steps = 32;
 // Poles of the quintic B-spline's inverse filter.
 constexpr double poles[] = {-0.43057534709997430, -0.043096288203264443};
 
-// In-place inverse filter down the columns with mirrored ends; the inner loop runs along a row.
-void prefilter_columns(FloatImage& image) {
-  const int n = image.height;
-  const int width = image.width;
+// In-place inverse filter down the columns with mirrored ends; the inner loops run along a row.
+ZERODRIFT_WIDE void prefilter_columns(float* values, int width, int height, float* scratch) {
+  const auto row = [values, width](int y) { return values + static_cast<std::ptrdiff_t>(y) * width; };
   for (const double pole : poles) {
     const float z = static_cast<float>(pole);
     const float gain = static_cast<float>((1.0 - pole) * (1.0 - 1.0 / pole));
-    for (float& value : image.values) value *= gain;
-    const int reach = std::min(n, 24);  // pole^24 is below the precision of a float
-    std::vector<float> start(image.row(0), image.row(0) + width);
+    const int reach = std::min(height, 24);  // pole^24 is below the precision of a float
+    for (int x = 0; x < width; ++x) scratch[x] = row(0)[x];
     float power = z;
     for (int y = 1; y < reach; ++y, power *= z) {
-      for (int x = 0; x < width; ++x) start[x] += power * image.row(y)[x];
+      const float* now = row(y);
+      for (int x = 0; x < width; ++x) scratch[x] += power * now[x];
     }
-    std::copy(start.begin(), start.end(), image.row(0));
-    for (int y = 1; y < n; ++y) {
-      float* now = image.row(y);
-      const float* before = image.row(y - 1);
-      for (int x = 0; x < width; ++x) now[x] += z * before[x];
+    float* first = row(0);
+    for (int x = 0; x < width; ++x) first[x] = gain * scratch[x];
+    for (int y = 1; y < height; ++y) {
+      float* now = row(y);
+      const float* before = row(y - 1);
+      for (int x = 0; x < width; ++x) now[x] = gain * now[x] + z * before[x];
     }
     const float end_gain = static_cast<float>(pole / (pole * pole - 1.0));
-    float* last = image.row(n - 1);
-    const float* beside = image.row(n - 2);
+    float* last = row(height - 1);
+    const float* beside = row(height - 2);
     for (int x = 0; x < width; ++x) last[x] = end_gain * (last[x] + z * beside[x]);
-    for (int y = n - 2; y >= 0; --y) {
-      float* now = image.row(y);
-      const float* after = image.row(y + 1);
+    for (int y = height - 2; y >= 0; --y) {
+      float* now = row(y);
+      const float* after = row(y + 1);
       for (int x = 0; x < width; ++x) now[x] = z * (after[x] - now[x]);
     }
   }
+}
+
+void prefilter_columns(FloatImage& image) {
+  std::vector<float> scratch(static_cast<std::size_t>(image.width));
+  prefilter_columns(image.values.data(), image.width, image.height, scratch.data());
 }
 
 FloatImage transposed(const FloatImage& image) {
@@ -116,10 +121,39 @@ ZERODRIFT_WIDE void sample_spline(const float* coefficients, int width, const fl
   }
 }
 
-// b5 and its first two derivatives at the integers -2 .. 2; correlation with them gives the derivative at the pixels.
-constexpr double kernels[3][5] = {{1.0 / 120, 26.0 / 120, 66.0 / 120, 26.0 / 120, 1.0 / 120},
-                                  {-1.0 / 24, -10.0 / 24, 0.0, 10.0 / 24, 1.0 / 24},
-                                  {1.0 / 6, 1.0 / 3, -1.0, 1.0 / 3, 1.0 / 6}};
+// b5 and its first two derivatives at the integers, from its middle on; the first derivative changes its sign there.
+constexpr float b5[] = {66.0f / 120.0f, 26.0f / 120.0f, 1.0f / 120.0f};
+constexpr float b5_slope[] = {0.0f, 10.0f / 24.0f, 1.0f / 24.0f};
+constexpr float b5_bend[] = {-1.0f, 1.0f / 3.0f, 1.0f / 6.0f};
+
+// Sums of five rows of coefficients by all three; `rows` are those from two above to two below.
+ZERODRIFT_WIDE void across_rows(const float* const* rows, int width, float* __restrict plain, float* __restrict slope,
+                                float* __restrict bend) {
+  const float *r0 = rows[0], *r1 = rows[1], *r2 = rows[2], *r3 = rows[3], *r4 = rows[4];
+  for (int x = 0; x < width; ++x) {
+    const float near = r1[x] + r3[x];
+    const float far = r0[x] + r4[x];
+    plain[x] = b5[0] * r2[x] + b5[1] * near + b5[2] * far;
+    slope[x] = b5_slope[1] * (r3[x] - r1[x]) + b5_slope[2] * (r4[x] - r0[x]);
+    bend[x] = b5_bend[0] * r2[x] + b5_bend[1] * near + b5_bend[2] * far;
+  }
+}
+
+// The same along a row, of which two numbers beyond both ends are known.
+ZERODRIFT_WIDE void along_row(const float* __restrict plain, const float* __restrict slope,
+                              const float* __restrict bend, int width, float* __restrict x_out, float* __restrict y_out,
+                              float* __restrict xx_out, float* __restrict xy_out, float* __restrict yy_out) {
+  for (int x = 0; x < width; ++x) {
+    const float *p = plain + x, *s = slope + x, *b = bend + x;
+    const float near = p[-1] + p[1];
+    const float far = p[-2] + p[2];
+    x_out[x] = b5_slope[1] * (p[1] - p[-1]) + b5_slope[2] * (p[2] - p[-2]);
+    xx_out[x] = b5_bend[0] * p[0] + b5_bend[1] * near + b5_bend[2] * far;
+    y_out[x] = b5[0] * s[0] + b5[1] * (s[-1] + s[1]) + b5[2] * (s[-2] + s[2]);
+    xy_out[x] = b5_slope[1] * (s[1] - s[-1]) + b5_slope[2] * (s[2] - s[-2]);
+    yy_out[x] = b5[0] * b[0] + b5[1] * (b[-1] + b[1]) + b5[2] * (b[-2] + b[2]);
+  }
+}
 
 cv::Mat view(const FloatImage& image) {
   return cv::Mat(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
@@ -256,12 +290,25 @@ void SplineImage::sample(const int* places, const float* fractions_x, const floa
                 values);
 }
 
-FloatImage SplineImage::derivative(int order_x, int order_y) const {
-  FloatImage out(width(), height());
-  cv::Mat target = view(out);
-  const cv::Mat along_x(1, 5, CV_64F, const_cast<double*>(kernels[order_x]));
-  const cv::Mat along_y(1, 5, CV_64F, const_cast<double*>(kernels[order_y]));
-  cv::sepFilter2D(view(m_coefficients), target, CV_32F, along_x, along_y, {-1, -1}, 0.0, cv::BORDER_REFLECT_101);
+// Beyond the border the coefficients are mirrored, as the prefilter takes them.
+SplineDerivatives SplineImage::derivatives() const {
+  const int w = width();
+  const int h = height();
+  SplineDerivatives out{{w, h}, {w, h}, {w, h}, {w, h}, {w, h}};
+  const std::size_t padded = static_cast<std::size_t>(w) + 4;
+  std::vector<float> sums(3 * padded);
+  float* const kinds[] = {sums.data() + 2, sums.data() + padded + 2, sums.data() + 2 * padded + 2};
+  const auto mirrored = [h](int y) { return y < 0 ? -y : y >= h ? 2 * (h - 1) - y : y; };
+  for (int y = 0; y < h; ++y) {
+    const float* rows[5];
+    for (int k = 0; k < 5; ++k) rows[k] = m_coefficients.row(mirrored(y + k - 2));
+    across_rows(rows, w, kinds[0], kinds[1], kinds[2]);
+    for (float* kind : kinds) {
+      kind[-1] = kind[1], kind[-2] = kind[2];
+      kind[w] = kind[w - 2], kind[w + 1] = kind[w - 3];
+    }
+    along_row(kinds[0], kinds[1], kinds[2], w, out.x.row(y), out.y.row(y), out.xx.row(y), out.xy.row(y), out.yy.row(y));
+  }
   return out;
 }
 

@@ -32,6 +32,11 @@ std::vector<float> gaussian_weights(double variance);
 /// The kernel of that blur as an image of odd size; its sum is 1.
 FloatImage blur_kernel(const Eigen::Matrix2d& covariance_px2);
 
+/// At the pixels.
+struct SplineDerivatives {
+  FloatImage x, y, xx, xy, yy;
+};
+
 class SplineImage {
  public:
   explicit SplineImage(FloatImage samples);
@@ -43,8 +48,7 @@ class SplineImage {
   static constexpr int reach_after = 6;  // eight columns are read at once
   static constexpr int first_place(int width) { return 2 * width + 2; }
   void sample(const int* places, const float* fractions_x, const float* fractions_y, int count, float* values) const;
-  /// Derivative images at the pixels: order 0, 1, 2 along x and y.
-  FloatImage derivative(int order_x, int order_y) const;
+  SplineDerivatives derivatives() const;
 
  private:
   FloatImage m_coefficients;

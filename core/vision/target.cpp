@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/vision/coarse_search.h"
 #include "core/vision/registration.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int smallest_region_px = 24;
 constexpr int candidates_refined = 2;
+constexpr double same_place_px = 0.05;
 constexpr double rival_merit = 0.75;           // of the best glance: the candidate is refined as well, unless
 constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
@@ -49,10 +51,6 @@ constexpr double accepted_blur_px2 = 12.0;
 constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
 constexpr double least_seen = 0.70;
 constexpr double largest_structure = 8.0;  // of the residual's patches: frames that are measured well stay below 2.5
-
-double linear_change(const Registration& r) {
-  return (r.linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
-}
 
 Refusal judge(const Registration& r, double coarse_correlation) {
   if (!r.converged) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::too_different;
@@ -134,7 +132,6 @@ struct Target::Impl {
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
     const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
     if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
-    std::vector<std::pair<double, Candidate>> rated;
     double best_merit = -1.0;
     double best_correlation = 1.0;  // if no glance converges, the fine registration is tried nevertheless
     double most_saturated = 0.0;
@@ -145,20 +142,28 @@ struct Target::Impl {
       places.push_back({one.dx_px, one.dy_px});
     }
     const std::vector<Registration> glances = fine.glances(frame, places);
-    for (std::size_t k = 0; k < glances.size(); ++k) {
-      const Registration& seen = glances[k];
+    for (const Registration& seen : glances) {
       most_saturated = std::max(most_saturated, seen.saturated_share);
-      rated.emplace_back(merit(seen), candidates[k]);
       if (merit(seen) <= best_merit) continue;
       best_merit = merit(seen);
       best_correlation = seen.correlation;
     }
     // A glance does not know a halo from the target.
     if (best_correlation < least_glance_correlation && most_saturated < some_glare) return {};
-    std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::size_t> order(glances.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return merit(glances[a]) > merit(glances[b]); });
     std::vector<Candidate> out;
-    for (std::size_t k = 0; k < std::min<std::size_t>(rated.size(), candidates_refined); ++k) {
-      if (k == 0 || rated[k].first > rival_merit * rated[0].first) out.push_back(rated[k].second);
+    for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), candidates_refined); ++k) {
+      const Registration& seen = glances[order[k]];
+      if (k > 0) {
+        const Registration& first = glances[order[0]];
+        if (merit(seen) <= rival_merit * merit(first)) break;
+        // A rival that came to the same place would be the same once more.
+        if ((seen.displacement_px - first.displacement_px).norm() < same_place_px) continue;
+      }
+      out.push_back(candidates[order[k]]);
     }
     return out;
   }

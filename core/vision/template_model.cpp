@@ -58,7 +58,7 @@ double gradient_noise(const Eigen::Matrix2d& blur_px2) {
   const int middle = 12 + static_cast<int>(std::ceil(3.0 * std::sqrt(blur_px2.trace())));
   FloatImage one(2 * middle + 1, 2 * middle + 1);
   one.row(middle)[middle] = 1.0f;
-  const FloatImage answer = SplineImage(blurred(one, blur_px2)).derivative(1, 0);
+  const FloatImage answer = SplineImage(blurred(one, blur_px2)).derivatives().x;
   double sum = 0.0;
   for (const float value : answer.values) sum += double{value} * value;
   return sum;
@@ -156,6 +156,18 @@ double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d
   return plain > 0.0 ? std::max(1.0, with / plain) : 1.0;
 }
 
+void set_tiles(TemplateModel& model) {
+  for (int k = 0; k < model.pixels; ++k) {
+    model.width = std::max(model.width, model.column[k] + 1);
+    model.height = std::max(model.height, model.row[k] + 1);
+  }
+  model.tile.resize(model.column.size());
+  for (int k = 0; k < model.pixels; ++k) {
+    const int down = model.row[k] * tiles_a_side / model.height;
+    model.tile[k] = static_cast<std::uint8_t>(down * tiles_a_side + model.column[k] * tiles_a_side / model.width);
+  }
+}
+
 }  // namespace
 
 TemplateSource completed(TemplateSource source) {
@@ -168,8 +180,9 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
                                   const Eigen::Matrix2d& frame_blur_px2) {
   const FloatImage smooth = blurred(source.pixels, blur_px2);
   const SplineImage spline(smooth);
-  FloatImage fx = spline.derivative(1, 0);
-  FloatImage fy = spline.derivative(0, 1);
+  SplineDerivatives derivatives = spline.derivatives();
+  FloatImage& fx = derivatives.x;
+  FloatImage& fy = derivatives.y;
   FloatImage clear, behind;
   if (source.backdrop) {
     clear = blurred(source.backdrop->clear, blur_px2);
@@ -178,10 +191,6 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     behind = blurred(source.behind, blur_px2);
     take_off_standing(behind, clear, fx, fy);
   }
-  const FloatImage fxx = spline.derivative(2, 0);
-  const FloatImage fxy = spline.derivative(1, 1);
-  const FloatImage fyy = spline.derivative(0, 2);
-
   const auto index = [&](int x, int y) {
     return static_cast<std::size_t>(y + source.margin_px) * smooth.width + x + source.margin_px;
   };
@@ -200,32 +209,33 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
   const double noise_energy = 2.0 * source.noise_levels * source.noise_levels * gradient_noise(blur_px2);
   const std::vector<int> chosen = choose_pixels(source, energy, noise_energy);
-  for (std::vector<int>* one : {&model.column, &model.row}) one->reserve(chosen.size());
+  model.pixels = static_cast<int>(chosen.size());
+  for (std::vector<int>* one : {&model.column, &model.row}) one->resize(chosen.size());
   for (std::vector<float>* one :
        {&model.x, &model.y, &model.value, &model.fx, &model.fy, &model.fxx, &model.fxy, &model.fyy}) {
-    one->reserve(chosen.size());
+    one->resize(chosen.size());
   }
-  for (const int at : chosen) {
-    const int x = at % source.region.width;
-    const int y = at / source.region.width;
+  for (int i = 0; i < model.pixels; ++i) {
+    const int x = chosen[i] % source.region.width;
+    const int y = chosen[i] / source.region.width;
     const std::size_t k = index(x, y);
-    model.column.push_back(x);
-    model.row.push_back(y);
-    model.x.push_back(static_cast<float>(x - source.point.x_px));
-    model.y.push_back(static_cast<float>(y - source.point.y_px));
-    model.value.push_back(smooth.values[k]);
-    model.fx.push_back(fx.values[k]);
-    model.fy.push_back(fy.values[k]);
-    model.fxx.push_back(fxx.values[k]);
-    model.fxy.push_back(fxy.values[k]);
-    model.fyy.push_back(fyy.values[k]);
+    model.column[i] = x;
+    model.row[i] = y;
+    model.x[i] = static_cast<float>(x - source.point.x_px);
+    model.y[i] = static_cast<float>(y - source.point.y_px);
+    model.value[i] = smooth.values[k];
+    model.fx[i] = fx.values[k];
+    model.fy[i] = fy.values[k];
+    model.fxx[i] = derivatives.xx.values[k];
+    model.fxy[i] = derivatives.xy.values[k];
+    model.fyy[i] = derivatives.yy.values[k];
     if (source.backdrop && clear.values[k] > least_clear) {
-      model.shown.push_back(static_cast<int>(model.fyy.size()) - 1);
+      model.shown.push_back(i);
       model.clear.push_back(clear.values[k]);
       model.behind.push_back(behind.values[k]);
     }
   }
-  model.pixels = static_cast<int>(model.column.size());
+  set_tiles(model);
   model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));
   model.frame_blur_px2 = frame_blur_px2;
   model.gradient_x = std::move(fx);

@@ -3,6 +3,7 @@
 // blurred template, as arrays. Coordinates are relative to the named point, whose displacement is asked.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,10 +12,14 @@
 
 namespace zerodrift::vision {
 
+inline constexpr int tiles_a_side = 8;
+
 struct TemplateModel {
   Region region;  // in the template's image
   int pixels = 0;
   std::vector<int> column, row;              // in the region
+  int width = 0, height = 0;                 // of what is used of the region, from its first pixel on
+  std::vector<std::uint8_t> tile;            // one of 8 x 8 of that
   std::vector<float> x, y;                   // px from the named point
   std::vector<float> value;                  // grey levels
   std::vector<float> fx, fy;                 // per px
