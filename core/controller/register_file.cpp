@@ -267,7 +267,7 @@ Result<RegisterMap> register_map_from_csv(std::string_view text, const std::stri
         const int expected = registers.at(array).at("address").get<int>() + so_far * words;
         if (entry.at("address") != expected) {
           return fail(ErrorCode::data_does_not_fit,
-                      {{"what", at_line + ", address of " + name},
+                      {{"what", fmt::format("{}, address of {}", at_line, name)},
                        {"found", std::to_string(entry.at("address").get<int>())},
                        {"expected", std::to_string(expected) + ", next to the one before"}});
         }

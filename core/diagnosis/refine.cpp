@@ -157,8 +157,8 @@ ModelPtr restarted(const Model& fit, const physics::RunFacts& facts) {
   starts.push_back(std::make_shared<Model>(fit.machine(), fit.shared_data()));
   take_candidates(*starts.back(), fit);
   in_parallel(starts.size(), [&](std::size_t i) { starts[i]->fit({7, 1.0, false}); });
-  const ModelPtr anew = *std::min_element(starts.begin(), starts.end(),
-                                          [](const auto& a, const auto& b) { return a->cost() < b->cost(); });
+  ModelPtr anew = *std::min_element(starts.begin(), starts.end(),
+                                    [](const auto& a, const auto& b) { return a->cost() < b->cost(); });
   if (std::abs(anew->cost() - fit.cost()) < same) return nullptr;
   anew->fit({15, 0.05, true});
   return anew;

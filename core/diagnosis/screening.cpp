@@ -300,8 +300,7 @@ std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate) {
 }
 
 std::shared_ptr<Model> reduced(const Model& model, std::size_t index) {
-  Machine machine = model.machine();
-  Machine reordered = machine;
+  Machine reordered = model.machine();
   reordered.effects.erase(reordered.effects.begin() + static_cast<std::ptrdiff_t>(index));
   auto result = std::make_shared<Model>(std::move(reordered), model.shared_data());
   for (std::size_t i = 0; i < result->unknowns(); ++i) {

@@ -294,7 +294,7 @@ class Selector {
   }
 
   ModelPtr in_the_deeper_valley(const ModelPtr& model) {
-    const ModelPtr other = other_valley(model);
+    ModelPtr other = other_valley(model);
     if (other == nullptr || total_gain(*other, *model) <= clearly_deeper) return model;
     m_moved = true;
     return other;

@@ -215,8 +215,9 @@ ZERODRIFT_WIDE void Tangent::observe(const Probe& probe, double* by) const {
     const Four* s = reinterpret_cast<const Four*>(m_s.data() + b * m_n * lanes);
     Four sum_a{}, sum_b{};
     for (const auto& [node, weight] : probe) {
-      sum_a += weight * s[2 * node];
-      sum_b += weight * s[2 * node + 1];
+      const Four* at = s + 2 * static_cast<std::ptrdiff_t>(node);
+      sum_a += weight * at[0];
+      sum_b += weight * at[1];
     }
     double sum[lanes];
     for (std::size_t c = 0; c < lanes / 2; ++c) {

@@ -1,5 +1,6 @@
 #include "core/vision/backdrop.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -208,13 +209,15 @@ struct Extrapolated {
 Extrapolated extrapolated(const FloatImage& still, const cv::Mat& inside) {
   const cv::Size size = inside.size();
   cv::Mat w(size, CV_32F), x(size, CV_32F), y(size, CV_32F), t(size, CV_32F);
+  const int middle_x = size.width / 2;
+  const int middle_y = size.height / 2;
   for (int row = 0; row < size.height; ++row) {
     for (int column = 0; column < size.width; ++column) {
       const float level = still.row(row)[column];
       const bool use = inside.at<float>(row, column) > static_cast<float>(solid_px) && is_known(level);
       w.at<float>(row, column) = use ? 1.0f : 0.0f;
-      x.at<float>(row, column) = static_cast<float>(column - size.width / 2) / static_cast<float>(plane_px);
-      y.at<float>(row, column) = static_cast<float>(row - size.height / 2) / static_cast<float>(plane_px);
+      x.at<float>(row, column) = static_cast<float>(column - middle_x) / static_cast<float>(plane_px);
+      y.at<float>(row, column) = static_cast<float>(row - middle_y) / static_cast<float>(plane_px);
       t.at<float>(row, column) = use ? level : 0.0f;
     }
   }

@@ -1,5 +1,6 @@
 #include "core/vision/backdrop_sheet.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

@@ -83,7 +83,7 @@ struct Camera::Work {
   std::string detail = "not opened yet";
   std::jthread thread;
 
-  void run(std::stop_token stop);
+  void run(const std::stop_token& stop);
   void read_all(cv::VideoCapture& capture, const std::stop_token& stop);
   void publish(GrayImage image);
   Result<std::shared_ptr<const CameraFrame>> state(Steady::time_point now) const;
@@ -95,7 +95,7 @@ struct Camera::Work {
   }
 };
 
-void Camera::Work::run(std::stop_token stop) {
+void Camera::Work::run(const std::stop_token& stop) {
   Milliseconds wait{200};
   while (!stop.stop_requested()) {
     bool worked = false;
@@ -191,7 +191,7 @@ Camera::Camera(std::string source, CameraOptions options) : m_work(std::make_sha
   quiet_libraries();
   m_work->source = std::move(source);
   m_work->options = options;
-  m_work->thread = std::jthread([work = m_work.get()](std::stop_token stop) { work->run(std::move(stop)); });
+  m_work->thread = std::jthread([work = m_work.get()](const std::stop_token& stop) { work->run(stop); });
 }
 
 Camera::~Camera() {
@@ -209,7 +209,7 @@ Result<std::shared_ptr<const CameraFrame>> Camera::newest() const {
 }
 
 Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milliseconds timeout,
-                                                               std::stop_token stop) const {
+                                                               const std::stop_token& stop) const {
   std::unique_lock lock(m_work->mutex);
   const Time deadline = Steady::now() + timeout;
   std::uint64_t first_after = 0;
@@ -256,7 +256,7 @@ std::uint64_t Camera::reconnections() const {
 }
 
 Result<GrayImage> mean_of_fresh_frames(const Camera& camera, Camera::Time after, int count, Milliseconds timeout,
-                                       std::stop_token stop) {
+                                       const std::stop_token& stop) {
   std::vector<int> sum;
   GrayImage out;
   for (int k = 0; k < count; ++k) {

@@ -46,7 +46,7 @@ class Camera {
   Result<std::shared_ptr<const CameraFrame>> newest() const;
   /// A frame taken after this moment: the first to arrive may have been on its way already and is passed over.
   Result<std::shared_ptr<const CameraFrame>> fresh_frame(Time after, std::chrono::milliseconds timeout,
-                                                         std::stop_token stop = {}) const;
+                                                         const std::stop_token& stop = {}) const;
   /// Frames a second over the last few seconds; 0 while nothing comes.
   double frames_per_s() const;
   std::uint64_t reconnections() const;
@@ -58,6 +58,6 @@ class Camera {
 
 /// The mean of `count` fresh frames, for the template: its noise enters every measurement.
 Result<GrayImage> mean_of_fresh_frames(const Camera& camera, Camera::Time after, int count,
-                                       std::chrono::milliseconds timeout, std::stop_token stop = {});
+                                       std::chrono::milliseconds timeout, const std::stop_token& stop = {});
 
 }  // namespace zerodrift::vision

@@ -79,7 +79,8 @@ Result<DecodedImage> to_gray(cv::Mat image, const std::string& name) {
   return DecodedImage{gray_from_mat(image), note};
 }
 
-Result<std::vector<std::uint8_t>> encode(const GrayImage& image, const char* extension, std::vector<int> parameters) {
+Result<std::vector<std::uint8_t>> encode(const GrayImage& image, const char* extension,
+                                         const std::vector<int>& parameters) {
   if (image.empty()) return fail(ErrorCode::internal, {{"detail", "an empty image was to be encoded"}});
   try {
     std::vector<std::uint8_t> bytes;

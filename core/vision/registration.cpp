@@ -218,7 +218,7 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
-  const Registration first = attempt(patches, start, with_residual_map);
+  Registration first = attempt(patches, start, with_residual_map);
   if (first.converged && first.residual < poor_residual) return first;
   // Under many chips the light, which is guessed first, may have been guessed from them: once more from that of the
   // template.

@@ -3,11 +3,12 @@
 // zero). Three quarters of a registration's time goes into them, so they are compiled for wide registers as well, and
 // the processor's own are chosen when the program starts. Plain arrays: Eigen's types differ between the two.
 
+#include <cstddef>
 #include <cstdint>
 
 namespace zerodrift::vision {
 
-inline constexpr int row_length = 16;
+inline constexpr std::ptrdiff_t row_length = 16;
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define ZERODRIFT_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))

@@ -109,13 +109,14 @@ ZERODRIFT_WIDE void sample_spline(const float* coefficients, int width, const fl
     const EightWeights& next = *reinterpret_cast<const EightWeights*>(table[whole + 1]);
     out = here + (step - static_cast<float>(whole)) * (next - here);
   };
+  const std::ptrdiff_t stride = width;
   for (int k = 0; k < count; ++k) {
     EightWeights wx, wy;
     weights(fractions_x[k], wx);
     weights(fractions_y[k], wy);
-    const float* first = coefficients + places[k] - 2 * width - 2;
+    const float* first = coefficients + places[k] - 2 * stride - 2;
     EightWeights sum = wy[0] * *reinterpret_cast<const EightSamples*>(first);
-    for (int row = 1; row < 6; ++row) sum += wy[row] * *reinterpret_cast<const EightSamples*>(first + row * width);
+    for (int row = 1; row < 6; ++row) sum += wy[row] * *reinterpret_cast<const EightSamples*>(first + row * stride);
     sum *= wx;
     values[k] = ((sum[0] + sum[4]) + (sum[1] + sum[5])) + (sum[2] + sum[3]);
   }
@@ -208,8 +209,8 @@ FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
   for (int y = 0; y < image.height; ++y) {
     float* to = out.row(y);
     for (int k = 0; k <= reach; ++k) {
-      const float* ahead = padded.ptr<float>(y + pad_y + k * line.y) + pad_x + k * line.x;
-      const float* behind = padded.ptr<float>(y + pad_y - k * line.y) + pad_x - k * line.x;
+      const float* ahead = padded.ptr<float>(y + pad_y + k * line.y) + (pad_x + k * line.x);
+      const float* behind = padded.ptr<float>(y + pad_y - k * line.y) + (pad_x - k * line.x);
       const float weight = k == 0 ? 0.5f * weights[0] : weights[k];
       for (int x = 0; x < image.width; ++x) to[x] += weight * (ahead[x] + behind[x]);
     }
