@@ -88,7 +88,8 @@ void Presenter::runStep(const QString& name, std::function<Result<commissioning:
                                       [this, done = std::move(done)](Result<commissioning::NewArtefact> made) {
                                         const Status kept = made ? m_bench.keep(*made) : Status(fail(made.error()));
                                         if (made && !kept) show(kept.error());
-                                        refresh();
+                                        // What is kept renews the open page by itself.
+                                        if (!kept || !m_page->isVisible()) refresh();
                                         if (done) done(kept.has_value());
                                       });
 }

@@ -27,6 +27,7 @@ bool TaskRunner::launch(const QString& name, std::function<std::any(const TaskCo
   if (m_running) return false;
   m_running = true;
   m_name = name;
+  setObjectName(name);  // for who watches which event took long
   Q_EMIT started(name);
   // Work on std::jthread, results through the event loop: the receiver is this object, so nothing arrives after its
   // end.

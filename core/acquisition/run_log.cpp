@@ -118,7 +118,7 @@ void RunLog::work(const std::stop_token& stop) {
 }
 
 /// With the lock held.
-void RunLog::finish(const Status& done, std::exception_ptr thrown) {
+void RunLog::finish(const Status& done, const std::exception_ptr& thrown) {
   if (thrown) m_thrown = thrown;
   if (!done && !m_failure) m_failing_since = WallClock::now();
   if (done) {

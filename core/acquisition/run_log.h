@@ -54,7 +54,7 @@ class RunLog {
 
   void work(const std::stop_token& stop);  // the sink's thread
   Status write(Batch& batch);
-  void finish(const Status& done, std::exception_ptr thrown);
+  void finish(const Status& done, const std::exception_ptr& thrown);
   std::int64_t ask();
   bool asked() const { return m_asked > m_answered; }
 

@@ -214,7 +214,7 @@ std::string number_text(double value) {
 }
 
 std::string cell_text(std::string_view entered) {
-  const std::string text = (is_formula(entered) ? "'" : "") + std::string(entered);
+  std::string text = (is_formula(entered) ? "'" : "") + std::string(entered);
   // Blanks at its ends belong to a quoted cell only.
   if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos && trimmed(text) == text) return text;
   std::string out = "\"";
