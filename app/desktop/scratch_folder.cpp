@@ -8,7 +8,8 @@
 namespace zerodrift::desktop {
 namespace {
 
-constexpr qint64 surely_old_s = qint64{24} * 3600;  // without a lock: of a version that had none, or of one just being made
+constexpr qint64 surely_old_s =
+    qint64{24} * 3600;  // without a lock: of a version that had none, or of one just being made
 
 QString lock_of(const QString& folder) {
   return folder + QStringLiteral("/owner.lock");
