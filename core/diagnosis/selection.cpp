@@ -320,7 +320,9 @@ class Selector {
     std::erase_if(screened, [](const Candidate& candidate) {
       return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault";
     });
-    std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, 4});
+    // Beside nothing else each family is asked: tiny effects, which are not worth naming, score before one that is.
+    const bool alone = m_result.best == m_result.base;
+    std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, alone ? 8u : 4u});
     in_parallel(doubtful.size(), [&](std::size_t i) { doubtful[i] = with_ordinary(doubtful[i]); });
     std::erase_if(doubtful, [&](const ModelPtr& fit) {
       return total_gain(*fit, best) < 0.0 || !worth_naming(*fit) || doubles_a_joint(*fit);
@@ -330,7 +332,8 @@ class Selector {
     const auto together = [&](const ModelPtr& fit) { return total_gain(*fit, best) + fit->elsewhere; };
     std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
     // What is not quite right about a strong effect's law shows in both.
-    const double least = std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
+    const double least = alone ? m_options.together_alone
+                               : std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
     if (together(doubtful.front()) <= least) return;
     m_result.levels.push_back(doubtful);
     m_result.best = doubtful.front();

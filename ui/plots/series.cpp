@@ -86,8 +86,8 @@ void Series::view(double from, double to, int columns, QVector<double>* times, Q
     }
     return;
   }
-  times->reserve(2 * columns);
-  values->reserve(2 * columns);
+  times->reserve(qsizetype{2} * columns);
+  values->reserve(qsizetype{2} * columns);
   for (int column = 0; column < columns; ++column) {
     const qsizetype a = first + count * column / columns;
     const qsizetype b = first + count * (column + 1) / columns;
