@@ -69,9 +69,9 @@ for entry in commands:
     if "/QtWidgets" in entry["command"]:
         entry["command"] += " -include QtWidgets"
 json.dump(commands, open(sys.argv[1], "w"))
-made = ("_pch.cpp", "mocs_compilation.cpp")
+left_out = ("_pch.cpp", "mocs_compilation.cpp", "/pdf_finish.cpp")
 for entry in commands:
-    if not entry["file"].endswith(made) and "/qrc_" not in entry["file"]:
+    if not entry["file"].endswith(left_out) and "/qrc_" not in entry["file"]:
         print(entry["file"])
 END
 }

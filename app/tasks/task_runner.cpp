@@ -34,7 +34,7 @@ bool TaskRunner::launch(const QString& name, std::function<std::any(const TaskCo
   m_thread = std::jthread([this, work = std::move(work), done = std::move(done)](std::stop_token stop) {
     auto last = steady_clock::now() - shortest_pause;
     TaskContext context;
-    context.stop = stop;
+    context.stop = std::move(stop);
     context.report = [this, last](const Progress& progress) mutable {
       if (steady_clock::now() - last < shortest_pause) return;
       last = steady_clock::now();
