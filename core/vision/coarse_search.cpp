@@ -21,6 +21,8 @@ constexpr double found_correlation = 0.85;  // beside such a place those far beh
 constexpr double far_behind = 0.3;
 constexpr int climb_steps = 5;  // of half pixels: a quarter pixel's peak is never further off
 
+constexpr double kept_contrast = 0.85;  // of the finer level's variance: the coarsest then shows the whole pattern
+
 constexpr double surroundings_px = 3.0;  // of each level of the pyramid
 constexpr double largest_relief = 25.0;  // grey levels
 
@@ -74,6 +76,12 @@ void prefer_near(cv::Mat& scores, cv::Point home, int level, cv::Point pad) {
       scores.at<float>(y, x) -= static_cast<float>(far_penalty * std::clamp((away - free_px) / free_px, 0.0, 1.0));
     }
   }
+}
+
+double variance_of(const GrayImage& image) {
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(mat_view(image), mean, deviation);
+  return deviation[0] * deviation[0];
 }
 
 // Local maxima of the correlation, best first.
@@ -178,6 +186,7 @@ CoarseSearch::CoarseSearch(const GrayImage& image, const Region& region) : m_reg
   while (levels <= deepest_level && (std::min(region.width, region.height) >> levels) >= smallest_template_px) ++levels;
   m_templates = pyramid(cut(image, region), levels);
   m_flat = flattened(m_templates);
+  m_fine_pattern = levels > 2 && variance_of(m_templates.back()) < kept_contrast * variance_of(m_templates[1]);
 }
 
 std::vector<Candidate> CoarseSearch::find(const GrayImage& frame, int count) const {
@@ -191,7 +200,7 @@ std::vector<Candidate> CoarseSearch::find(const GrayImage& frame, int count) con
   };
   if (sure()) return found;
   // The full resolution costs much and finds nothing that the half did not.
-  if (top > 1) add(find_from(frames, m_templates, 1, count));
+  if (m_fine_pattern) add(find_from(frames, m_templates, 1, count));
   if (sure()) return found;
   add(find_from(flattened(frames), m_flat, top, count));
   return found;

@@ -29,6 +29,7 @@ class CoarseSearch {
   Region m_region;
   std::vector<GrayImage> m_templates;  // level k is smaller by 2^k
   std::vector<GrayImage> m_flat;       // the same without smooth light
+  bool m_fine_pattern = false;         // of which the coarsest level has lost a part
 };
 
 }  // namespace zerodrift::vision

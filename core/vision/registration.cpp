@@ -18,11 +18,12 @@ constexpr double blur_limit_px2 = 0.25;  // a larger change of blur is put into 
 constexpr double largest_blur_px2 = 40.0;  // trace of the covariance
 constexpr double usual_edge_px2 = 0.8;     // variance of an edge in a picture in focus
 constexpr double largest_part = 0.45;
+constexpr double least_blur_px2 = 0.1;      // along one axis, left to the blur columns
 constexpr double round_blur_px2 = 0.3;      // nearer to round than this, the blur is made round, which is quicker
-constexpr double structure_limit = 2.4;     // tile means over their noise: above it a smooth field is solved as well
-constexpr double doubtful_structure = 1.7;  // from here on it is tried whether a field moves the result
-constexpr double glance_structure = 4.0;    // the same on a quarter of the pixels, when there is no doubt
-constexpr double glance_structure_expected = 2.0;
+constexpr double structure_limit = 1.55;    // tile means over their noise: above it a smooth field is solved as well
+constexpr double doubtful_structure = 1.1;  // from here on it is tried whether a field moves the result
+constexpr double glance_structure = 3.4;    // the same on a quarter of the pixels, when there is no doubt
+constexpr double glance_structure_expected = 1.7;
 constexpr double strong_blur_px2 = 1.0;
 constexpr double with_field_px2 = 1.0;  // beside a field the solve's own blur columns do for a smaller change
 constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nearly as well before it fits them better
@@ -74,6 +75,7 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   if (change(1) - change(0) < round_blur_px2) change.setConstant(change.mean());
   const Eigen::Matrix2d& axes = solved.eigenvectors();
   for (int k = 0; k < 2; ++k) {
+    if (std::abs(change(k)) < least_blur_px2) change(k) = 0.0;
     const Eigen::Matrix2d& there = change(k) > 0.0 ? setup.template_blur : setup.frame_blur;
     change(k) = whole_change(change(k), usual_edge_px2 + axes.col(k).dot(there * axes.col(k)));
   }
@@ -83,6 +85,10 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   if (std::max(next.template_blur.trace(), next.frame_blur.trace()) > largest_blur_px2) return false;
   setup = next;
   return true;
+}
+
+bool alike(const ImageSetup& a, const ImageSetup& b) {
+  return a.template_blur == b.template_blur && a.frame_blur == b.frame_blur;
 }
 
 // The source with what lies well within its outline left out; nothing where that would be lost too much, or
@@ -142,7 +148,9 @@ Registrar::Registrar(TemplateSource source)
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
   find_noise_growth(m_model);
   m_outline = outline_of(m_source, m_model);
-  if (m_outline) m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
+  if (!m_outline) return;
+  m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
+  find_noise_growth(*m_outline_model);
 }
 
 Region Registrar::patch_at(int dx_px, int dy_px) const {
@@ -199,9 +207,10 @@ void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
     if (now < as_good * best) return;  // what looked like a blur was none: a chip over the edges, for example
     best = std::max(best, now);
     setup = tried;
-    blurred_model = tried_model;
     solver.hand_over(start);
-    if (!match_blur(solver.extra_blur_px2(), tried)) {
+    const Eigen::Matrix2d extra_px2 = solver.extra_blur_px2();
+    if (tried_model) blurred_model = std::move(tried_model);
+    if (!match_blur(extra_px2, tried)) {
       // Glare has a halo, and a strong blur is never quite of the shape that the template is given.
       const double blur_px2 = (setup.template_blur + setup.frame_blur - 2.0 * m_model.blur_px2).trace();
       const bool expected = seen.saturated_share > glare_share || blur_px2 > strong_blur_px2;
@@ -230,7 +239,9 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
 }
 
 Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
-  ImageSetup setup{m_model.blur_px2, m_model.blur_px2, false};
+  const RegistrationStart first_start = start;
+  const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
+  ImageSetup setup = plain;
   std::optional<TemplateModel> blurred_model;
   match_blur_at_a_glance(patches, setup, blurred_model, start);
   Registration out;
@@ -238,18 +249,23 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   bool on_trial = false;
   const TemplateSource* source = &m_source;
   const auto remodel = [&] {
-    const bool plain =
-        source != &m_source && setup.template_blur == m_model.blur_px2 && setup.frame_blur == m_model.blur_px2;
-    blurred_model = plain ? *m_outline_model : make_template_model(*source, setup.template_blur, setup.frame_blur);
+    blurred_model.reset();
+    if (!alike(setup, plain)) blurred_model = make_template_model(*source, setup.template_blur, setup.frame_blur);
   };
   for (int round = 0; round < largest_rounds; ++round) {
-    const TemplateModel& model = blurred_model ? *blurred_model : m_model;
+    const TemplateModel& model = blurred_model ? *blurred_model : source == &m_source ? m_model : *m_outline_model;
     std::optional<SmoothField> field;
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
     RegistrationSolver solver(model, patches.with(setup), field ? &*field : nullptr, start);
     if (!solver.run()) {
       // A first attempt without the field may fail in a strong halo; one with it is the last.
-      if (setup.with_field) break;
+      if (setup.with_field && (out.converged || alike(setup, plain))) break;
+      // What looked like a strong blur may have been the halo.
+      if (setup.with_field) {
+        setup = plain;
+        start = first_start;
+        blurred_model.reset();
+      }
       setup.with_field = true;
       continue;
     }

@@ -30,7 +30,7 @@ struct Registration {
   double blur_px2 = 0.0;   // largest change of the blur's variance since the template, px^2
   LensTerm lens;           // prior and this frame together
   double residual = 0.0;   // robust scale of the weighted residual, in standard deviations of shot noise
-  double structure = 0.0;  // rms of the residual's means over tiles, in units of their noise: 1 to 1.6 is none
+  double structure = 0.0;  // rms of the residual's means over tiles, in units of their noise: 1 is none
   int iterations = 0;
   std::vector<float> residual_map;  // only if asked for: one a pixel of the region in units of the scale, NaN if unused
 };

@@ -166,7 +166,9 @@ double RegistrationSolver::tell_structure(int count, Registration& out) const {
     structure += error[tile] * error[tile] / (weight[tile] * variance);
     ++tiles_used;
   }
-  out.structure = tiles_used > 4 ? std::sqrt(structure / tiles_used) : 0.0;
+  // The blur's correlated noise alone gives a tile's mean so much; of a part of the pixels, less.
+  const double correlated = 1.0 + (m_model.noise_correlation - 1.0) * count / m_model.pixels;
+  out.structure = tiles_used > 4 ? std::sqrt(structure / tiles_used / correlated) : 0.0;
   return variance;
 }
 

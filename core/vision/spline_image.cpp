@@ -198,6 +198,10 @@ std::array<LatticeLine, 3> lattice_lines(const Eigen::Matrix2d& covariance) {
   return out;
 }
 
+ZERODRIFT_WIDE void add_both(const float* ahead, const float* behind, float weight, int count, float* __restrict to) {
+  for (int x = 0; x < count; ++x) to[x] += weight * (ahead[x] + behind[x]);
+}
+
 FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
   const std::vector<float> weights = gaussian_weights(line.variance);
   const int reach = static_cast<int>(weights.size()) - 1;
@@ -211,8 +215,7 @@ FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
     for (int k = 0; k <= reach; ++k) {
       const float* ahead = padded.ptr<float>(y + pad_y + k * line.y) + (pad_x + k * line.x);
       const float* behind = padded.ptr<float>(y + pad_y - k * line.y) + (pad_x - k * line.x);
-      const float weight = k == 0 ? 0.5f * weights[0] : weights[k];
-      for (int x = 0; x < image.width; ++x) to[x] += weight * (ahead[x] + behind[x]);
+      add_both(ahead, behind, k == 0 ? 0.5f * weights[0] : weights[k], image.width, to);
     }
   }
   return out;

@@ -50,7 +50,7 @@ constexpr double some_glare = 0.02;               // of the pixels
 constexpr double accepted_blur_px2 = 12.0;
 constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
 constexpr double least_seen = 0.70;
-constexpr double largest_structure = 8.0;  // of the residual's patches: frames that are measured well stay below 2.5
+constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
 Refusal judge(const Registration& r, double coarse_correlation) {
   if (!r.converged) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::too_different;
@@ -132,8 +132,7 @@ struct Target::Impl {
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
     const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
     if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
-    double best_merit = -1.0;
-    double best_correlation = 1.0;  // if no glance converges, the fine registration is tried nevertheless
+    double best_correlation = -1.0;
     double most_saturated = 0.0;
     const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
     std::vector<std::array<int, 2>> places;
@@ -144,22 +143,25 @@ struct Target::Impl {
     const std::vector<Registration> glances = fine.glances(frame, places);
     for (const Registration& seen : glances) {
       most_saturated = std::max(most_saturated, seen.saturated_share);
-      if (merit(seen) <= best_merit) continue;
-      best_merit = merit(seen);
-      best_correlation = seen.correlation;
+      if (seen.converged) best_correlation = std::max(best_correlation, seen.correlation);
     }
+    // If no glance converges, the fine registration is tried nevertheless.
+    if (best_correlation < 0.0) best_correlation = 1.0;
     // A glance does not know a halo from the target.
     if (best_correlation < least_glance_correlation && most_saturated < some_glare) return {};
     std::vector<std::size_t> order(glances.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return merit(glances[a]) > merit(glances[b]); });
+    // An even place leaves a small residual without being like the target.
+    const auto alike = [&](std::size_t k) { return glances[k].correlation >= least_glance_correlation; };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return alike(a) != alike(b) ? alike(a) : merit(glances[a]) > merit(glances[b]);
+    });
     std::vector<Candidate> out;
     for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), candidates_refined); ++k) {
       const Registration& seen = glances[order[k]];
       if (k > 0) {
         const Registration& first = glances[order[0]];
-        if (merit(seen) <= rival_merit * merit(first)) break;
+        if (alike(order[k]) != alike(order[0]) || merit(seen) <= rival_merit * merit(first)) break;
         // A rival that came to the same place would be the same once more.
         if ((seen.displacement_px - first.displacement_px).norm() < same_place_px) continue;
       }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/vision/row_sums.h"
+
 namespace zerodrift::vision {
 namespace {
 
@@ -115,6 +117,10 @@ double power_of(const Eigen::Matrix2d& blur_px2) {
   return power;
 }
 
+ZERODRIFT_WIDE void add_weighted(const float* from, float weight, int count, float* __restrict to) {
+  for (int x = 0; x < count; ++x) to[x] += weight * from[x];
+}
+
 // Row y of the image blurred by the weights along both axes; the border is repeated.
 std::vector<float> blurred_row(const FloatImage& image, int y, const std::vector<float>& weights) {
   const int reach = static_cast<int>(weights.size()) - 1;
@@ -123,14 +129,14 @@ std::vector<float> blurred_row(const FloatImage& image, int y, const std::vector
   for (int k = -reach; k <= reach; ++k) {
     const float* from = image.row(std::clamp(y + k, 0, image.height - 1));
     const float weight = weights[static_cast<std::size_t>(std::abs(k))];
-    for (int x = 0; x < width; ++x) down[x + reach] += weight * from[x];
+    add_weighted(from, weight, width, down.data() + reach);
   }
   std::fill_n(down.begin(), reach, down[reach]);
   std::fill_n(down.end() - reach, reach, down[reach + width - 1]);
   std::vector<float> out(static_cast<std::size_t>(width), 0.0f);
   for (int k = 0; k <= 2 * reach; ++k) {
     const float weight = weights[static_cast<std::size_t>(std::abs(k - reach))];
-    for (int x = 0; x < width; ++x) out[x] += weight * down[x + k];
+    add_weighted(down.data() + k, weight, width, out.data());
   }
   return out;
 }
