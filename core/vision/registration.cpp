@@ -193,18 +193,20 @@ std::vector<Registration> Registrar::glances(const GrayImage& frame,
 
 // Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only
 // then can the rest be solved well, and a smooth field must not take for itself what a blur does.
-void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
-                                       std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
+double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
+                                         std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
   ImageSetup tried = setup;
   std::optional<TemplateModel> tried_model;
   double best = 0.0;
+  double saturated_share = 0.0;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = tried_model ? *tried_model : m_model;
     RegistrationSolver solver(model, patches.with(tried), nullptr, start);
-    if (!solver.glance()) return;
+    if (!solver.glance()) break;
     const Registration seen = solver.fit(model.pixels / 4);
     const double now = fit_of(seen);
-    if (now < as_good * best) return;  // what looked like a blur was none: a chip over the edges, for example
+    saturated_share = seen.saturated_share;
+    if (now < as_good * best) break;  // what looked like a blur was none: a chip over the edges, for example
     best = std::max(best, now);
     setup = tried;
     solver.hand_over(start);
@@ -215,10 +217,11 @@ void Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
       const double blur_px2 = (setup.template_blur + setup.frame_blur - 2.0 * m_model.blur_px2).trace();
       const bool expected = seen.saturated_share > glare_share || blur_px2 > strong_blur_px2;
       setup.with_field = seen.structure > (expected ? glance_structure_expected : glance_structure);
-      return;
+      break;
     }
     tried_model = make_template_model(m_source, tried.template_blur, tried.frame_blur);
   }
+  return saturated_share;
 }
 
 Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
@@ -243,7 +246,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
   ImageSetup setup = plain;
   std::optional<TemplateModel> blurred_model;
-  match_blur_at_a_glance(patches, setup, blurred_model, start);
+  const bool glare = match_blur_at_a_glance(patches, setup, blurred_model, start) > glare_share;
   Registration out;
   bool field_helped = false;
   bool on_trial = false;
@@ -259,7 +262,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     RegistrationSolver solver(model, patches.with(setup), field ? &*field : nullptr, start);
     if (!solver.run()) {
       // A first attempt without the field may fail in a strong halo; one with it is the last.
-      if (setup.with_field && (out.converged || alike(setup, plain))) break;
+      if (setup.with_field && (!glare || out.converged || alike(setup, plain))) break;
       // What looked like a strong blur may have been the halo.
       if (setup.with_field) {
         setup = plain;

@@ -66,8 +66,9 @@ class Registrar {
  private:
   Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
   Region patch_at(int dx_px, int dy_px) const;
-  void match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup, std::optional<TemplateModel>& blurred_model,
-                              RegistrationStart& start) const;
+  /// The share of saturated pixels; 0 if the first glance found nothing.
+  double match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup, std::optional<TemplateModel>& blurred_model,
+                                RegistrationStart& start) const;
 
   TemplateSource m_source;
   TemplateModel m_model;  // with the smallest blur

@@ -75,6 +75,10 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   return Refusal::none;
 }
 
+bool like_the_target(const Registration& glance) {
+  return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
+}
+
 // Better of two registrations: more of the target explained, and to a smaller residual; a bad fit has no outliers
 // because its scale is large. Below the floor the residual of a glance tells how far it has settled, not how well it
 // fits: a pattern that repeats fits one period further as sharply, but not with all of its pixels.
@@ -132,7 +136,6 @@ struct Target::Impl {
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
     const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
     if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
-    double best_correlation = -1.0;
     double most_saturated = 0.0;
     const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
     std::vector<std::array<int, 2>> places;
@@ -143,16 +146,15 @@ struct Target::Impl {
     const std::vector<Registration> glances = fine.glances(frame, places);
     for (const Registration& seen : glances) {
       most_saturated = std::max(most_saturated, seen.saturated_share);
-      if (seen.converged) best_correlation = std::max(best_correlation, seen.correlation);
     }
-    // If no glance converges, the fine registration is tried nevertheless.
-    if (best_correlation < 0.0) best_correlation = 1.0;
-    // A glance does not know a halo from the target.
-    if (best_correlation < least_glance_correlation && most_saturated < some_glare) return {};
+    const auto settled = [](const Registration& seen) { return seen.converged; };
+    // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
+    const bool told = std::any_of(glances.begin(), glances.end(), settled) && most_saturated < some_glare;
+    if (told && std::none_of(glances.begin(), glances.end(), like_the_target)) return {};
     std::vector<std::size_t> order(glances.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     // An even place leaves a small residual without being like the target.
-    const auto alike = [&](std::size_t k) { return glances[k].correlation >= least_glance_correlation; };
+    const auto alike = [&](std::size_t k) { return like_the_target(glances[k]); };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return alike(a) != alike(b) ? alike(a) : merit(glances[a]) > merit(glances[b]);
     });
