@@ -212,6 +212,11 @@ double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setu
     solver.hand_over(start);
     const Eigen::Matrix2d extra_px2 = solver.extra_blur_px2();
     if (tried_model) blurred_model = std::move(tried_model);
+    if (round == 0 && seen.saturated_share > glare_share && seen.residual > poor_residual) {
+      // So much is left under a glaring spot's halo that a blur cannot be told from it: the field comes first.
+      setup.with_field = true;
+      break;
+    }
     if (!match_blur(extra_px2, tried)) {
       // Glare has a halo, and a strong blur is never quite of the shape that the template is given.
       const double blur_px2 = (setup.template_blur + setup.frame_blur - 2.0 * m_model.blur_px2).trace();
