@@ -159,6 +159,35 @@ double Diagnoser::leftover(const physics::Prediction& prediction) const {
   return largest;
 }
 
+void Diagnoser::tell_tried() {
+  struct Tried {
+    std::string form;
+    std::string id;
+    double size = 0.0;
+  };
+  const Model& best = *m_selection.best;
+  std::vector<Tried> list;
+  for (const std::size_t index : m_selection.effects()) {
+    const physics::EffectSpec& spec = best.machine().effects[index];
+    Tried tried{spec.id, spec.id};
+    for (const auto& [key, word] : spec.words) tried.form += fmt::format(" {}={}", key, word);
+    for (std::size_t i = best.unknowns(); i-- > 0;) {
+      const physics::Parameter& unknown = best.unknown(i);
+      if (unknown.effect != static_cast<int>(index)) continue;
+      if (unknown.amplitude) tried.size = best.value(i);
+      const double off = std::abs(best.z()[static_cast<Eigen::Index>(i)]);
+      if (unknown.per_recording) m_out.unusual_start = std::max(m_out.unusual_start, off);
+    }
+    list.push_back(std::move(tried));
+  }
+  std::sort(list.begin(), list.end(), [](const Tried& a, const Tried& b) { return a.form < b.form; });
+  for (Tried& tried : list) {
+    m_out.tried.push_back(std::move(tried.id));
+    m_out.forms.push_back(std::move(tried.form));
+    m_out.sizes.push_back(tried.size);
+  }
+}
+
 void Diagnoser::decide() {
   const physics::Prediction of_base = m_selection.base->prediction();
   const physics::Prediction of_best = m_selection.best->prediction();
@@ -172,10 +201,7 @@ void Diagnoser::decide() {
   }
   m_out.excess_before = before.largest;
   m_out.excess_after = after.largest;
-  for (const std::size_t index : m_selection.effects()) {
-    m_out.tried.push_back(m_selection.best->machine().effects[index].id);
-  }
-  std::sort(m_out.tried.begin(), m_out.tried.end());
+  tell_tried();
   const bool found = !m_selection.effects().empty();
   if (!found) {
     m_out.verdict = after.largest > 2.3 ? Verdict::unexplained : Verdict::consistent;
@@ -197,6 +223,17 @@ void Diagnoser::decide() {
   m_out.refined = refined_machine(*m_used);
 }
 
+/// The others know the place too, each with offsets and a start of its own. What is fitted stays the first's alone.
+void Diagnoser::place_from_others(FoundEffect& found, std::size_t index) {
+  if (m_limits.others.empty() || happened_once(*m_selection.best)) return;
+  if (m_of_all == nullptr) m_of_all = seen_by_all(*m_selection.best, m_limits.others);
+  if (m_of_all == nullptr) return;
+  std::map<std::string, double> sigma;
+  const physics::EffectSpec spec = fitted_effect(*m_of_all, index, &sigma);
+  found.position_mm = found.parameters["position_mm"] = spec.numbers.at("position_mm");
+  found.position_sigma_mm = found.sigma["position_mm"] = sigma["position_mm"];
+}
+
 void Diagnoser::effects() {
   if (m_out.verdict == Verdict::unexplained && m_used == m_selection.base) return;
   const Model& best = *m_selection.best;
@@ -211,6 +248,7 @@ void Diagnoser::effects() {
     if (spec.numbers.count("position_mm") != 0) {
       found.position_mm = spec.numbers.at("position_mm");
       found.position_sigma_mm = found.sigma["position_mm"];
+      place_from_others(found, index);
     }
     found.bounds_reached = best.bounds_reached();
     const auto without = reduced(best, index);

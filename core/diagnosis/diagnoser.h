@@ -25,7 +25,9 @@ class Diagnoser {
   Status select();
   Status choose_drift();
   double leftover(const physics::Prediction& prediction) const;
+  void tell_tried();
   void decide();
+  void place_from_others(FoundEffect& found, std::size_t index);
   void effects();
   double confidence_of(const FoundEffect& found) const;
   void rivals();
@@ -61,6 +63,7 @@ class Diagnoser {
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;
+  std::shared_ptr<Model> m_of_all;  // the best with what every recording has shown of the machine; null: not asked
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;
   std::vector<std::shared_ptr<Model>> m_rivals;

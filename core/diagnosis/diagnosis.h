@@ -105,6 +105,9 @@ struct Diagnosis {
   Mismatch mismatch;
   std::vector<FoundEffect> effects;
   std::vector<std::string> tried;  // ids of the best explanation, sorted; also where it was not good enough
+  std::vector<std::string> forms;  // of the same, in the same order: id and words (law, bearing, channel ...)
+  std::vector<double> sizes;       // of the same: first amplitude, in its own unit
+  double unusual_start = 0.0;      // the largest start that one of them needs, over how far it usually is off
   bool refuted = false;            // unexplained because it makes a held-out recording worse
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;
@@ -128,7 +131,8 @@ struct DiagnoseOptions {
 /// The first recording is fitted; the others are held out. Where what was fitted misses one of them by far, that one is
 /// fitted instead if the first then bears it out (contradiction.h; note "fitted_instead:NAME"). Where the fitted one
 /// leaves an effect in doubt or can hardly tell two apart, the others decide with it (elsewhere.h; note
-/// "decided_with_others:ID"); what is fitted is fitted to the first alone. Note "heat_falls_with_speed:CHANNEL": no law
+/// "decided_with_others:ID"); what is fitted is fitted to the first alone, but a place is told with what all recordings
+/// show of it where all fit (the refined description keeps the first's). Note "heat_falls_with_speed:CHANNEL": no law
 /// has such heat, and nothing is named there.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});

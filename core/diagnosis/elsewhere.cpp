@@ -8,15 +8,17 @@
 namespace zerodrift::diagnosis {
 namespace {
 
+constexpr double fits = 2.3;  // excess, as of a description that nothing is missing in
+
 struct Elsewhere {
   double evidence = 0.0;
   double left = 0.0;  // what is slow where it fits worst
+  ModelPtr last;      // in the last of them, with what all before have shown
 };
 
 Elsewhere elsewhere(const Model& fit, const OtherRecordings& others) {
   Elsewhere sum;
   const Model* known = &fit;
-  ModelPtr last;
   for (const auto& usual : others) {
     Model there(fit.machine(), usual);
     there.learn_from(*known);
@@ -29,8 +31,8 @@ Elsewhere elsewhere(const Model& fit, const OtherRecordings& others) {
     own->fit({12, 0.05, true});
     sum.evidence += own->log_evidence_total();
     sum.left = std::max(sum.left, excess_of(*own).largest);
-    last = std::move(own);
-    known = last.get();
+    sum.last = std::move(own);
+    known = sum.last.get();
   }
   return sum;
 }
@@ -54,7 +56,6 @@ bool worth_naming(const Model& model) {
 }
 
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others) {
-  constexpr double fits = 2.3;  // excess, as of a description that nothing is missing in
   if (models.empty()) return;
   const double reference = elsewhere(without, others).evidence;
   std::vector<double> left(models.size());
@@ -72,6 +73,12 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
     }
   }
   models.resize(kept);
+}
+
+ModelPtr seen_by_all(const Model& fit, const OtherRecordings& others) {
+  if (others.empty()) return nullptr;
+  const Elsewhere there = elsewhere(fit, others);
+  return there.left <= fits ? there.last : nullptr;
 }
 
 double evidence_of(const Model& model) {

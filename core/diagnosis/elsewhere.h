@@ -20,5 +20,8 @@ bool worth_naming(const Model& model);
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others);
 /// Of the fitted recording, and of the others where they were asked.
 double evidence_of(const Model& model);
+/// The model in the last of the others, with what the fitted one and all others have shown of the machine; none where
+/// it does not fit one of them.
+ModelPtr seen_by_all(const Model& fit, const OtherRecordings& others);
 
 }  // namespace zerodrift::diagnosis

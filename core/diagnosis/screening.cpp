@@ -34,9 +34,14 @@ std::vector<double> jumps(const recording::Channel& channel, const std::vector<d
   std::vector<std::pair<double, double>> list;
   const double noise = physics::noise_width(channel.values, 0.05);
   constexpr std::size_t at_the_ends = 5;  // samples: a step there is no more than a disturbed start or end
+  const auto& v = channel.values;
+  const auto slope = [&](std::size_t from, std::size_t to) { return (v[to] - v[from]) / (time_s[to] - time_s[from]); };
+  const auto middle = [](double a, double b) { return 0.5 * (a + b); };
   for (std::size_t k = at_the_ends; k + at_the_ends < time_s.size(); ++k) {
-    const auto& v = channel.values;
-    const double jump = std::abs(0.5 * (v[k] + v[k + 1]) - 0.5 * (v[k - 1] + v[k - 2]));
+    // Beside what the slope before and after lets expect: a spindle that warms up grows by micrometres a minute.
+    const double apart_s = middle(time_s[k], time_s[k + 1]) - middle(time_s[k - 1], time_s[k - 2]);
+    const double grown = apart_s * middle(slope(k - 4, k - 1), slope(k, k + 3));
+    const double jump = std::abs(middle(v[k], v[k + 1]) - middle(v[k - 1], v[k - 2]) - grown);
     if (std::isfinite(jump) && jump > 4.0 * noise) list.emplace_back(jump, time_s[k]);
   }
   std::sort(list.rbegin(), list.rend());

@@ -316,11 +316,14 @@ class Selector {
     const Model& best = *m_result.best;
     if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return;
     std::vector<Candidate> screened = screen(best, m_facts);
-    // What a room sensor does wrong is its own in each recording.
+    // What a room sensor does wrong is its own in each recording. Tiny effects, which are not worth naming, often score
+    // before one that is.
     std::erase_if(screened, [](const Candidate& candidate) {
-      return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault";
+      constexpr double tiny = 0.1;  // half of what is worth naming: a score's step is rough
+      const auto small = [](double step) { return std::abs(step) < tiny; };
+      return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault" ||
+             std::all_of(candidate.step.begin(), candidate.step.end(), small);
     });
-    // Beside nothing else each family is asked: tiny effects, which are not worth naming, score before one that is.
     const bool alone = m_result.best == m_result.base;
     std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, alone ? 8u : 4u});
     in_parallel(doubtful.size(), [&](std::size_t i) { doubtful[i] = with_ordinary(doubtful[i]); });
@@ -417,11 +420,31 @@ class Selector {
     std::sort(leading.begin(), leading.end(), by_total);
     const Excess before = excess_of(*m_result.best);
     for (const auto& fit : leading) {
+      if (doubles_a_joint(*fit)) {
+        if (const ModelPtr single = one_of_its_joints(*fit)) {
+          m_result.best = single;
+          return;
+        }
+      }
       if (accepted(*fit, before)) {
         m_result.best = in_the_deeper_valley(fit);
         return;
       }
     }
+  }
+
+  /// Where a second joint beside the first is liked, the one joint may stand where the second was put: with that alone,
+  /// where it is better than what there is, else none.
+  ModelPtr one_of_its_joints(const Model& doubled) const {
+    ModelPtr best;
+    for (std::size_t i = m_result.described; i < doubled.machine().effects.size(); ++i) {
+      if (doubled.machine().effects[i].id != "contact_resistance") continue;
+      ModelPtr single = reduced(doubled, i);
+      single->fit({15, 0.05, true});
+      single = with_ordinary(single);
+      if (best == nullptr || by_total(single, best)) best = single;
+    }
+    return best != nullptr && total_gain(*best, *m_result.best) > clearly_deeper ? best : nullptr;
   }
 
   /// What an effect more has to gain where the others leave nothing slow.

@@ -93,6 +93,8 @@ void NetworkBuilder::add_components() {
 }
 
 void NetworkBuilder::add_initial_state() {
+  // From end to end, after a rest: steel evens out over half a metre within half an hour.
+  constexpr double even_K = 0.05;
   const auto warm = warm_start_profiles(m_machine, m_inputs);
   for (const auto& at : m_network.places) {
     double accuracy_C = 0.0;
@@ -114,6 +116,7 @@ void NetworkBuilder::add_initial_state() {
     if (at.cell_m == 0.0) continue;
     Parameter tilt = level;
     tilt.key = "initial_tilt_K";
+    tilt.sigma = std::clamp(uneven_start_K(m_machine, at.component, m_inputs), even_K, level.sigma);
     InitialPart slope{add_parameter(tilt), {}};
     for (int i = 0; i < at.count; ++i) slope.nodes.emplace_back(at.first + i, (i + 0.5) / at.count - 0.5);
     for (int i = 0; i < at.count && at.inner >= 0; ++i)

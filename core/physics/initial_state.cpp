@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/physics/builder.h"
+#include "core/physics/inputs.h"
 
 namespace zerodrift::physics {
 
@@ -81,6 +82,22 @@ bool starts_warm(const Machine& machine, const recording::Recording& inputs) {
   if (others_C.empty()) return false;
   const double rest_C = *std::max_element(others_C.begin(), others_C.end());
   return std::count_if(parts_C.begin(), parts_C.end(), [&](double value) { return value > rest_C + least_K; }) >= 2;
+}
+
+double uneven_start_K(const Machine& machine, const std::string& component, const recording::Recording& inputs) {
+  constexpr double widths = 4.0;  // between the largest and the smallest of some values that are noise alone
+  double low_C = 1e300;
+  double high_C = -1e300;
+  double alike_K = 0.0;
+  for (const auto& sensor : machine.sensors) {
+    const double value_C = sensor.component == component ? first_value(inputs, sensor.channel) : std::nan("");
+    if (!std::isfinite(value_C)) continue;
+    low_C = std::min(low_C, value_C);
+    high_C = std::max(high_C, value_C);
+    const double noise_K = noise_width(inputs.find(sensor.channel)->values, 0.01);
+    alike_K = std::max(alike_K, 2.0 * sensor.accuracy_C + widths * noise_K);
+  }
+  return std::max(0.0, high_C - low_C - alike_K);
 }
 
 double profile_at(const Profile& profile, double position_mm) {

@@ -20,6 +20,9 @@ double first_value(const recording::Recording& recording, const std::string& cha
 std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const recording::Recording& inputs);
 /// A rod is clearly not uniform, or parts that something else heats are warm already.
 bool starts_warm(const Machine& machine, const recording::Recording& inputs);
+/// How far apart the first samples of a component's sensors are, in K, beyond what offsets and noise account for; 0
+/// where nothing speaks against a uniform start.
+double uneven_start_K(const Machine& machine, const std::string& component, const recording::Recording& inputs);
 /// Linear between the points, held beyond them.
 double profile_at(const Profile& profile, double position_mm);
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/diagnosis/locate.h"
+#include "core/diagnosis/screening.h"
 #include "core/physics/simulate.h"
 #include "tests/proof/case_generator.h"
 
@@ -19,6 +21,23 @@ Diagnosis diagnosed(const proof::Case& one, const TaskContext& context = {}) {
 }
 
 }  // namespace
+
+/// A spindle that warms up grows as much in a minute as a bracket slips; a kink where the speed changes is no slip.
+TEST(Diagnosis, ASlipIsSeenWhileTheSpindleGrows) {
+  const proof::Case one = proof::make_case(5, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  recording::Recording run = one.recordings[0];
+  auto& growth_um = run.find("dZ_um")->values;
+  constexpr std::size_t kink = 150;
+  constexpr std::size_t slip = 250;
+  for (std::size_t k = 0; k < growth_um.size(); ++k) {
+    const double noise_um = 0.1 * std::sin(12.9898 * static_cast<double>(k * k));
+    growth_um[k] = (k < kink ? 2.5 : 0.5) * (static_cast<double>(k) - kink) + (k < slip ? 0.0 : 2.0) + noise_um;
+  }
+  const auto times_s = facts_of(*machine, run).jump_times_s["dZ_um"];
+  ASSERT_FALSE(times_s.empty());
+  EXPECT_EQ(times_s.front(), run.time_s[slip]);
+}
 
 TEST(Diagnosis, NamesAHiddenEffectAndFitsTheSecondRun) {
   const proof::Case one = proof::make_case(11, "contact_resistance");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/physics/builder.h"
+#include "core/physics/initial_state.h"
 #include "core/physics/prediction.h"
 #include "core/physics/simulate.h"
 #include "tests/physics/machines.h"
@@ -94,6 +95,29 @@ Prediction nominal(const nlohmann::json& document) {
 }
 
 }  // namespace
+
+/// The start of a rod is even unless its first samples differ by more than offsets and noise.
+TEST(InitialState, OffsetsAndNoiseMakeNoUnevenStart) {
+  const Machine machine = test::spindle();
+  recording::Recording run = test::stepped_run();
+  const auto tilt_width_K = [&] {
+    const Network network = build_network(machine, run);
+    for (const Parameter& parameter : network.parameters) {
+      if (parameter.key == "initial_tilt_K") return parameter.sigma;
+    }
+    return 0.0;
+  };
+  for (const auto& sensor : machine.sensors) {
+    if (sensor.component == "spindle") {
+      run.ensure(sensor.channel).values.assign(run.rows(), 20.0 + 4e-4 * sensor.position_mm);
+    }
+  }
+  EXPECT_EQ(uneven_start_K(machine, "spindle", run), 0.0);
+  EXPECT_DOUBLE_EQ(tilt_width_K(), 0.05);
+  for (double& value_C : run.find("T1_C")->values) value_C -= 0.5;
+  EXPECT_NEAR(uneven_start_K(machine, "spindle", run), 0.648 - 0.24, 0.001);
+  EXPECT_DOUBLE_EQ(tilt_width_K(), 0.15);
+}
 
 TEST(Simulator, ConservesHeat) {
   expect_conservation(coupled_json());

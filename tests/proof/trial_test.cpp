@@ -111,6 +111,32 @@ TEST(ConcealedCase, WhatOneRecordingCannotNameTheOtherMay) {
   fs::remove_all(folder);
 }
 
+/// A run at one speed fits any law of a source and hides what friction does; two runs that say the same are not refuted
+/// by what neither knows of its start.
+TEST(ConcealedCase, TheOtherRecordingTellsTheLawThePartnerAndThatItIsTheSame) {
+  constexpr std::uint64_t seed = 1970875633;
+  for (const int index : {18, 247, 267}) {
+    const ConcealedCase one = draw_case(seed, index);
+    const fs::path folder = fs::path(testing::TempDir()) / ("zd_twice_" + std::to_string(::getpid()));
+    ASSERT_TRUE(write_case_files(one, folder));
+    const auto answer = diagnose_files(folder, {"recording.csv", "second.csv"}, "answer.json", {});
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->at("verdict"), "missing_effect") << one.name;
+    std::vector<std::string> named;
+    for (const auto& effect : answer->at("effects")) {
+      const bool always = effect.at("parameters").value("law", "") == "constant";
+      named.push_back(always ? "standing_heat" : effect.at("id").get<std::string>());
+      if (always) EXPECT_NEAR(effect.at("position_mm").get<double>(), *one.truth.effects[0].position_mm, 12.0);
+    }
+    std::vector<std::string> hidden;
+    for (const auto& effect : one.truth.effects) hidden.push_back(effect.id);
+    std::sort(named.begin(), named.end());
+    std::sort(hidden.begin(), hidden.end());
+    EXPECT_EQ(named, hidden) << one.name;
+    fs::remove_all(folder);
+  }
+}
+
 /// Radiation at ordinary rises is a larger film to one recording; two days tell.
 TEST(ConcealedCase, WhatOneRecordingLeavesInDoubtTwoMayShow) {
   const ConcealedCase one = draw_case(5550123, 102, "radiation", false);
