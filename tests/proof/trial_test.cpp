@@ -126,7 +126,8 @@ TEST(ConcealedCase, TheOtherRecordingTellsTheLawThePartnerAndThatItIsTheSame) {
     for (const auto& effect : answer->at("effects")) {
       const bool always = effect.at("parameters").value("law", "") == "constant";
       named.push_back(always ? "standing_heat" : effect.at("id").get<std::string>());
-      if (always) EXPECT_NEAR(effect.at("position_mm").get<double>(), *one.truth.effects[0].position_mm, 12.0);
+      if (!always) continue;
+      EXPECT_NEAR(effect.at("position_mm").get<double>(), *one.truth.effects[0].position_mm, 12.0);
     }
     std::vector<std::string> hidden;
     for (const auto& effect : one.truth.effects) hidden.push_back(effect.id);
