@@ -31,8 +31,8 @@ class Presenter : public QObject {
   virtual QString standing() const { return {}; }
   /// Takes back the last choice on this page (Ctrl+Z).
   virtual void undo() {}
-  /// What the tour does on this page: starts the step and calls `done` when it has ended. The default calls it at once.
-  virtual void tour(std::function<void(bool good)> done) { std::move(done)(true); }
+  /// What the tour does on this page: starts the step and calls `done` when it has ended.
+  virtual void tour(std::function<void(bool good)> done) = 0;
   /// Into the banner; asked again when the language changes.
   void tell(std::function<ui::Problem()> problem);
 

@@ -215,10 +215,10 @@ void FitPage::renderMethods() {
   m_methodCard->setSubtitle(tr("on unseen stretches, mean of the axes"));
   m_methods->setColumns(
       {{tr("Method"), 0, false, {}},
-       {tr("rms"), 66, true, tr("Root mean square of what is left")},
-       {tr("Peak"), 66, true, {}},
-       {tr("Band"), 52, true, tr("Share of the measurements inside the stated band")},
-       {tr("Runs on"), 92, false,
+       {tr("rms"), 62, true, tr("Root mean square of what is left")},
+       {tr("Peak"), 62, true, {}},
+       {tr("Band"), 44, true, tr("Share of the measurements inside the stated band")},
+       {tr("Runs on"), 80, false,
         tr("Controller: it can compute the model itself. Host: this computer must stay connected.")}});
   QVector<QVector<DataCell>> rows;
   int chosen = -1;

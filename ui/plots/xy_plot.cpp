@@ -1,6 +1,7 @@
 #include "ui/plots/xy_plot.h"
 
 #include <cmath>
+#include <limits>
 
 #include "ui/plots/custom_plot.h"
 #include "ui/widgets/number_text.h"
@@ -232,30 +233,48 @@ void XyPlot::styleLabels() {
 }
 
 void XyPlot::placeLabels() {
-  // Right of the point, else left, below, above: the first place that covers no earlier label.
+  // Right of the point, else left, below, above: the first place inside the axes that covers no point and no earlier
+  // label; where none is free, the one that covers least.
   static constexpr int sides[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const QFontMetrics metrics(uiFont(11));
+  const QRectF axes = plot()->axisRect()->rect();
+  const auto pixel = [&](const Part& part, qsizetype i) {
+    return QPointF(xAxis()->coordToPixel(part.x[i]), yAxis()->coordToPixel(part.y[i]));
+  };
+  const auto area = [](const QRectF& box) { return box.isValid() ? box.width() * box.height() : 0.0; };
   QVector<QRectF> taken;
+  for (const Part* part : std::as_const(m_parts)) {
+    if (!part->visible) continue;
+    for (int i = 0; i < part->labels.size(); ++i) {
+      QRectF dot(0.0, 0.0, part->style.pointSize, part->style.pointSize);
+      dot.moveCenter(pixel(*part, i));
+      taken.append(dot);
+    }
+  }
   for (const Part* part : std::as_const(m_parts)) {
     if (!part->visible) continue;
     const double gap = part->style.pointSize / 2.0 + 4.0;
     for (int i = 0; i < part->labels.size(); ++i) {
-      const QPointF at(xAxis()->coordToPixel(part->x[i]), yAxis()->coordToPixel(part->y[i]));
+      const QPointF at = pixel(*part, i);
       const QSizeF size(metrics.horizontalAdvance(part->labels[i]->text()), metrics.height() - 4);
       int chosen = 0;
-      QRectF box;
-      for (int k = 0; k < 4; ++k) {
-        box = QRectF(QPointF(), size);
+      QRectF best;
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < 4 && least > 0.0; ++k) {
+        QRectF box(QPointF(), size);
         box.moveCenter(at +
                        QPointF(sides[k][0] * (gap + size.width() / 2.0), sides[k][1] * (gap + size.height() / 2.0)));
+        double covered = area(box) - area(box.intersected(axes));
+        for (const QRectF& other : taken) covered += area(box.intersected(other));
+        if (covered >= least) continue;
+        least = covered;
         chosen = k;
-        if (std::none_of(taken.begin(), taken.end(), [&](const QRectF& other) { return other.intersects(box); })) break;
-        chosen = 0;
+        best = box;
       }
       static const Qt::Alignment anchors[4] = {Qt::AlignLeft | Qt::AlignVCenter, Qt::AlignRight | Qt::AlignVCenter,
                                                Qt::AlignTop | Qt::AlignHCenter, Qt::AlignBottom | Qt::AlignHCenter};
       part->labels[i]->setPositionAlignment(anchors[chosen]);
-      taken.append(box);
+      taken.append(best);
     }
   }
 }

@@ -69,7 +69,8 @@ void SignCheck::paintAxis(QPainter& painter, const SignCheckAxis& axis, const QR
   painter.setPen(c.text);
   painter.drawText(
       text, Qt::AlignVCenter,
-      QStringLiteral("%1 → %2 ± %3 µm").arg(um(axis.commanded_um), um(axis.seen_um), fixedText(axis.sigma_um, 1)));
+      QStringLiteral("%1 → %2 ± %3 µm")
+          .arg(um(axis.commanded_um), um(axis.seen_um), fixedText(axis.sigma_um, axis.sigma_um < 0.1 ? 2 : 1)));
 }
 
 void SignCheck::paintEvent(QPaintEvent*) {

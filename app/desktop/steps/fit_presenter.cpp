@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/analysis/figures.h"
 #include "core/analysis/predict.h"
@@ -47,6 +48,16 @@ ui::FitSeries series_of(const recording::Recording& run, const recording::Record
   return series;
 }
 
+/// Share of the errors left out that were inside the band, of the worst axis; not a number where no band is stated.
+double coverage_percent(const analysis::Model& model) {
+  double coverage = 1.0;
+  for (const auto& error : model.errors) {
+    if (error.band.guaranteed_coverage <= 0.0) return std::numeric_limits<double>::quiet_NaN();
+    coverage = std::min(coverage, error.band.measured_coverage);
+  }
+  return 100.0 * coverage;
+}
+
 /// Every method that was tried on the same run and sensors: choosing one takes none of the others away. The figures are
 /// those of its latest trial; `proposed` becomes what the fit takes when nobody asks for a method.
 QVector<ui::MethodRow> methods_of(Workbench& bench, const commissioning::Artefact& latest, QString& proposed) {
@@ -65,12 +76,16 @@ QVector<ui::MethodRow> methods_of(Workbench& bench, const commissioning::Artefac
       row.unseen_um = candidate.held_out_rms_um;
       row.peak_um = candidate.held_out_peak_um;
       row.onController = candidate.runs_on_controller;
-      if (candidate.chosen) row.why = bench.inWords(model->reason);
+      if (candidate.chosen) {
+        row.why = bench.inWords(model->reason);
+        row.coverage_percent = coverage_percent(*model);
+      }
       const auto same = std::find_if(rows.begin(), rows.end(), [&](const ui::MethodRow& r) { return r.id == row.id; });
       if (same == rows.end()) {
         rows.append(row);
       } else {
         if (row.why.isEmpty()) row.why = same->why;
+        if (std::isnan(row.coverage_percent)) row.coverage_percent = same->coverage_percent;
         *same = row;
       }
     }
@@ -175,26 +190,20 @@ void FitPresenter::fill(ui::FitState& state) {
   double peak = 0.0;
   double rms = 0.0;
   double band = 0.0;
-  double coverage = 1.0;
-  bool stated = true;
-  double range = 0.0;
   for (const auto& error : model->errors) {
     peak = std::max(peak, error.held_out.peak_um);
     rms = std::max(rms, error.held_out.rms_um);
     band = std::max(band, error.band.half_width_um);
-    coverage = std::min(coverage, error.band.measured_coverage);
-    stated = stated && error.band.guaranteed_coverage > 0.0;
   }
-  range = model->quality.error_range_um;
+  const double range = model->quality.error_range_um;
   state.attainablePeak_um = peak;
   state.attainableLimit_um = report::limits::attainable_peak_um;
   state.removedTarget_percent = report::limits::removed_percent;
   state.coverageTarget_percent = report::limits::coverage_percent;
   state.attainableRms_um = rms;
-  if (stated) {  // one cycle: nothing was left out that is like another speed
-    state.attainable90_um = band;
-    state.coverage_percent = 100.0 * coverage;
-  }
+  state.coverage_percent = coverage_percent(*model);
+  // One cycle: nothing was left out that is like another speed.
+  if (!std::isnan(state.coverage_percent)) state.attainable90_um = band;
   if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
   for (const auto& sensor : model->sensors) state.sensors << bench().channelInWords(sensor);
   if (model->recordings.size() > 1) state.updatedBy = QString::fromStdString(model->recordings.back());
