@@ -119,7 +119,7 @@ constexpr std::array<const char*, 291> models = {{
     QT_TRANSLATE_NOOP("core", "while the coolant runs"),
     QT_TRANSLATE_NOOP("core", "while the machine cuts"),
     QT_TRANSLATE_NOOP("core", "as the room changes"),
-    QT_TRANSLATE_NOOP("core", "at no regular time"),
+    QT_TRANSLATE_NOOP("core", "at irregular times"),
     QT_TRANSLATE_NOOP("core", "a movement of %1 %2"),
     QT_TRANSLATE_NOOP("core", "about %1 %2 for %3; check units, geometry and powers"),
     QT_TRANSLATE_NOOP("core", "%1; corrected by the run %2"),

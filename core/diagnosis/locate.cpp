@@ -218,7 +218,7 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
   for (const double w : scan.watts) spread += (w - mean) * (w - mean);
   spread = std::sqrt(spread / static_cast<double>(scan.watts.size()));
   if (spread < 0.35 * std::abs(mean)) return "all the time";
-  std::string best = "at no regular time";
+  std::string best = "at irregular times";
   constexpr double least = 0.55;
   double largest = least;
   for (const auto& driver : drivers) {

@@ -2566,8 +2566,8 @@
         <translation>随室温变化</translation>
     </message>
     <message>
-        <source>at no regular time</source>
-        <translation>无固定时段</translation>
+        <source>at irregular times</source>
+        <translation>在不规则的时段</translation>
     </message>
     <message>
         <source>a movement of %1 %2</source>

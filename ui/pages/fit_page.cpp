@@ -217,7 +217,7 @@ void FitPage::renderMethods() {
       {{tr("Method"), 0, false, {}},
        {tr("rms"), 62, true, tr("Root mean square of what is left")},
        {tr("Peak"), 62, true, {}},
-       {tr("Band"), 44, true, tr("Share of the measurements inside the stated band")},
+       {tr("Band"), 52, true, tr("Share of the measurements inside the stated band")},
        {tr("Runs on"), 80, false,
         tr("Controller: it can compute the model itself. Host: this computer must stay connected.")}});
   QVector<QVector<DataCell>> rows;

@@ -200,7 +200,10 @@ void XyPlot::fit() {
   };
   widen(&xLow, &xHigh, m_equal ? 0.08 : 0.03);
   widen(&yLow, &yHigh, 0.08);
-  if (labelled) xHigh += 0.12 * (xHigh - xLow);
+  if (labelled) {
+    xLow -= 0.05 * (xHigh - xLow);
+    xHigh += 0.12 * (xHigh - xLow);
+  }
   if (hasSpanLabels()) yHigh += 20.0 * (yHigh - yLow) / std::max(60, height() - 60);
   xAxis()->setRange(m_fixedX ? m_xLow : xLow, m_fixedX ? m_xHigh : xHigh);
   yAxis()->setRange(m_fixedY ? m_yLow : yLow, m_fixedY ? m_yHigh : yHigh);

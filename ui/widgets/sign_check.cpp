@@ -10,7 +10,7 @@ namespace {
 
 constexpr double row_height = 28.0;
 constexpr double name_width = 18.0;
-constexpr double text_width = 158.0;
+constexpr double text_width = 174.0;
 
 void arrow(QPainter& painter, double from, double to, double y, const QColor& color, double width) {
   painter.setPen(QPen(color, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));

@@ -107,7 +107,7 @@ std::vector<TextEntry> texts_of_physics() {
       {"while the machine cuts", "切削期间"},
       {"as the room changes", "随室温变化"},
       {"all the time", "始终"},
-      {"at no regular time", "无规律"},
+      {"at irregular times", "无规律"},
       {"two thirds of full speed, 40 % of the time without coolant, 35 % with it, then stop and record the cooling",
        "以全速的三分之二运行，40 % 的时间不开冷却液，35 % 的时间开冷却液，然后停机并记录冷却过程"},
       {"full speed without coolant for half of the time, then stop and record the cooling",
