@@ -1,5 +1,6 @@
 #include "ui/pages/upload_page.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ui/plots/xy_plot.h"
@@ -226,7 +227,13 @@ void UploadPage::renderAxis() {
   if (index < 0 || index >= m_state.axes.size()) return m_terms->setRows({});
   const AxisTable& axis = m_state.axes[index];
   const Colors& c = colors();
-  m_legend->setItems({{tr("old"), c.muted, true}, {tr("new"), c.accent}, {tr("change"), axisColor(0)}});
+  // Without a table before, the change is the new table itself: one curve then, not two that hide each other.
+  const bool replaces = std::any_of(axis.before_um.begin(), axis.before_um.end(), [](double um) { return um != 0.0; });
+  if (replaces) {
+    m_legend->setItems({{tr("old"), c.muted, true}, {tr("new"), c.accent}, {tr("change"), axisColor(0)}});
+  } else {
+    m_legend->setItems({{tr("new"), c.accent}});
+  }
   m_curves->setTimeAxis(axis.overTime);
   m_curves->setAxisLabels(axis.abscissa, {});
   PartStyle style;
@@ -234,7 +241,12 @@ void UploadPage::renderAxis() {
   style.tag = tr("Old");
   style.color = c.muted;
   style.dashed = true;
-  m_curves->setPart("1old", axis.x, axis.before_um, style);
+  if (replaces) {
+    m_curves->setPart("1old", axis.x, axis.before_um, style);
+  } else {
+    m_curves->removePart("1old");
+    m_curves->removePart("3change");
+  }
   style.tag = tr("New");
   style.color = c.accent;
   style.dashed = false;
@@ -249,7 +261,7 @@ void UploadPage::renderAxis() {
   style.tag = tr("Change");
   style.color = axisColor(0);
   style.width = 1.2;
-  m_curves->setPart("3change", axis.x, change, style);
+  if (replaces) m_curves->setPart("3change", axis.x, change, style);
   // Limits far outside the curves would press them flat: they are drawn when they are near.
   QVector<Limit> limits;
   if (largest > 0.4 * axis.limit_um) {
