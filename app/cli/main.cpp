@@ -16,6 +16,7 @@
 
 #include "app/cli/command.h"
 #include "app/text/error_text.h"
+#include "core/base/json.h"
 #include "core/base/resources.h"
 
 namespace {
@@ -65,8 +66,7 @@ int run_command(zerodrift::cli::Cli& cli) {
   if (terminal) std::fprintf(stderr, "\r%70s\r", "");
   if (!output) return print_error(output.error());
   for (const auto& warning : output->warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  const std::string text =
-      cli.json_output ? output->json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) : output->text;
+  const std::string text = cli.json_output ? zerodrift::json_text(output->json, 2) : output->text;
   if (!text.empty()) std::printf("%s\n", text.c_str());
   return 0;
 }

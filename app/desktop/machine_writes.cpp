@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/json.h"
 #include "core/controller/table_words.h"
 #include "core/flow/steps/audited.h"
 #include "core/flow/steps/inputs.h"
@@ -65,7 +66,7 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   table.version = target.table.version;  // which one was brought back
   table.valid = valid_range_of(job, target.table.words.value_or(std::vector<std::uint16_t>{}));
   entry.old_value = fmt::format("version {}, {} registers", target.active.sequence, target.active.words.size());
-  entry.new_value = compensation::to_json(table).dump();
+  entry.new_value = json_text(compensation::to_json(table));
   controller::UploadOptions options;
   options.observer = observer;
   UploadRecord record;

@@ -67,7 +67,7 @@ Result<NewArtefact> judged(const commissioning::Job& job, const Judgements& judg
   body["rejected"] = judgements.rejected;
   NewArtefact made;
   made.kind = artefact->kind;
-  made.body = body.dump();
+  made.body = json_text(body);
   for (const auto& input : artefact->inputs) made.inputs.push_back(input.id);
   for (const auto& name : artefact->blob_names) {
     ZD_TRY(auto bytes, job.blob(artefact->id, name));

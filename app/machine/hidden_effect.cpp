@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/base/hash.h"
+#include "core/base/json.h"
 #include "core/base/noise.h"
 
 namespace zerodrift::machine {
@@ -150,7 +151,7 @@ Commitment seal(std::string answer) {
 }
 
 Commitment commit_to(const HiddenEffects& hidden) {
-  return seal(to_json(hidden).dump());
+  return seal(json_text(to_json(hidden)));
 }
 
 }  // namespace zerodrift::machine

@@ -144,7 +144,7 @@ void close_seal(ConcealedCase& one) {
                                  {"channel", effect.channel},
                                  {"law", effect.law}});
   }
-  one.seal = machine::seal(answer.dump());
+  one.seal = machine::seal(json_text(answer));
 }
 
 /// The parameters with which an effect was hidden.

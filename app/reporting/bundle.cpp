@@ -86,7 +86,7 @@ class Zip {
 };
 
 std::string pretty(const json& value) {
-  return without_secrets(value.dump(2, ' ', false, json::error_handler_t::replace)) + "\n";
+  return without_secrets(json_text(value, 2)) + "\n";
 }
 
 /// The latest results as files that other tools read.

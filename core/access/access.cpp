@@ -151,7 +151,7 @@ Status Access::write() const {
   const auto mode = fs::exists(before) ? before.permissions() : fs::perms::owner_read | fs::perms::owner_write;
   nlohmann::json document = {{"format", format_name}, {"idle_lock_s", m_idle_lock_s}};
   if (m_pin) document["pin"] = to_json(*m_pin);
-  ZD_CHECK(write_file(m_file, document.dump(2) + "\n"));
+  ZD_CHECK(write_file(m_file, json_text(document, 2) + "\n"));
   fs::permissions(m_file, mode, error);
   if (error) return fail(ErrorCode::file_not_writable, {{"file", m_file.string()}, {"detail", error.message()}});
   return {};

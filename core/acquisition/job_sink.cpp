@@ -19,7 +19,7 @@ std::string details_of(const RunStart& start) {
   json details = {
       {"plan", to_json(start.plan)}, {"machine_serial", start.machine_serial}, {"origin_s", start.origin_s}};
   if (start.zero_um) details["zero_um"] = *start.zero_um;
-  return details.dump();
+  return json_text(details);
 }
 
 Result<RunStart> start_of(const SeriesInfo& series) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json.h"
+
 namespace zerodrift::acquisition {
 namespace {
 
@@ -97,7 +99,7 @@ Status Run::obey_controls() {
     m_paused_s += time_now_s() - *m_paused_since_s;
     m_paused_since_s.reset();
     m_trend.conditions_changed(time_now_s());  // it has cooled meanwhile
-    event("resume", "", nlohmann::json{{"paused_s", m_paused_s}}.dump());
+    event("resume", "", json_text(nlohmann::json{{"paused_s", m_paused_s}}));
   }
   return {};
 }
@@ -160,7 +162,7 @@ Status Run::keep(const MachineSample& sample, const ErrorSample* error, bool exp
   if (m_link_was_lost) {
     ++m_summary.gaps;
     m_happened.add("gap", {});
-    event("gap", "link", nlohmann::json{{"from_s", m_last_row_s}, {"to_s", time_s}}.dump());
+    event("gap", "link", json_text(nlohmann::json{{"from_s", m_last_row_s}, {"to_s", time_s}}));
   }
   if (m_last_row_s >= 0.0 && periods > 0 && (m_link_was_lost || !expected_late)) m_summary.lost_samples += periods;
   m_link_was_lost = false;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/run.h"
+#include "core/base/json.h"
 
 namespace zerodrift::acquisition {
 namespace {
@@ -33,7 +34,7 @@ bool is_link_failure(const Error& error) {
 
 std::string details_of(const Error& error) {
   const nlohmann::json details = {{"code", name_of(error.code)}, {"context", error.context}};
-  return details.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(details);
 }
 
 Status Run::wait_for_link(const Error& error, double& waited_s, int attempt) {
@@ -112,7 +113,7 @@ void Run::note_sleep(double time_s, double host_s) {
   if (time_s - m_time_s - host_s < std::max(asleep_s, asleep_wall_s * m_options.time_factor)) return;
   ++m_summary.gaps;
   m_commanded_step.reset();  // a controller whose host is silent may have stopped by itself
-  event("gap", "asleep", nlohmann::json{{"from_s", m_time_s}, {"to_s", time_s}}.dump());
+  event("gap", "asleep", json_text(nlohmann::json{{"from_s", m_time_s}, {"to_s", time_s}}));
 }
 
 // The machine was switched off and on: its clock began again, and while it was off the plan stood still.
@@ -121,7 +122,7 @@ void Run::clock_restarted(double machine_time_s, double gap_s) {
   m_paused_s += gap_s;
   m_commanded_step.reset();
   const nlohmann::json details = {{"origin_s", m_start.origin_s}, {"gap_s", gap_s}, {"paused_s", m_paused_s}};
-  event("clock", "restarted", details.dump());
+  event("clock", "restarted", json_text(details));
 }
 
 }  // namespace zerodrift::acquisition

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/run.h"
+#include "core/base/json.h"
 
 namespace zerodrift::acquisition {
 namespace {
@@ -80,10 +81,10 @@ Status Run::rejoin(const InterruptedRun& interrupted, const MachineSample& now) 
   m_read_at = m_clock.steady();
   if (interrupted.paused_since_s) {
     m_paused_s += std::max(0.0, m_time_s - *interrupted.paused_since_s);
-    event("resume", "", nlohmann::json{{"paused_s", m_paused_s}}.dump());
+    event("resume", "", json_text(nlohmann::json{{"paused_s", m_paused_s}}));
   }
   ++m_summary.gaps;
-  event("gap", "interrupted", nlohmann::json{{"from_s", last_s}, {"to_s", m_time_s}}.dump());
+  event("gap", "interrupted", json_text(nlohmann::json{{"from_s", last_s}, {"to_s", m_time_s}}));
   return {};
 }
 

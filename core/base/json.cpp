@@ -13,7 +13,7 @@ using nlohmann::json;
 namespace {
 
 std::string shown(const json& value) {
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string text = json_text(value);
   if (text.size() <= 60) return text;
   text.resize(57);
   return text + "...";
@@ -52,6 +52,10 @@ std::int64_t line_too_deep(std::string_view text) {
 }
 
 }  // namespace
+
+std::string json_text(const json& value, int indent) {
+  return value.dump(indent, ' ', false, json::error_handler_t::replace);
+}
 
 JsonObject::JsonObject(const json& value, std::string file, std::string path)
     : m_value(&value), m_file(std::move(file)), m_path(std::move(path)) {
@@ -259,7 +263,7 @@ Result<json> read_json_file(const std::filesystem::path& path) {
 }
 
 Status write_json_file(const std::filesystem::path& path, const json& value) {
-  return write_file(path, value.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+  return write_file(path, json_text(value, 2) + "\n");
 }
 
 Status read_object(const json& document, const std::string& file, std::vector<std::string>* warnings,

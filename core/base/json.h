@@ -40,6 +40,10 @@ inline constexpr NumberRange any_number{-1e300, 1e300, false, "a number"};
 inline constexpr NumberRange positive{0.0, 1e300, true, "a number above 0"};
 inline constexpr NumberRange not_negative{0.0, 1e300, false, "a number of 0 or more"};
 
+/// The document as text, indented by so many spaces (-1: in one line). Names and notes of files from elsewhere may hold
+/// bytes that are no UTF-8; each becomes U+FFFD, where the library's own dump() would throw. The only way out.
+std::string json_text(const nlohmann::json& value, int indent = -1);
+
 class JsonObject {
  public:
   JsonObject(const nlohmann::json& value, std::string file, std::string path);

@@ -34,7 +34,7 @@ Result<std::vector<InputRef>> inputs_of(Database& database, ArtefactId id) {
 }  // namespace
 
 std::string text_of_keys(const std::vector<std::string>& keys) {
-  return json(keys).dump(-1, ' ', false, json::error_handler_t::replace);
+  return json_text(json(keys));
 }
 
 std::vector<std::string> keys_from(const std::string& text) {
@@ -55,7 +55,7 @@ std::string content_hash_of(std::string_view kind, std::string_view body, const 
     json document = json::parse(body, nullptr, false);
     if (document.is_object()) {
       for (const std::string& key : observed) document.erase(key);
-      counted = document.dump(-1, ' ', false, json::error_handler_t::replace);
+      counted = json_text(document);
     }
   }
   std::string text = fmt::format("{}:{}\n{}:{}\n", kind.size(), kind, counted.size(), counted);
@@ -65,11 +65,7 @@ std::string content_hash_of(std::string_view kind, std::string_view body, const 
 
 NewArtefact NewArtefact::of(std::string kind, const json& body, std::vector<ArtefactId> inputs,
                             std::vector<Blob> blobs) {
-  return {std::move(kind),
-          body.dump(-1, ' ', false, json::error_handler_t::replace),
-          std::move(inputs),
-          std::move(blobs),
-          {}};
+  return {std::move(kind), json_text(body), std::move(inputs), std::move(blobs), {}};
 }
 
 Result<json> Artefact::document() const {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.h"
+#include "core/base/json.h"
 #include "core/base/redact.h"
 #include "core/commissioning/job_store.h"
 #include "core/commissioning/series_codec.h"
@@ -28,7 +29,7 @@ AuditEntry entry_in(const Statement& row) {
 std::string chained_hash(const AuditEntry& entry, const std::string& previous) {
   const json fields = {previous,     entry.id,      entry.utc,       entry.engineer,  entry.machine,
                        entry.action, entry.subject, entry.old_value, entry.new_value, entry.result};
-  return sha256_hex(fields.dump(-1, ' ', false, json::error_handler_t::replace));
+  return sha256_hex(json_text(fields));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.h"
+#include "core/base/json.h"
 #include "core/commissioning/job_store.h"
 #include "core/commissioning/series_codec.h"
 #include "core/recording/recording.h"
@@ -75,7 +76,7 @@ Result<SeriesId> Job::start_series(const std::string& name, const std::vector<st
          database.prepare("INSERT INTO series (name, channels, details, state, made_by, engineer, started_utc, "
                           "last_utc, content_hash) VALUES (?, ?, ?, 'open', ?, ?, ?, ?, '')"));
   const std::string utc = now_text();
-  add.bind(1, name).bind(2, json(channels).dump()).bind(3, details).bind(4, program_name()).bind(5, engineer);
+  add.bind(1, name).bind(2, json_text(json(channels))).bind(3, details).bind(4, program_name()).bind(5, engineer);
   ZD_CHECK(add.bind(6, utc).bind(7, utc).run());
   const SeriesId id = database.last_row_id();
   SeriesTail tail;
@@ -195,7 +196,7 @@ Status Job::finish_series(SeriesId series, SeriesState state) {
   ZD_TRY(SeriesTail * tail, m_store->tail_of(series));
   ZD_CHECK(m_store->write_tail(series, *tail, true));
   ZD_TRY(const SeriesInfo info, m_store->read_series_info(series));
-  std::string text = json(info.channels).dump() + "\n" + info.details + "\n";
+  std::string text = json_text(json(info.channels)) + "\n" + info.details + "\n";
   ZD_TRY(Statement chunks, database.prepare("SELECT data FROM chunk WHERE series = ? ORDER BY first_row"));
   chunks.bind(1, series);
   for (;;) {

@@ -137,12 +137,12 @@ Table read_body(JsonObject& o) {
 }  // namespace
 
 std::string crc32_text(const Table& table) {
-  return fmt::format("{:08x}", crc32_of(without_crc(table).dump()));
+  return fmt::format("{:08x}", crc32_of(json_text(without_crc(table))));
 }
 
 json to_json(const Table& table) {
   json document = without_crc(table);
-  document["crc32"] = fmt::format("{:08x}", crc32_of(document.dump()));
+  document["crc32"] = fmt::format("{:08x}", crc32_of(json_text(document)));
   return document;
 }
 

@@ -113,7 +113,7 @@ Status check_head(const json& head, const std::string& file) {
 
 /// One line, whatever bytes a name may have.
 std::string one_line(const json& value) {
-  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+  return json_text(value);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json.h"
 #include "core/diagnosis/explain.h"
 
 namespace zerodrift::diagnosis {
@@ -265,7 +266,7 @@ SuggestedExperiment suggest_experiment(const Model& best, const std::vector<cons
       told = worth;
       suggestion.distance = contest.least;
       suggestion.id = run.id;
-      suggestion.plan_json = plan_of(run, minutes, best.network().full_speed_rpm).dump();
+      suggestion.plan_json = json_text(plan_of(run, minutes, best.network().full_speed_rpm));
       suggestion.text = explain_experiment(questioned(*contest.first), questioned(*contest.second), run.text, minutes);
     }
     if (suggestion.distance > decisive) break;

@@ -328,7 +328,7 @@ Machine read_root(JsonObject& root) {
 Result<Machine> machine_from_json(const json& document, const std::string& file, std::vector<std::string>* warnings) {
   ZD_TRY(Machine machine, from_json<Machine>(document, file, warnings, read_root));
   machine.file = file;
-  machine.document = document.dump(-1, ' ', false, json::error_handler_t::replace);
+  machine.document = json_text(document);
   return machine;
 }
 

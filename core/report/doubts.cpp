@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/json.h"
 #include "core/report/limits.h"
 
 namespace zerodrift::report {
@@ -54,7 +55,7 @@ class Doubts {
 
   void problems(const json& body) {
     for (const auto& problem : body.value("problems", json::array())) {
-      const std::string text = problem.is_string() ? problem.get<std::string>() : problem.dump();
+      const std::string text = problem.is_string() ? problem.get<std::string>() : json_text(problem);
       m_all.push_back({Verdict::doubtful, m_source.in_words(text), m_source.trace(m_kind, "problems")});
     }
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json.h"
+
 namespace zerodrift::report {
 
 using nlohmann::json;
@@ -98,7 +100,7 @@ std::string origin_in_words(const json& origin) {
                        text("engineer").empty() ? ", nobody named" : ", ", text("engineer"), text("content_hash"));
   }
   if (origin.contains("stored")) {
-    const std::string stored = origin.at("stored").dump();
+    const std::string stored = json_text(origin.at("stored"));
     constexpr std::size_t most = 400;
     out += fmt::format("\n{}: {}", text("pointer"), stored.size() > most ? stored.substr(0, most) + " ..." : stored);
   } else if (!text("detail").empty()) {
@@ -107,7 +109,7 @@ std::string origin_in_words(const json& origin) {
   for (const auto& row : origin.at("rows")) {
     out += fmt::format("\nseries {}, row {}, {:.3f} s: {} = {}", row.at("series").get<long long>(),
                        row.at("row").get<long long>(), row.at("time_s").get<double>(),
-                       row.at("channel").get<std::string>(), row.at("value").dump());
+                       row.at("channel").get<std::string>(), json_text(row.at("value")));
   }
   for (const auto& input : origin.value("inputs", json::array())) {
     out += fmt::format("\nmade from {} #{} ({})", input.at("kind").get<std::string>(), input.at("id").get<long long>(),

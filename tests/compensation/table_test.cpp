@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/json.h"
 #include "core/compensation/interlock.h"
 #include "core/compensation/sign.h"
 
@@ -84,6 +85,17 @@ TEST(Table, JsonRoundTripAndCheckSum) {
   edited["axes"]["Z"]["temperature"]["offset_um"] = 2.0;
   ASSERT_TRUE(table_from_json(edited, "t.json", &warnings));
   EXPECT_EQ(warnings.size(), 1U);
+}
+
+// Names in files for controllers may hold any bytes; found by fuzzing.
+TEST(Table, BytesThatAreNoTextBecomeTextInJson) {
+  Table table = sample();
+  table.machine = "Mill \xff\xfe";
+  std::vector<std::string> warnings;
+  const auto back = table_from_json(nlohmann::json::parse(json_text(to_json(table))), "t.json", &warnings);
+  ASSERT_TRUE(back) << describe(back.error());
+  EXPECT_TRUE(warnings.empty());  // the check sum is the written text's
+  EXPECT_EQ(back->machine, "Mill \xef\xbf\xbd\xef\xbf\xbd");
 }
 
 TEST(Table, ReadsTheContractsExample) {

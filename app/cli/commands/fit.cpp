@@ -72,7 +72,7 @@ Result<std::vector<recording::Recording>> simulated(const Options& options,
                 {{"what", "--machine"}, {"found", "--method " + options.method}, {"expected", "--method physics"}});
   }
   ZD_TRY(const physics::Machine description, physics::read_machine(options.machine, &warnings));
-  machine = physics::to_json(description).dump();
+  machine = json_text(physics::to_json(description));
   std::vector<recording::Recording> out;
   for (const auto& recording : analysis::join_continuing(recordings)) {
     ZD_TRY(recording::Recording more, physics::with_simulation(description, recording, context));

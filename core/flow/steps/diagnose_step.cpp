@@ -73,7 +73,7 @@ Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContex
     if (diagnosed.error().code == ErrorCode::cancelled) return fail(diagnosed.error());
     // The comparison stands on its own; that nothing could be searched is said with it.
     body["problems"] = {"What the simulation lacks was not searched: " + describe(diagnosed.error())};
-    made.body = body.dump();
+    made.body = json_text(body);
     return made;
   }
   const Diagnosis& found = *diagnosed;
@@ -84,7 +84,7 @@ Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContex
   body["refined_machine"] = physics::to_json(found.refined);
   body["adopted"] = json::array();
   body["rejected"] = json::array();
-  made.body = body.dump();
+  made.body = json_text(body);
   made.blobs.push_back({"refined.csv", refined_csv(found)});
   return made;
 }

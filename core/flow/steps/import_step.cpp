@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/plan.h"
+#include "core/base/json.h"
 #include "core/flow/steps/inputs.h"
 
 namespace zerodrift::flow {
@@ -71,7 +72,7 @@ Result<commissioning::SeriesId> keep(commissioning::Job& job, const Recording& r
   std::vector<std::string> channels;
   for (const auto& channel : run.channels) channels.push_back(channel.name);
   const json details = {{"plan", acquisition::to_json(plan)}, {"machine_serial", 0}, {"origin_s", 0.0}};
-  ZD_TRY(const auto series, job.start_series("warm-up", channels, details.dump()));
+  ZD_TRY(const auto series, job.start_series("warm-up", channels, json_text(details)));
   std::vector<double> row(channels.size());
   for (std::size_t i = 0; i < run.rows(); ++i) {
     for (std::size_t c = 0; c < channels.size(); ++c) row[c] = run.channels[c].values[i];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
@@ -210,7 +211,7 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   entry.subject = "compensation table";
   entry.old_value =
       fmt::format("version {}, {} registers", preview.record.old_sequence, preview.record.old_words.size());
-  entry.new_value = compensation::to_json(preview.table).dump();
+  entry.new_value = json_text(compensation::to_json(preview.table));
   context.progress(0.4, "uploading");
   ZD_CHECK(audited(job, entry, [&]() -> Status {
     record = controller::push_table(*devices.machine, preview.table, origin, upload_options, context);
