@@ -1,6 +1,8 @@
 #include "app/cli/command.h"
 
 #include <charconv>
+#include <filesystem>
+#include <set>
 
 namespace zerodrift::cli {
 namespace {
@@ -19,12 +21,35 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
+/// A file that is read is not written over: a recording would be gone for good. A model may be updated in place.
+void refuse_writing_over(const CLI::App& command) {
+  const auto writes = [](const CLI::Option& option) {
+    static const std::set<std::string> names = {"--out", "--refined", "--statistics", "--report", "--log"};
+    return names.contains(option.get_name());
+  };
+  for (const CLI::Option* written : command.get_options([&](const CLI::Option* o) { return writes(*o); })) {
+    for (const std::string& path : written->results()) {
+      for (const CLI::Option* read : command.get_options()) {
+        if (writes(*read) || read->get_name() == "--update") continue;
+        for (const std::string& other : read->results()) {
+          std::error_code unknown;
+          if (std::filesystem::equivalent(path, other, unknown) && !std::filesystem::is_directory(path, unknown)) {
+            throw CLI::ValidationError(written->get_name(),
+                                       "the file of " + read->get_name() + " would be written over: " + path);
+          }
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 CLI::App* Cli::add(const std::string& name, const std::string& description, Command run) {
   CLI::App* command = m_app.add_subcommand(name, description);
   command->add_flag("--json", json_output, "Print the result as JSON on stdout");
-  command->callback([this, name, run = std::move(run)] {
+  command->callback([this, command, name, run = std::move(run)] {
+    refuse_writing_over(*command);
     chosen = run;
     chosen_name = name;
   });

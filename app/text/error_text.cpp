@@ -60,7 +60,7 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Check the name, or rename the column with a header map.")},
     Row{ErrorCode::not_enough_data,
         QT_TRANSLATE_NOOP("errors", "Too little data: {what} has {found}, {needed} needed."),
-        QT_TRANSLATE_NOOP("errors", "Record longer or choose fewer.")},
+        QT_TRANSLATE_NOOP("errors", "Give more of it: record longer, or ask for less.")},
     Row{ErrorCode::no_variation,
         QT_TRANSLATE_NOOP("errors", "{what} never changes, so nothing can be learned from it."),
         QT_TRANSLATE_NOOP("errors", "Check the sensor, or leave it out; a run must warm the machine.")},

@@ -112,7 +112,7 @@ Result<Artefact> Job::put(const NewArtefact& artefact) {
 
 Result<Artefact> Job::Store::read_artefact(ArtefactId id) const {
   ZD_TRY(Statement rows, database->prepare("SELECT kind, body, content_hash, input_hash, made_by, engineer, "
-                                           "created_utc FROM artefact WHERE id = ?"));
+                                           "created_utc, body_hash FROM artefact WHERE id = ?"));
   ZD_TRY(const bool row, rows.bind(1, id).step());
   if (!row) {
     return fail(ErrorCode::bad_argument,
@@ -120,6 +120,12 @@ Result<Artefact> Job::Store::read_artefact(ArtefactId id) const {
   }
   Artefact artefact{id,           rows.text(0), rows.text(1), rows.text(2), rows.text(3),
                     rows.text(4), rows.text(5), rows.text(6), {},           {}};
+  const std::string body_hash = rows.text(7);  // none in artefacts of the first version
+  if (!body_hash.empty() && sha256_hex(artefact.body) != body_hash) {
+    return fail(ErrorCode::job_damaged,
+                {{"file", path.string()},
+                 {"detail", fmt::format("artefact {} ({}) is not what was kept: checksum", id, artefact.kind)}});
+  }
   ZD_TRY(artefact.inputs, inputs_of(*database, id));
   ZD_TRY(Statement names, database->prepare("SELECT name FROM blob WHERE artefact = ? ORDER BY name"));
   names.bind(1, id);

@@ -204,6 +204,19 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
       (residual.squaredNorm() + 2.0 * limits.repeatability_um * limits.repeatability_um) / (freedom + 2.0);
   out.covariance.topLeftCorner<2, 2>() = variance * fit.spread;
   out.covariance.bottomRightCorner<2, 2>() = variance * fit.spread;
+  // A px is some um in every picture that a drift can be measured in: else the coordinates are in another unit.
+  const double scale = std::sqrt(std::abs(fit.um_from_px.determinant()));
+  const double scale_sigma = std::sqrt(variance * fit.spread.diagonal().maxCoeff());
+  if (!(scale >= limits.least_um_per_px && scale <= limits.largest_um_per_px)) {
+    return fail(ErrorCode::calibration_refused,
+                {{"reason", fmt::format("a pixel would be {:g} um: the positions are given in mm", scale)}});
+  }
+  if (scale_sigma > limits.largest_scale_sigma * scale) {
+    return fail(ErrorCode::calibration_refused,
+                {{"reason", fmt::format("the positions are too close together, or not in mm: {:.3g} um apart, with {:g} "
+                                        "um of the machine's own the scale is known to {:.0f} % only",
+                                        span_um, limits.repeatability_um, 100.0 * scale_sigma / scale)}});
+  }
   out.range_px = {pixels.col(0).cwiseAbs().maxCoeff(), pixels.col(1).cwiseAbs().maxCoeff()};
   for (std::size_t k = 0; k < views.size(); ++k) {
     views[k].residual_x_um = residual(static_cast<Eigen::Index>(k), 0);

@@ -59,6 +59,9 @@ struct CalibrationLimits {
   double least_span_two_px = 30.0;  // distance of two positions
   double least_aspect = 0.1;        // narrow to wide extent: below it they lie on a line
   double largest_rms_um = 5.0;      // or 0.5 % of the span, whichever is larger
+  double least_um_per_px = 0.005;   // a tenth of what light resolves
+  double largest_um_per_px = 2000.0;
+  double largest_scale_sigma = 0.05;  // relative: 1 um of an error of 20 um
 };
 
 /// Two views: similarity as in the published method. Three or more: full 2x2 by least squares.

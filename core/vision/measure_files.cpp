@@ -112,6 +112,14 @@ Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string
     warn(warnings, fmt::format("no region was given: {},{},{},{} shows the most pattern and is used", region.x,
                                region.y, region.width, region.height));
   }
+  if (const auto& p = choice.point; p && !(p->x_px >= 0.0 && p->x_px < picture.image.width && p->y_px >= 0.0 &&
+                                           p->y_px < picture.image.height)) {
+    return fail(
+        ErrorCode::bad_argument,
+        {{"what", "the point whose displacement is measured"},
+         {"found", fmt::format("{:g},{:g}", p->x_px, p->y_px)},
+         {"expected", fmt::format("a point of {}, {} x {} pixels", name, picture.image.width, picture.image.height)}});
+  }
   return Target::create(picture.image, region, choice.point, name);
 }
 

@@ -3857,7 +3857,7 @@
         <translation>数据太少：{what}有 {found}，需要 {needed}。</translation>
     </message>
     <message>
-        <source>Record longer or choose fewer.</source>
+        <source>Give more of it: record longer, or ask for less.</source>
         <translation>请延长记录时间或减少所选项。</translation>
     </message>
     <message>

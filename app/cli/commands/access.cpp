@@ -55,6 +55,8 @@ Result<CommandOutput> audit(const Options& options) {
   ZD_TRY(const auto job, commissioning::Job::open_read_only(options.job));
   ZD_TRY(const auto trail, job.audit_trail());
   ZD_CHECK(job.verify_audit());
+  ZD_TRY(const auto whole, job.check());
+  if (!whole.ok()) return fail(whole.problems.front());
   json rows = json::array();
   for (const auto& entry : trail) {
     rows.push_back({{"id", entry.id},

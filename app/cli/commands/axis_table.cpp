@@ -133,7 +133,7 @@ Result<CommandOutput> make_table(const TableOptions& options) {
   return output;
 }
 
-/// The column position_mm, else the first; a file of bare numbers has no header.
+/// The column position_mm, or the only one; a file of bare numbers has no header.
 Result<std::vector<double>> read_positions(const std::string& file) {
   ZD_TRY(std::string text, read_file(file));
   const auto first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -141,7 +141,11 @@ Result<std::vector<double>> read_positions(const std::string& file) {
       first != std::string::npos && std::string_view("+-.0123456789").find(text[first]) != std::string_view::npos;
   if (bare) text = "position_mm\n" + text;
   ZD_TRY(const auto table, recording::parse_table(text, file));
-  const int column = std::max(0, table.column("position_mm"));
+  const int column = table.header.size() == 1 ? 0 : table.column("position_mm");
+  if (column < 0) {
+    return fail(ErrorCode::channel_missing,
+                {{"channel", "position_mm"}, {"available", fmt::format("{}", fmt::join(table.header, ", "))}});
+  }
   std::vector<double> positions;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     ZD_TRY(const double value, recording::number_in(table, row, column));
@@ -210,10 +214,12 @@ void add_axis_table(Cli& cli) {
   command->add_option("--laser", options->laser, "Laser report: CSV, .rtl, .REN, .pos")->required();
   command->add_option("--criterion", options->criterion, "When a segment is good: r of errors, of coordinates, or um")
       ->check(CLI::IsMember({"coordinates", "errors", "tolerance"}));
-  command->add_option("--threshold", options->segmentation.threshold, "Least |r| of a segment");
-  command->add_option("--start-points", options->segmentation.start_points, "Points a segment begins with");
+  command->add_option("--threshold", options->segmentation.threshold, "Least |r| of a segment")->check(CLI::Range(0.0, 1.0));
+  command->add_option("--start-points", options->segmentation.start_points, "Points a segment begins with")
+      ->check(CLI::Range(2, 100000));
   command->add_option("--tolerance-um", options->segmentation.tolerance_um,
-                      "Largest residual for the criterion tolerance");
+                      "Largest residual for the criterion tolerance")
+      ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "Table file to write")->required();
   command->add_option("--statistics", options->statistics, "JSON to write: ISO 230-2 and VDI 3441 figures");
   command

@@ -90,7 +90,11 @@ void add_cluster(Cli& cli) {
                      });
   CLI::App& app = **command;
   app.add_option("--recording", options->recording, "Recording (CSV) with temperatures and errors")->required();
-  app.add_option("--clusters", options->clusters, "Number of clusters, or auto")->capture_default_str();
+  app.add_option("--clusters", options->clusters, "Number of clusters, or auto")
+      ->check([](const std::string& text) {
+        return cluster_count(text) ? std::string() : text + " is no number from 1 up, nor auto";
+      })
+      ->capture_default_str();
   app.add_option("--errors", options->errors, "Errors to correlate with, for example dX_um,dY_um,dZ_um (default: all)");
   app.add_option("--distance", options->distance, "raw (as published), rise over the first sample, or standardised")
       ->check(CLI::IsMember({"raw", "rise", "standardised"}))

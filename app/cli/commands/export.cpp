@@ -63,6 +63,12 @@ Result<CommandOutput> run(Options options, const TaskContext&) {
   return output;
 }
 
+std::vector<std::string> names_of_formats() {
+  std::vector<std::string> names;
+  for (const auto& format : controller::export_formats()) names.emplace_back(format.id);
+  return names;
+}
+
 }  // namespace export_command
 
 void add_export(Cli& cli) {
@@ -73,7 +79,8 @@ void add_export(Cli& cli) {
   command->add_option("--table", options->table, "Table file")->required();
   command
       ->add_option("--format", options->format, "linuxcnc, sinumerik-thermal, sinumerik-leadscrew, fanuc, heidenhain")
-      ->required();
+      ->required()
+      ->check(CLI::IsMember(names_of_formats()));
   command->add_option("--type", options->how.linuxcnc_type, "linuxcnc: 0 actual positions, 1 trims")
       ->check(CLI::IsMember({0, 1}));
   command->add_option("--out", options->out, "File to write; further files get its name and an ending")->required();

@@ -158,6 +158,7 @@ void add_fit(Cli& cli) {
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   app.add_option("--coverage", options->coverage_percent, "Coverage of the prediction band in percent")
+      ->check(CLI::Range(50.0, 99.99))
       ->capture_default_str();
   app.add_option("--out", options->out, "model.json to write")->required();
 }

@@ -30,6 +30,7 @@ Result<CommandOutput> run(const Options& options) {
   }
   std::vector<Error> damaged;
   ZD_TRY(const auto recording, job.read_series(chosen->id, &damaged));
+  if (recording.rows() == 0 && !damaged.empty()) return fail(damaged.front());
   ZD_CHECK(recording::write_recording(options.out, recording));
   CommandOutput output;
   for (const auto& error : damaged) output.warnings.push_back("left out: " + describe(error));

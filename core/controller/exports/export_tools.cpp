@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace zerodrift::controller::exports {
@@ -122,6 +123,21 @@ Result<double> largest_difference_um(const std::string& name, const AxisTable& o
   return largest;
 }
 
+/// How far the table's errors go beyond its own limit, which every file keeps; 0 within it.
+static Result<double> cut_by_limit_um(const std::string& name, const AxisTable& axis, const Temperatures& temperatures) {
+  AxisTable unlimited = axis;
+  unlimited.max_um = std::numeric_limits<double>::max();
+  ZD_TRY(const auto knots, knots_of(name, axis));
+  double cut = 0.0;
+  for (const double x : knots) {
+    for (const Approach approach : {Approach::up, Approach::down}) {
+      ZD_TRY(const double error, compensation::error_um(unlimited, x, approach, temperatures));
+      cut = std::max(cut, std::abs(error) - axis.max_um);
+    }
+  }
+  return cut;
+}
+
 Status measure_loss(const ExportFormat& format, const Table& table, const ExportOptions& options,
                     const std::vector<std::string>& axes, Exported& exported) {
   const Temperatures state = state_of(table, options);
@@ -132,7 +148,12 @@ Status measure_loss(const ExportFormat& format, const Table& table, const Export
     const auto at = rebuilt.axes.find(name);
     if (at == rebuilt.axes.end()) return unreadable(format.id, "the written file", "axis " + name);
     ZD_TRY(const double loss, largest_difference_um(name, table.axes.at(name), at->second, state));
-    exported.loss_um = std::max(exported.loss_um, loss);
+    ZD_TRY(const double cut, cut_by_limit_um(name, table.axes.at(name), state));
+    if (cut > 0.0) {
+      exported.losses.push_back(fmt::format("axis {}: up to {:g} um beyond the table's own limit of {:g} um are cut",
+                                            name, cut, table.axes.at(name).max_um));
+    }
+    exported.loss_um = std::max({exported.loss_um, loss, cut});
   }
   return {};
 }
