@@ -231,6 +231,8 @@ QString factInWords(const std::string& key, const std::string& value) {
 }
 
 /// Puts the context into the braces; a fact that is not known shows as a dash.
+constexpr qsizetype longest_fact = 600;
+
 QString filled(const char* pattern, const Error& error) {
   const QString source = QCoreApplication::translate("errors", pattern);
   QString out;
@@ -241,7 +243,9 @@ QString filled(const char* pattern, const Error& error) {
       continue;
     }
     const auto fact = error.context.find(source.mid(i + 1, end - i - 1).toStdString());
-    out += fact == error.context.end() ? QStringLiteral("-") : factInWords(fact->first, fact->second);
+    const QString words = fact == error.context.end() ? QStringLiteral("-") : factInWords(fact->first, fact->second);
+    // A cell of a file from elsewhere may be megabytes long.
+    out += words.size() <= longest_fact ? words : words.left(longest_fact) + QStringLiteral("...");
     i = end;
   }
   return out;

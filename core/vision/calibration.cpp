@@ -209,13 +209,14 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
   const double scale_sigma = std::sqrt(variance * fit.spread.diagonal().maxCoeff());
   if (!(scale >= limits.least_um_per_px && scale <= limits.largest_um_per_px)) {
     return fail(ErrorCode::calibration_refused,
-                {{"reason", fmt::format("a pixel would be {:g} um: the positions are given in mm", scale)}});
+                {{"reason", fmt::format("a pixel would be {:.3g} um; are the positions really in mm?", scale)}});
   }
   if (scale_sigma > limits.largest_scale_sigma * scale) {
-    return fail(ErrorCode::calibration_refused,
-                {{"reason", fmt::format("the positions are too close together, or not in mm: {:.3g} um apart, with {:g} "
-                                        "um of the machine's own the scale is known to {:.0f} % only",
-                                        span_um, limits.repeatability_um, 100.0 * scale_sigma / scale)}});
+    return fail(
+        ErrorCode::calibration_refused,
+        {{"reason", fmt::format("the positions are too close together, or not in mm: {:.3g} um apart, with {:g} "
+                                "um of the machine's own the scale is known to {:.0f} % only",
+                                span_um, limits.repeatability_um, 100.0 * scale_sigma / scale)}});
   }
   out.range_px = {pixels.col(0).cwiseAbs().maxCoeff(), pixels.col(1).cwiseAbs().maxCoeff()};
   for (std::size_t k = 0; k < views.size(); ++k) {

@@ -112,8 +112,8 @@ Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string
     warn(warnings, fmt::format("no region was given: {},{},{},{} shows the most pattern and is used", region.x,
                                region.y, region.width, region.height));
   }
-  if (const auto& p = choice.point; p && !(p->x_px >= 0.0 && p->x_px < picture.image.width && p->y_px >= 0.0 &&
-                                           p->y_px < picture.image.height)) {
+  if (const auto& p = choice.point;
+      p && !(p->x_px >= 0.0 && p->x_px < picture.image.width && p->y_px >= 0.0 && p->y_px < picture.image.height)) {
     return fail(
         ErrorCode::bad_argument,
         {{"what", "the point whose displacement is measured"},

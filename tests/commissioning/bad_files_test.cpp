@@ -126,6 +126,27 @@ TEST(BadFiles, WithFlippedBytes) {
   }
 }
 
+// A figure that somebody wrote over is not read, so that no report can say it.
+TEST(BadFiles, ArtefactThatSomebodyChangedIsNotRead) {
+  const TemporaryFolder folder;
+  make_job(folder / "a.zdj");
+  {
+    auto job = Job::open(folder / "a.zdj");
+    ASSERT_OK(job);
+    NewArtefact artefact;
+    artefact.kind = "verification";
+    artefact.body = R"({"peak_um": 19.0})";
+    ASSERT_OK(job->put(artefact));
+  }
+  run_sql(folder / "a.zdj",
+          R"(DROP TRIGGER artefact_fixed; UPDATE artefact SET body = '{"peak_um": 0.1}' WHERE kind = 'verification')");
+  const auto job = Job::open(folder / "a.zdj");
+  ASSERT_OK(job);
+  EXPECT_EQ(code_of(job->latest("verification")), ErrorCode::job_damaged);
+  EXPECT_EQ(code_of(job->history("verification")), ErrorCode::job_damaged);
+  EXPECT_FALSE(job->check()->ok());
+}
+
 TEST(BadFiles, DamagedChunkIsAGapWhenAsked) {
   const TemporaryFolder folder;
   make_job(folder / "a.zdj");

@@ -144,6 +144,19 @@ TEST(Exports, HostileNumbersAreRefused) {
   EXPECT_TRUE(leadscrew->read("$AN_CEC[1,0]=0.001\n$AN_CEC_DIRECTION[1]=1e300\n$AN_CEC_INPUT_AXIS[1]=(X1)\n", {}));
 }
 
+TEST(Exports, WhatTheTablesOwnLimitCutsIsTold) {
+  Table table = one_axis({{0.0, 0.0, 0.0, 0.0}, {100.0, 500.0, 500.0, 0.0}, {200.0, 0.0, 0.0, 0.0}});
+  for (const char* name : {"linuxcnc", "sinumerik-leadscrew", "fanuc", "heidenhain"}) {
+    const auto exported = (*export_format(name))->write(table, {});
+    ASSERT_TRUE(exported) << name;
+    EXPECT_NEAR(exported->loss_um, 300.0, 1.0) << name;
+    const bool told = std::any_of(exported->losses.begin(), exported->losses.end(), [](const std::string& loss) {
+      return loss.find("beyond the table's own limit of 200 um") != std::string::npos;
+    });
+    EXPECT_TRUE(told) << name;
+  }
+}
+
 TEST(Exports, LinuxCncHasNothingThatEndsReading) {
   const auto out = (*export_format("linuxcnc"))->write(one_axis({{0, 0, 0, 0}, {100, 10, 12, 0}}), {});
   ASSERT_TRUE(out) << describe(out.error());

@@ -78,6 +78,15 @@ TEST(Calibration, RefusesWhatCannotSupportTheClaim) {
   EXPECT_NE(refused(views_at({{0, 0}, {0.02, 0}, {0, 0.03}}, true_um_from_px())).find("span only"), std::string::npos);
   EXPECT_NE(refused(views_at({{0, 0}, {0.4, 0.4}, {0.8, 0.8}, {0.2, 0.2}}, true_um_from_px())).find("one line"),
             std::string::npos);
+  // Coordinates in another unit: metres, micrometres.
+  for (const double factor : {1e-3, 1e3}) {
+    auto other = views_at(grid(), true_um_from_px());
+    for (auto& view : other) {
+      view.x_mm *= factor;
+      view.y_mm *= factor;
+    }
+    EXPECT_NE(refused(other).find("in mm"), std::string::npos) << refused(other);
+  }
   auto wrong = views_at(grid(), true_um_from_px());
   wrong[4].x_mm += 0.1;
   EXPECT_NE(refused(wrong).find("view4.png"), std::string::npos);

@@ -214,11 +214,12 @@ void add_axis_table(Cli& cli) {
   command->add_option("--laser", options->laser, "Laser report: CSV, .rtl, .REN, .pos")->required();
   command->add_option("--criterion", options->criterion, "When a segment is good: r of errors, of coordinates, or um")
       ->check(CLI::IsMember({"coordinates", "errors", "tolerance"}));
-  command->add_option("--threshold", options->segmentation.threshold, "Least |r| of a segment")->check(CLI::Range(0.0, 1.0));
+  command->add_option("--threshold", options->segmentation.threshold, "Least |r| of a segment")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--start-points", options->segmentation.start_points, "Points a segment begins with")
       ->check(CLI::Range(2, 100000));
-  command->add_option("--tolerance-um", options->segmentation.tolerance_um,
-                      "Largest residual for the criterion tolerance")
+  command
+      ->add_option("--tolerance-um", options->segmentation.tolerance_um, "Largest residual for the criterion tolerance")
       ->check(CLI::PositiveNumber);
   command->add_option("--out", options->out, "Table file to write")->required();
   command->add_option("--statistics", options->statistics, "JSON to write: ISO 230-2 and VDI 3441 figures");

@@ -124,7 +124,8 @@ Result<double> largest_difference_um(const std::string& name, const AxisTable& o
 }
 
 /// How far the table's errors go beyond its own limit, which every file keeps; 0 within it.
-static Result<double> cut_by_limit_um(const std::string& name, const AxisTable& axis, const Temperatures& temperatures) {
+static Result<double> cut_by_limit_um(const std::string& name, const AxisTable& axis,
+                                      const Temperatures& temperatures) {
   AxisTable unlimited = axis;
   unlimited.max_um = std::numeric_limits<double>::max();
   ZD_TRY(const auto knots, knots_of(name, axis));
