@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 323> machines = {{
+constexpr std::array<const char*, 324> machines = {{
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),
@@ -268,6 +268,7 @@ constexpr std::array<const char*, 323> machines = {{
     QT_TRANSLATE_NOOP("core", "the axis to export (this format holds one axis a file)"),
     QT_TRANSLATE_NOOP("core", "position points of axis %1"),
     QT_TRANSLATE_NOOP("core", "the written file"),
+    QT_TRANSLATE_NOOP("core", "axis %1: up to %2 um beyond the table's own limit of %3 um are cut"),
     QT_TRANSLATE_NOOP(
         "core", "axis %1: the file does not follow temperatures; it holds for %2. Feed the thermal part at run time"),
     QT_TRANSLATE_NOOP("core",

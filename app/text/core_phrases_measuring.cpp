@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 175> measuring = {{
+constexpr std::array<const char*, 178> measuring = {{
     QT_TRANSLATE_NOOP("core", "an interrupted run"),
     QT_TRANSLATE_NOOP("core", "recorded samples"),
     QT_TRANSLATE_NOOP("core", "a step of the flow"),
@@ -141,6 +141,11 @@ constexpr std::array<const char*, 175> measuring = {{
     QT_TRANSLATE_NOOP("core", "target occluded"),
     QT_TRANSLATE_NOOP("core", "too blurred"),
     QT_TRANSLATE_NOOP("core", "target out of view"),
+    QT_TRANSLATE_NOOP("core", "seen in part, may be a period further"),
+    QT_TRANSLATE_NOOP("core", "a pixel would be %1 um; are the positions really in mm?"),
+    QT_TRANSLATE_NOOP("core",
+                      "the positions are too close together, or not in mm: %1 um apart, with %2 um of the machine's "
+                      "own the scale is known to %3 % only"),
     QT_TRANSLATE_NOOP("core", "too different from the template"),
     QT_TRANSLATE_NOOP("core", "another resolution than the template"),
     QT_TRANSLATE_NOOP("core", "the region of the target"),

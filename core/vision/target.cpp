@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/vision/coarse_search.h"
+#include "core/vision/periods.h"
 #include "core/vision/registration.h"
 #include "core/vision/target_mask.h"
 
@@ -29,6 +30,12 @@ constexpr double sure_lead = 0.15;
 constexpr double least_glance_correlation = 0.8;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
+
+// A pattern that repeats and is not seen whole: a period further nearly as much of what is seen is explained.
+constexpr double seen_whole = 0.93;         // inliers, of all pixels
+constexpr double equally_explained = 0.93;  // of the gradient energy that the accepted place explains
+constexpr double least_rival_seen = 0.3;
+constexpr double seen_too_little = 0.65;  // inliers: with less, what ends the pattern is hardly seen
 
 // Limits of an accepted registration.
 constexpr double least_inliers = 0.55;
@@ -107,6 +114,8 @@ std::string_view words_of(Refusal refusal) {
       return "target out of view";
     case Refusal::too_different:
       return "too different from the template";
+    case Refusal::ambiguous:
+      return "seen in part, may be a period further";
     case Refusal::other_size:
       return "another resolution than the template";
   }
@@ -121,6 +130,7 @@ struct Target::Impl {
   std::shared_ptr<const Backdrop> backdrop;
   CoarseSearch coarse;
   Registrar fine;
+  std::vector<std::array<int, 2>> periods;
 
   Impl(GrayImage picture, const Region& at, const PixelPoint& named, std::vector<std::uint8_t> usable,
        std::shared_ptr<const Backdrop> behind = nullptr)
@@ -130,7 +140,25 @@ struct Target::Impl {
         mask(std::move(usable)),
         backdrop(std::move(behind)),
         coarse(image, at),
-        fine(source_of(*this)) {}
+        fine(source_of(*this)),
+        periods(periods_of(image, region)) {}
+
+  // Whether the target may as well stand a period further: each such place is looked at.
+  bool ambiguous(const GrayImage& frame, const Registration& found) const {
+    if (periods.empty() || found.inlier_share > seen_whole) return false;
+    if (found.inlier_share < seen_too_little) return true;
+    const auto explained = [](const Registration& r) { return r.informed_share / std::max(r.seen_share, 1e-3); };
+    const std::array<int, 2> here = {static_cast<int>(std::lround(found.displacement_px(0))),
+                                     static_cast<int>(std::lround(found.displacement_px(1)))};
+    std::vector<std::array<int, 2>> places = {here};
+    for (const auto& period : periods) places.push_back({here[0] + period[0], here[1] + period[1]});
+    const std::vector<Registration> glances = fine.glances(frame, places);
+    const double enough = equally_explained * explained(glances.front().converged ? glances.front() : found);
+    return std::any_of(glances.begin() + 1, glances.end(), [&](const Registration& rival) {
+      const double moved = (rival.displacement_px - found.displacement_px).norm();
+      return like_the_target(rival) && rival.seen_share > least_rival_seen && moved > 1.0 && explained(rival) > enough;
+    });
+  }
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
@@ -258,6 +286,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   }
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
+  if (m_impl->ambiguous(frame, best)) return refuse(Refusal::ambiguous);
   out.ok = true;
   if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   out.refusal = Refusal::none;

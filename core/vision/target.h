@@ -17,7 +17,18 @@
 
 namespace zerodrift::vision {
 
-enum class Refusal { none, missing, wrong_target, occluded, glare, blurred, out_of_view, too_different, other_size };
+enum class Refusal {
+  none,
+  missing,
+  wrong_target,
+  occluded,
+  glare,
+  blurred,
+  out_of_view,
+  too_different,
+  ambiguous,
+  other_size
+};
 /// "target missing", "glare", ...; "" for none.
 std::string_view words_of(Refusal refusal);
 

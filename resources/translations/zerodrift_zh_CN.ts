@@ -3717,6 +3717,22 @@
         <source>seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one time wrong?)</source>
         <translation>以秒为单位，至少每小时一行，总长不超过 100 天（是否以毫秒为单位，或有一个时间错误？）</translation>
     </message>
+    <message>
+        <source>axis %1: up to %2 um beyond the table&apos;s own limit of %3 um are cut</source>
+        <translation>轴 %1：超出补偿表自身限值 %3 um 的部分（最多 %2 um）被截去</translation>
+    </message>
+    <message>
+        <source>seen in part, may be a period further</source>
+        <translation>仅部分可见，可能相差一个周期</translation>
+    </message>
+    <message>
+        <source>a pixel would be %1 um; are the positions really in mm?</source>
+        <translation>每像素将相当于 %1 um；位置的单位确实是 mm 吗？</translation>
+    </message>
+    <message>
+        <source>the positions are too close together, or not in mm: %1 um apart, with %2 um of the machine&apos;s own the scale is known to %3 % only</source>
+        <translation>各位置相距太近，或单位不是 mm：相距 %1 um，而机床自身为 %2 um，比例只能确定到 %3 %</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -3858,7 +3874,7 @@
     </message>
     <message>
         <source>Give more of it: record longer, or ask for less.</source>
-        <translation>请延长记录时间或减少所选项。</translation>
+        <translation>请提供更多数据：延长记录时间，或减少所选项。</translation>
     </message>
     <message>
         <source>{what} never changes, so nothing can be learned from it.</source>
