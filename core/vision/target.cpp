@@ -35,6 +35,7 @@ constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 /
 constexpr double seen_whole = 0.93;         // inliers, of all pixels
 constexpr double equally_explained = 0.93;  // of the gradient energy that the accepted place explains
 constexpr double least_rival_seen = 0.3;
+constexpr double bad_fit = 6.0;           // residual, standard deviations of shot noise
 constexpr double seen_too_little = 0.65;  // inliers: with less, what ends the pattern is hardly seen
 
 // Limits of an accepted registration.
@@ -145,8 +146,9 @@ struct Target::Impl {
 
   // Whether the target may as well stand a period further: each such place is looked at.
   bool ambiguous(const GrayImage& frame, const Registration& found) const {
-    if (periods.empty() || found.inlier_share > seen_whole) return false;
-    if (found.inlier_share < seen_too_little) return true;
+    // A bad fit has no outliers, because its scale is large.
+    if (periods.empty() || (found.inlier_share > seen_whole && found.residual < bad_fit)) return false;
+    if (found.inlier_share < seen_too_little || found.residual >= bad_fit) return true;
     const auto explained = [](const Registration& r) { return r.informed_share / std::max(r.seen_share, 1e-3); };
     const std::array<int, 2> here = {static_cast<int>(std::lround(found.displacement_px(0))),
                                      static_cast<int>(std::lround(found.displacement_px(1)))};
