@@ -13,8 +13,11 @@
 namespace zerodrift::vision {
 namespace {
 
-constexpr double prefilter_px2 = 0.25;   // variance of the blur on both images: keeps the spline's bias below the noise
-constexpr double blur_limit_px2 = 0.25;  // a larger change of blur is put into the images and solved again
+constexpr double prefilter_px2 = 0.25;  // variance of the blur on both images: keeps the spline's bias below the noise
+// In a clear picture what the sampling has folded down outweighs the noise: most of it lies at high frequencies.
+constexpr double clear_prefilter_px2 = 0.4;
+constexpr double aliased_share = 0.003;    // of the gradients' energy: with less noise a picture is clear
+constexpr double blur_limit_px2 = 0.25;    // a larger change of blur is put into the images and solved again
 constexpr double largest_blur_px2 = 40.0;  // trace of the covariance
 constexpr double usual_edge_px2 = 0.8;     // variance of an edge in a picture in focus
 constexpr double largest_part = 0.45;
@@ -146,6 +149,10 @@ Registrar::Registrar(TemplateSource source)
     : m_source(completed(std::move(source))),
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
+  if (m_model.noise_share < aliased_share) {
+    const Eigen::Matrix2d wide = clear_prefilter_px2 * Eigen::Matrix2d::Identity();
+    m_model = make_template_model(m_source, wide, wide);
+  }
   find_noise_growth(m_model);
   m_outline = outline_of(m_source, m_model);
   if (!m_outline) return;

@@ -214,6 +214,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   model.blur_px2 = blur_px2;
   model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
   const double noise_energy = 2.0 * source.noise_levels * source.noise_levels * gradient_noise(blur_px2);
+  model.noise_share = noise_energy / std::max(model.gradient_energy, 1e-9);
   const std::vector<int> chosen = choose_pixels(source, energy, noise_energy);
   model.pixels = static_cast<int>(chosen.size());
   for (std::vector<int>* one : {&model.column, &model.row}) one->resize(chosen.size());

@@ -34,6 +34,7 @@ struct TemplateModel {
   double noise_growth_y = 0.0;     // formula for independent noise; 0 until find_noise_growth
   double noise_correlation = 1.0;  // pixels that carry the noise of one, after the blur
   double gradient_energy = 0.0;    // mean of fx^2 + fy^2 over the region
+  double noise_share = 0.0;        // of that
 };
 
 struct TemplateSource {
