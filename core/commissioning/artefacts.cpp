@@ -124,7 +124,7 @@ Result<Artefact> Job::Store::read_artefact(ArtefactId id) const {
   if (!body_hash.empty() && sha256_hex(artefact.body) != body_hash) {
     return fail(ErrorCode::job_damaged,
                 {{"file", path.string()},
-                 {"detail", fmt::format("artefact {} ({}) is not what was kept: checksum", id, artefact.kind)}});
+                 {"detail", fmt::format("artefact {} ({}): checksum", id, artefact.kind)}});
   }
   ZD_TRY(artefact.inputs, inputs_of(*database, id));
   ZD_TRY(Statement names, database->prepare("SELECT name FROM blob WHERE artefact = ? ORDER BY name"));

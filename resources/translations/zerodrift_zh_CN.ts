@@ -3733,6 +3733,14 @@
         <source>the positions are too close together, or not in mm: %1 um apart, with %2 um of the machine&apos;s own the scale is known to %3 % only</source>
         <translation>各位置相距太近，或单位不是 mm：相距 %1 um，而机床自身为 %2 um，比例只能确定到 %3 %</translation>
     </message>
+    <message>
+        <source>the point whose displacement is measured</source>
+        <translation>要测量位移的点</translation>
+    </message>
+    <message>
+        <source>a point of %1, %2 x %3 pixels</source>
+        <translation>%1 中的点（%2 x %3 像素）</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

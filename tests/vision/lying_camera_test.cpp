@@ -115,16 +115,43 @@ class LyingCamera {
   std::jthread m_thread;
 };
 
-/// Seconds until a fresh picture is refused, and by what name; -1 when it is not within ten.
+/// Time in which this machine let nobody run: what a thread that wakes every 10 ms overslept by more than 50 ms. A
+/// shared machine may stand still for seconds, which is not the camera's doing.
+class Standstill {
+ public:
+  Standstill()
+      : m_thread([this](const std::stop_token& stop) {
+          while (!stop.stop_requested()) {
+            const auto from = Steady::now();
+            std::this_thread::sleep_for(10ms);
+            const double late_s = std::chrono::duration<double>(Steady::now() - from).count() - 0.01;
+            if (late_s > 0.05) m_seconds = m_seconds + late_s;
+          }
+        }) {}
+  double seconds() const { return m_seconds; }
+
+ private:
+  std::atomic<double> m_seconds{0.0};
+  std::jthread m_thread;
+};
+
+/// Seconds, without those this machine stood still, until a fresh picture is refused, and by what name; -1 when it is
+/// not within thirty.
 std::pair<double, ErrorCode> told_after(LyingCamera& device, Camera& camera, Lie lie) {
-  EXPECT_TRUE(camera.fresh_frame(Steady::now(), 8s)) << "the camera works before";
+  EXPECT_TRUE(camera.fresh_frame(Steady::now(), 40s)) << "the camera works before";
   device.lie(lie);
   const auto from = Steady::now();
-  while (Steady::now() - from < 10s) {
+  const Standstill standstill;
+  while (Steady::now() - from < 30s) {
+    const double before_s = standstill.seconds();
     const auto frame = camera.fresh_frame(Steady::now(), 4s);
     if (!frame) {
+      // While the machine stands still every camera is silent: asked once more.
+      if (lie == Lie::frozen && frame.error().code == ErrorCode::camera_silent && standstill.seconds() - before_s > 1.0)
+        continue;
       EXPECT_EQ(describe(frame.error()).find("s3cret"), std::string::npos);
-      return {std::chrono::duration<double>(Steady::now() - from).count(), frame.error().code};
+      const double seconds = std::chrono::duration<double>(Steady::now() - from).count();
+      return {seconds - standstill.seconds(), frame.error().code};
     }
   }
   return {-1.0, ErrorCode::internal};
@@ -146,7 +173,7 @@ TEST(LyingCamera, FrozenSilentAndGoneAreNamedWithinSeconds) {
     EXPECT_GT(seconds, 0.0) << name;
     EXPECT_LT(seconds, 6.0) << name;
     device.lie(Lie::none);  // it comes back by itself
-    const auto again = camera.fresh_frame(Steady::now(), 12s);
+    const auto again = camera.fresh_frame(Steady::now(), 40s);
     EXPECT_TRUE(again) << name << ": " << describe(again.error());
   }
 }
