@@ -35,8 +35,9 @@ constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 /
 constexpr double seen_whole = 0.93;         // inliers, of all pixels
 constexpr double equally_explained = 0.93;  // of the gradient energy that the accepted place explains
 constexpr double least_rival_seen = 0.3;
-constexpr double bad_fit = 6.0;           // residual, standard deviations of shot noise
-constexpr double seen_too_little = 0.65;  // inliers: with less, what ends the pattern is hardly seen
+constexpr double bad_fit = 6.0;         // residual, standard deviations of shot noise
+constexpr double clearly_more = 1.1;    // what covers it may keep a rival from settling
+constexpr double rival_residual = 2.0;  // of the accepted place's
 
 // Limits of an accepted registration.
 constexpr double least_inliers = 0.55;
@@ -144,22 +145,32 @@ struct Target::Impl {
         fine(source_of(*this)),
         periods(periods_of(image, region)) {}
 
-  // Whether the target may as well stand a period further: each such place is looked at.
-  bool ambiguous(const GrayImage& frame, const Registration& found) const {
+  // Whether the target may as well stand a period further: each such place that a glance does not rule out is looked at
+  // as closely as the one found.
+  bool ambiguous(const GrayImage& frame, const Registration& found, const LensTerm& lens) const {
     // A bad fit has no outliers, because its scale is large.
     if (periods.empty() || (found.inlier_share > seen_whole && found.residual < bad_fit)) return false;
-    if (found.inlier_share < seen_too_little || found.residual >= bad_fit) return true;
-    const auto explained = [](const Registration& r) { return r.informed_share / std::max(r.seen_share, 1e-3); };
-    const std::array<int, 2> here = {static_cast<int>(std::lround(found.displacement_px(0))),
-                                     static_cast<int>(std::lround(found.displacement_px(1)))};
-    std::vector<std::array<int, 2>> places = {here};
-    for (const auto& period : periods) places.push_back({here[0] + period[0], here[1] + period[1]});
+    if (found.residual >= bad_fit) return true;
+    // Of what is seen: neither outside the frame nor under glare.
+    const auto explained = [](const Registration& r) {
+      return r.informed_share / std::max(r.seen_share - r.saturated_share, 1e-3);
+    };
+    std::vector<std::array<int, 2>> places;
+    for (const auto& period : periods) {
+      places.push_back({static_cast<int>(std::lround(found.displacement_px(0))) + period[0],
+                        static_cast<int>(std::lround(found.displacement_px(1))) + period[1]});
+    }
     const std::vector<Registration> glances = fine.glances(frame, places);
-    const double enough = equally_explained * explained(glances.front().converged ? glances.front() : found);
-    return std::any_of(glances.begin() + 1, glances.end(), [&](const Registration& rival) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (!like_the_target(glances[k]) || glances[k].seen_share < least_rival_seen) continue;
+      const Registration rival = fine.run(frame, places[k][0], places[k][1], lens);
       const double moved = (rival.displacement_px - found.displacement_px).norm();
-      return like_the_target(rival) && rival.seen_share > least_rival_seen && moved > 1.0 && explained(rival) > enough;
-    });
+      if (!rival.converged || rival.seen_share < least_rival_seen || moved < 1.0) continue;
+      const double more = explained(rival) / explained(found);
+      const bool as_sharp = rival.residual < rival_residual * std::max(found.residual, 1.0);
+      if (more > (as_sharp ? equally_explained : clearly_more)) return true;
+    }
+    return false;
   }
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
@@ -288,7 +299,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   }
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
-  if (m_impl->ambiguous(frame, best)) return refuse(Refusal::ambiguous);
+  if (m_impl->ambiguous(frame, best, m_lens)) return refuse(Refusal::ambiguous);
   out.ok = true;
   if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   out.refusal = Refusal::none;
