@@ -66,6 +66,49 @@ TEST(Target, ReportsTheNamedPointUnderRotation) {
   EXPECT_LT(at.sigma_y_px, 0.02);
 }
 
+/// A grid of 6 x 6 dots, 24 px apart, in the middle of the target's region.
+Speckle grid() {
+  Speckle dots(1);
+  dots.dots.clear();
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) {
+      dots.dots.push_back({260.0 + 24.0 * column, 180.0 + 24.0 * row, 4.0, 110.0});
+    }
+  }
+  return dots;
+}
+
+void paint(GrayImage& image, const Region& where, std::uint8_t level) {
+  for (int y = where.y; y < where.y + where.height; ++y) {
+    for (int x = where.x; x < where.x + where.width; ++x) image.at(x, y) = level;
+  }
+}
+
+// Under an even cover over its first column a grid may as well stand a period further; a lamp's spot within it hides
+// as much but leaves its ends to be seen.
+TEST(Target, APatternThatRepeatsIsNotTakenForItselfAPeriodFurther) {
+  const Target target = target_of(grid(), 1.0);
+  const Pose moved{.dx = 3.3, .dy = -2.1};
+  const GrayImage whole = render(grid(), moved, {.noise = 1.0, .seed = 7});
+  const Location seen = target.locate(whole);
+  ASSERT_TRUE(seen.ok) << seen.reason;
+  EXPECT_NEAR(seen.x_px, moved.dx, 4.0 * seen.sigma_x_px);
+  EXPECT_NEAR(seen.y_px, moved.dy, 4.0 * seen.sigma_y_px);
+
+  GrayImage covered = whole;
+  paint(covered, {230, 150, 48, 190}, 190);
+  const Location doubted = target.locate(covered);
+  EXPECT_FALSE(doubted.ok) << doubted.x_px << ' ' << doubted.y_px;
+  EXPECT_EQ(doubted.refusal, Refusal::ambiguous) << doubted.reason;
+
+  GrayImage glare = whole;
+  paint(glare, {297, 217, 48, 48}, 255);
+  const Location beside = target.locate(glare);
+  ASSERT_TRUE(beside.ok) << beside.reason;
+  EXPECT_NEAR(beside.x_px, moved.dx, 4.0 * beside.sigma_x_px);
+  EXPECT_NEAR(beside.y_px, moved.dy, 4.0 * beside.sigma_y_px);
+}
+
 TEST(Target, RefusesWhatIsNotTheTarget) {
   const Target target = target_of(Speckle(4), 1.0);
   EXPECT_FALSE(target.locate(render(Speckle(5), {}, {.noise = 1.0})).ok);
