@@ -123,8 +123,7 @@ Result<Artefact> Job::Store::read_artefact(ArtefactId id) const {
   const std::string body_hash = rows.text(7);  // none in artefacts of the first version
   if (!body_hash.empty() && sha256_hex(artefact.body) != body_hash) {
     return fail(ErrorCode::job_damaged,
-                {{"file", path.string()},
-                 {"detail", fmt::format("artefact {} ({}): checksum", id, artefact.kind)}});
+                {{"file", path.string()}, {"detail", fmt::format("artefact {} ({}): checksum", id, artefact.kind)}});
   }
   ZD_TRY(artefact.inputs, inputs_of(*database, id));
   ZD_TRY(Statement names, database->prepare("SELECT name FROM blob WHERE artefact = ? ORDER BY name"));
