@@ -237,7 +237,10 @@ void Diagnoser::place_from_others(FoundEffect& found, std::size_t index) {
 void Diagnoser::effects() {
   if (m_out.verdict == Verdict::unexplained && m_used == m_selection.base) return;
   const Model& best = *m_selection.best;
-  for (const std::size_t index : m_selection.effects()) {
+  const std::vector<std::size_t> named = m_selection.effects();
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const std::size_t index = named[i];
+    const std::shared_ptr<Model>& without = m_selection.without[i];
     FoundEffect found;
     const physics::EffectSpec spec = fitted_effect(best, index, &found.sigma);
     found.id = spec.id;
@@ -251,8 +254,6 @@ void Diagnoser::effects() {
       place_from_others(found, index);
     }
     found.bounds_reached = best.bounds_reached();
-    const auto without = reduced(best, index);
-    without->fit({8, 0.05, true});
     found.log_evidence_gain = best.log_evidence() - without->log_evidence();
     if (index + 1 == best.machine().effects.size()) found.log_evidence_gain += best.elsewhere;
     std::string worst;

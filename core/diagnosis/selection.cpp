@@ -6,498 +6,371 @@
 
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/refine.h"
+#include "core/diagnosis/selector.h"
 
 namespace zerodrift::diagnosis {
-namespace {
 
-using ModelPtr = std::shared_ptr<Model>;
-
-/// Comparable between models under noises of their own.
-bool by_total(const ModelPtr& a, const ModelPtr& b) {
-  return a->log_evidence_total() > b->log_evidence_total();
+Result<Selection> Selector::run(const physics::Machine& machine, std::shared_ptr<const Dataset> data) {
+  m_result.described = machine.effects.size();
+  m_usual = std::move(data);
+  m_result.base = std::make_shared<Model>(machine, m_usual);
+  m_result.base->fit({60, 0.05, true});
+  m_result.base = settled_ordinary(m_result.base);
+  m_result.best = m_result.base;
+  const ModelPtr described = m_result.base;
+  ZD_CHECK(search());
+  only_what_stands();
+  if (m_result.best == m_result.base && m_result.best != described) {
+    // Perhaps none had been compared at its best.
+    const ModelPtr none = settled_ordinary(m_result.base);
+    const bool deeper = total_gain(*none, *described) > clearly_deeper;
+    m_result.best = m_result.base = deeper ? none : described;
+    if (deeper) {
+      ZD_CHECK(search());
+      only_what_stands();
+    }
+  }
+  return m_result;
 }
 
-class Selector {
- public:
-  Selector(physics::RunFacts facts, const SelectionOptions& options, const TaskContext& context)
-      : m_facts(std::move(facts)), m_options(options), m_context(context) {}
-
-  Result<Selection> run(const physics::Machine& machine, std::shared_ptr<const Dataset> data) {
-    m_result.described = machine.effects.size();
-    m_usual = std::move(data);
-    m_result.base = std::make_shared<Model>(machine, m_usual);
-    m_result.base->fit({});
-    m_result.base = with_ordinary(m_result.base);
-    m_result.best = m_result.base;
-    m_context.progress(0.15, "screening");
-    if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-    m_result.screened = screen(*m_result.base, m_facts);
-    auto first = refine(m_result.base, m_result.screened, {});
-    m_result.levels.push_back(first);
-    m_context.progress(0.5, "refitting");
-    if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-    const std::vector<ModelPtr> leading = leaders_of(first);
-    if (!leading.empty()) base_from(*leading.front());
-    if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= least_first(*leading.front())) {
-      ask_others();
-      if (m_result.best != m_result.base) align();
-      return m_result;
-    }
-    m_result.best = leading.front();
-    for (int level = 2; level <= m_options.most_effects; ++level) {
-      const ModelPtr before = m_result.best;
-      std::vector<ModelPtr> beam = leading;
-      if (m_other_valley != nullptr) beam.push_back(m_other_valley);
-      add_one(level == 2 ? beam : std::vector<ModelPtr>{m_result.best});
-      m_context.progress(0.4 + 0.25 * level, "further_effects");
-      if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-      if (m_result.best == before) break;
-      eliminate();
-      // With the others known, another effect may fit better in the place of an earlier one.
-      const ModelPtr grown = m_result.best;
-      for (int round = 0; round < 3 && swap_one(true); ++round) {
-      }
-      if (m_result.best != grown) eliminate();
-    }
-    if (m_options.own_misfit) m_result.best = with_places_tried(m_result.best);
+Status Selector::search() {
+  m_result.levels.clear();
+  m_context.progress(0.15, "screening");
+  if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+  m_result.screened = screen(*m_result.base, m_facts);
+  auto first = refine(m_result.base, m_result.screened, {});
+  m_result.levels.push_back(first);
+  m_context.progress(0.5, "refitting");
+  if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+  const std::vector<ModelPtr> leading = leaders_of(first);
+  if (!leading.empty()) base_from(*leading.front());
+  if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= least_first(*leading.front())) {
     ask_others();
-    align();
-    tell_apart();
-    return m_result;
+    if (m_result.best != m_result.base) align();
+    return {};
   }
-
-  Result<Selection> grow(const physics::Machine& machine, std::shared_ptr<const Dataset>& data) {
-    const std::shared_ptr<const Dataset> usual = data;
-    ZD_TRY(m_result, run(machine, usual));
-    if (m_result.best == m_result.base) return m_result;
-    ModelPtr best = only_needed(with_own_discrepancy(*m_result.best, usual), usual);
-    for (int round = 0; round < m_options.most_effects && best->machine().effects.size() > m_result.described;
-         ++round) {
-      if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-      const ModelPtr more = with_one_more(best, usual);
-      if (more == nullptr) break;
-      best = only_needed(more, usual);
-    }
-    m_result.falling_heat = falling_heat(*best, usual);
-    data = best->shared_data();
-    m_result.base = under(*m_result.base, data);
-    m_result.best = best->machine().effects.size() == m_result.described ? m_result.base : best;
-    if (m_result.best != m_result.base && swap_one()) m_result.best = under(*m_result.best, data);
-    return m_result;
-  }
-
-  Result<Selection> again(const Selection& selection, const std::shared_ptr<const Dataset>& data) {
-    m_result.described = selection.described;
-    m_result.screened = selection.screened;
-    m_result.base = std::make_shared<Model>(selection.base->machine(), data);
-    m_result.base->continue_from(*selection.base);
-    m_result.base->fit({});
-    m_result.best = std::make_shared<Model>(selection.best->machine(), data);
-    m_result.best->continue_from(*selection.best);
-    m_result.best->fit({20, 0.05, true});
+  m_result.best = leading.front();
+  for (int level = 2; level <= m_options.most_effects; ++level) {
+    const ModelPtr before = m_result.best;
+    std::vector<ModelPtr> beam = leading;
+    if (m_other_valley != nullptr) beam.push_back(m_other_valley);
+    add_one(level == 2 ? beam : std::vector<ModelPtr>{m_result.best});
+    m_context.progress(0.4 + 0.25 * level, "further_effects");
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+    if (m_result.best == before) break;
     eliminate();
-    for (int round = 0; round < 2 && swap_one(); ++round) {
+    // With the others known, another effect may fit better in the place of an earlier one.
+    const ModelPtr grown = m_result.best;
+    for (int round = 0; round < 3 && swap_one(true); ++round) {
     }
-    // The last effect of all is judged against none.
-    const double gained = m_result.best->log_evidence() - m_result.base->log_evidence();
-    if (m_result.best->machine().effects.size() == m_result.described + 1 && gained <= m_options.first) {
-      m_result.best = m_result.base;
-    }
-    return m_result;
+    if (m_result.best != grown) eliminate();
   }
+  if (m_options.own_misfit) m_result.best = with_places_tried(m_result.best);
+  ask_others();
+  align();
+  tell_apart();
+  return {};
+}
 
- private:
-  static constexpr double clearly_deeper = 0.5;
-
-  static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data) {
-    auto result = std::make_shared<Model>(model.machine(), data);
-    result->continue_from(model);
-    result->elsewhere = model.elsewhere;
-    result->fit({20, 0.05, true});
-    return result;
+Result<Selection> Selector::again(const Selection& selection, const std::shared_ptr<const Dataset>& data) {
+  m_result.described = selection.described;
+  m_result.screened = selection.screened;
+  m_result.base = std::make_shared<Model>(selection.base->machine(), data);
+  m_result.base->continue_from(*selection.base);
+  m_result.base->fit({});
+  m_result.best = std::make_shared<Model>(selection.best->machine(), data);
+  m_result.best->continue_from(*selection.best);
+  m_result.best->fit({20, 0.05, true});
+  if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+  eliminate();
+  for (int round = 0; round < 2 && swap_one(); ++round) {
   }
-
-  /// Fitted with the discrepancy that suits it best: such models are compared by their total evidence, so that an
-  /// effect has to do better than a latent process in every channel would.
-  static ModelPtr with_own_discrepancy(const Model& model, const std::shared_ptr<const Dataset>& usual) {
-    ModelPtr fitted = under(model, model.shared_data());
-    for (int round = 0; round < 2; ++round) {
-      const auto likely = likely_discrepancy(*usual, fitted->prediction());
-      fitted = under(*fitted, std::make_shared<Dataset>(with_discrepancy(*usual, likely)));
-    }
-    return fitted;
+  // The last effect of all is judged against none.
+  const double gained = m_result.best->log_evidence() - m_result.base->log_evidence();
+  if (m_result.best->machine().effects.size() == m_result.described + 1 && gained <= m_options.first) {
+    m_result.best = m_result.base;
   }
+  only_what_stands();
+  return m_result;
+}
 
-  /// Without the effects that are not needed under the discrepancies that suit them.
-  ModelPtr only_needed(ModelPtr best, const std::shared_ptr<const Dataset>& usual) const {
-    while (best->machine().effects.size() > m_result.described && !m_context.cancelled()) {
-      const bool last = best->machine().effects.size() == m_result.described + 1;
-      ModelPtr better;
-      double least = last ? m_options.first : m_options.second_clean;
-      for (std::size_t i = m_result.described; i < best->machine().effects.size(); ++i) {
-        const ModelPtr without = with_own_discrepancy(*reduced(*best, i), usual);
-        const double lost = total_gain(*best, *without);
-        if (lost < least) {
-          least = lost;
-          better = without;
-        }
-        const ModelPtr simpler = without_lag(*best, i);
-        if (simpler == nullptr) continue;
-        const ModelPtr fitted = with_own_discrepancy(*simpler, usual);
-        const double by_lag = total_gain(*best, *fitted);
-        if (by_lag >= std::min(least, m_options.second_clean)) continue;
-        least = by_lag;
-        better = fitted;
-      }
-      if (better == nullptr) break;
-      best = better;
-    }
-    return best;
-  }
-
-  /// The same with a room that is felt at once; none where it is.
-  static ModelPtr without_lag(const Model& model, std::size_t effect) {
-    physics::Machine machine = model.machine();
-    if (machine.effects[effect].numbers.erase("room_lag_s") == 0) return nullptr;
-    auto result = std::make_shared<Model>(std::move(machine), model.shared_data());
-    result->start_from(model, false);
-    return result;
-  }
-
-  /// An effect more where that is worth it under the discrepancies that suit both, else none. Under the default one the
-  /// first effects of a crude description gain so much that what they leave is not asked about.
-  ModelPtr with_one_more(const ModelPtr& best, const std::shared_ptr<const Dataset>& usual) const {
-    constexpr std::size_t most_tried = 3;
-    if (static_cast<int>(best->machine().effects.size() - m_result.described) >= m_options.most_effects) return nullptr;
-    // A slow body that an effect more would name may look like a room that is felt late.
-    std::vector<ModelPtr> starts = {best};
-    for (std::size_t i = m_result.described; i < best->machine().effects.size(); ++i) {
-      if (const ModelPtr simpler = without_lag(*best, i)) starts.push_back(with_own_discrepancy(*simpler, usual));
-    }
-    std::vector<ModelPtr> fits;
-    for (const ModelPtr& start : starts) {
-      std::vector<ModelPtr> more = refine(start, screen(*start, m_facts), {1, m_options.second_screen, 7});
-      if (more.size() > most_tried) more.resize(most_tried);
-      fits.insert(fits.end(), more.begin(), more.end());
-    }
-    in_parallel(fits.size(), [&](std::size_t i) { fits[i] = with_own_discrepancy(*fits[i], usual); });
-    std::sort(fits.begin(), fits.end(), by_total);
-    if (fits.empty() || total_gain(*fits.front(), *best) < m_options.second) return nullptr;
-    return fits.front();
-  }
-
-  /// Is the heat of a lump clearly less at some speed than at a lower one?
-  static bool heat_falls(const Model& model, const std::string& component) {
-    constexpr double clearly = 0.1;  // of the largest
-    const physics::Network& network = model.network();
-    const std::vector<double> values = model.values();
-    double highest_W = 0.0;
-    double fall_W = 0.0;
-    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-      double heat_W = 0.0;
-      for (const physics::Term& term : network.terms) {
-        const bool here = term.first_node == network.place(component)->first;
-        if (term.kind != physics::TermKind::source || term.law_kind != physics::LawKind::inputs || !here) continue;
-        std::vector<double> held(network.held_channels.size(), 0.0);
-        for (std::size_t i = 0; i < held.size(); ++i) {
-          if (network.held_channels[i] == "spindle_rpm") held[i] = share * network.full_speed_rpm;
-        }
-        std::vector<double> own;
-        for (const int parameter : term.parameters) own.push_back(values[static_cast<std::size_t>(parameter)]);
-        physics::LawPoint at;
-        at.held = held.data();
-        at.values = own.data();
-        heat_W += term.law(at).value;
-      }
-      highest_W = std::max(highest_W, heat_W);
-      fall_W = std::max(fall_W, highest_W - heat_W);
-    }
-    return fall_W > clearly * highest_W;
-  }
-
-  /// Heat that may fall with speed, beside the effects or in the place of one: no law has it, but where it explains
-  /// more than they do, they only stand in for it.
-  double falling_heat(const Model& best, const std::shared_ptr<const Dataset>& usual) const {
-    double most = 0.0;
-    for (const auto& component : best.machine().components) {
-      const bool by_speed = std::any_of(component.sources.begin(), component.sources.end(),
-                                        [](const auto& source) { return source.kind == physics::SourceKind::speed; });
-      if (!m_facts.has_speed || !component.lump || !by_speed) continue;
-      const Candidate free{physics::free_speed_heat(component), 0, 0, {}};
-      const std::size_t count = best.machine().effects.size();
-      std::vector<ModelPtr> rivals(count - m_result.described + 1);
-      in_parallel(rivals.size(), [&](std::size_t i) {
-        const std::size_t left_out = m_result.described + i;
-        const ModelPtr less = left_out < count ? reduced(best, left_out) : nullptr;
-        rivals[i] = with_own_discrepancy(*extended(less == nullptr ? best : *less, free), usual);
-      });
-      for (const auto& rival : rivals) {
-        if (heat_falls(*rival, component.id)) most = std::max(most, total_gain(*rival, best));
-      }
-    }
-    return most > m_options.second ? most : 0.0;
-  }
-
-  static double total_gain(const Model& a, const Model& b) { return a.log_evidence_total() - b.log_evidence_total(); }
-
-  /// Fitted with the ordinary discrepancy that suits it best: how much a model leaves belongs to it. A hidden effect
-  /// makes the misfit without it look large; compared at the best misfit of both, it is not swallowed by that.
-  ModelPtr with_ordinary(const ModelPtr& model) const {
-    if (!m_options.own_misfit || m_usual == nullptr) return model;
-    auto data =
-        std::make_shared<Dataset>(with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
-    auto result = std::make_shared<Model>(model->machine(), data);
-    result->continue_from(*model);
-    result->gain = model->gain;
-    result->fit({12, 0.05, true});
-    return result;
-  }
-
-  /// The best first effects of different families, each under its own misfit. Under the base's misfit, which has
-  /// swallowed what it could of a weak effect, even the right one may look worthless.
-  std::vector<ModelPtr> leaders_of(const std::vector<ModelPtr>& fits) {
-    std::vector<ModelPtr> list;
-    std::set<std::string> ids;
-    for (const auto& fit : fits) {
-      if (fit->log_evidence() < m_result.base->log_evidence() - 1.0 || list.size() == 3) break;
-      if (ids.insert(last_effect(*fit).id).second) list.push_back(fit);
-    }
-    in_parallel(list.size(), [&](std::size_t i) { list[i] = with_ordinary(list[i]); });
-    std::sort(list.begin(), list.end(), by_total);
-    // Another valley is worth some share of what an effect explains: what is further behind does not get to the front.
-    std::vector<ModelPtr> others(list.size());
-    const auto near = [&](const Model& model, double share) {
-      return total_gain(*list.front(), model) < std::max(60.0, share * total_gain(*list.front(), *m_result.base));
-    };
-    in_parallel(list.size(), [&](std::size_t i) { others[i] = near(*list[i], 0.1) ? other_valley(list[i]) : nullptr; });
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (others[i] == nullptr) continue;
-      if (total_gain(*others[i], *list[i]) > clearly_deeper) {
-        std::swap(others[i], list[i]);
-        m_moved = true;
-      }
-      // The lower valley leaves something slow: with a second effect it may be the deeper one.
-      if (excess_of(*others[i]).largest < 2.0 || !near(*others[i], 0.03)) continue;
-      if (m_other_valley == nullptr || by_total(others[i], m_other_valley)) m_other_valley = others[i];
-    }
-    std::sort(list.begin(), list.end(), by_total);
-    return list;
-  }
-
-  /// The valley next to the description, where the model lies in another; none where it lies there or for lumps, whose
-  /// descriptions are guesses.
-  ModelPtr other_valley(const ModelPtr& model) const {
-    if (!m_options.own_misfit || near_its_description(*model)) return nullptr;
-    const ModelPtr anew = restarted(*model, m_facts);
-    return anew == nullptr ? nullptr : with_ordinary(anew);
-  }
-
-  ModelPtr in_the_deeper_valley(const ModelPtr& model) {
-    ModelPtr other = other_valley(model);
-    if (other == nullptr || total_gain(*other, *model) <= clearly_deeper) return model;
-    m_moved = true;
-    return other;
-  }
-
-  /// None must be as good as it can be before it is beaten: what the description becomes beside an effect may suit it
-  /// better without the effect too.
-  void base_from(const Model& best) {
-    if (!m_moved) return;
-    ModelPtr without = reduced(best, best.machine().effects.size() - 1);
-    without->fit({15, 0.05, true});
-    without = with_ordinary(without);
-    if (by_total(without, m_result.base)) m_result.best = m_result.base = without;
-  }
-
-  /// An effect that this recording leaves in doubt may show in another of the machine: both must show together what one
-  /// alone has to. Only what this one does not speak against is asked.
-  void ask_others() {
+/// What is told must stand where it is told: each effect shows its evidence once more against a model without it that
+/// was fitted from there, under the noise of the answer.
+void Selector::only_what_stands() {
+  m_result.without.clear();
+  while (m_result.best->machine().effects.size() > m_result.described) {
     const Model& best = *m_result.best;
-    if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return;
-    std::vector<Candidate> screened = screen(best, m_facts);
-    // What a room sensor does wrong is its own in each recording. Tiny effects, which are not worth naming, often score
-    // before one that is.
-    std::erase_if(screened, [](const Candidate& candidate) {
-      constexpr double tiny = 0.1;  // half of what is worth naming: a score's step is rough
-      const auto small = [](double step) { return std::abs(step) < tiny; };
-      return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault" ||
-             std::all_of(candidate.step.begin(), candidate.step.end(), small);
+    const std::vector<std::size_t> named = m_result.effects();
+    std::vector<ModelPtr> without(named.size());
+    in_parallel(named.size(), [&](std::size_t i) {
+      without[i] = reduced(best, named[i]);
+      without[i]->fit({8, 0.05, true});
     });
-    const bool alone = m_result.best == m_result.base;
-    std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, alone ? 8u : 4u});
-    in_parallel(doubtful.size(), [&](std::size_t i) { doubtful[i] = with_ordinary(doubtful[i]); });
-    std::erase_if(doubtful, [&](const ModelPtr& fit) {
-      return total_gain(*fit, best) < 0.0 || !worth_naming(*fit) || doubles_a_joint(*fit);
+    const auto shown = [&](std::size_t i) {
+      const bool last = named[i] + 1 == best.machine().effects.size();
+      return best.log_evidence() - without[i]->log_evidence() + (last ? best.elsewhere : 0.0);
+    };
+    std::size_t weakest = 0;
+    for (std::size_t i = 1; i < named.size(); ++i) {
+      if (shown(i) < shown(weakest)) weakest = i;
+    }
+    if (shown(weakest) > (named.size() == 1 ? m_options.first : m_options.second_clean)) {
+      m_result.without = std::move(without);
+      return;
+    }
+    m_result.best = without[weakest];
+    if (named.size() > 1) continue;
+    if (by_evidence(m_result.best, m_result.base)) m_result.base = m_result.best;
+    m_result.best = m_result.base;
+  }
+}
+
+ModelPtr Selector::under(const Model& model, const std::shared_ptr<const Dataset>& data) {
+  auto result = std::make_shared<Model>(model.machine(), data);
+  result->continue_from(model);
+  result->elsewhere = model.elsewhere;
+  result->fit({20, 0.05, true});
+  return result;
+}
+
+ModelPtr Selector::with_ordinary(const ModelPtr& model) const {
+  if (!m_options.own_misfit || m_usual == nullptr) return model;
+  auto data =
+      std::make_shared<Dataset>(with_discrepancy(*m_usual, ordinary_discrepancy(*m_usual, model->prediction())));
+  auto result = std::make_shared<Model>(model->machine(), data);
+  result->continue_from(*model);
+  result->gain = model->gain;
+  result->fit({12, 0.05, true});
+  return result;
+}
+
+/// A misfit chosen before a fit under it is not yet the one that suits the fit.
+ModelPtr Selector::settled_ordinary(ModelPtr model) const {
+  constexpr int most_rounds = 4;
+  for (int round = 0; round < most_rounds; ++round) {
+    ModelPtr next = with_ordinary(model);
+    const bool better = round == 0 || total_gain(*next, *model) > clearly_deeper;
+    if (better) model = std::move(next);
+    if (!better || !m_options.own_misfit) break;
+  }
+  return model;
+}
+
+std::vector<ModelPtr> Selector::leaders_of(const std::vector<ModelPtr>& fits) {
+  std::vector<ModelPtr> list;
+  std::set<std::string> ids;
+  for (const auto& fit : fits) {
+    if (fit->log_evidence() < m_result.base->log_evidence() - 1.0 || list.size() == 3) break;
+    if (ids.insert(last_effect(*fit).id).second) list.push_back(fit);
+  }
+  in_parallel(list.size(), [&](std::size_t i) { list[i] = with_ordinary(list[i]); });
+  std::sort(list.begin(), list.end(), by_total);
+  // Another valley is worth some share of what an effect explains: what is further behind does not get to the front.
+  std::vector<ModelPtr> others(list.size());
+  const auto near = [&](const Model& model, double share) {
+    return total_gain(*list.front(), model) < std::max(60.0, share * total_gain(*list.front(), *m_result.base));
+  };
+  in_parallel(list.size(), [&](std::size_t i) { others[i] = near(*list[i], 0.1) ? other_valley(list[i]) : nullptr; });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (others[i] == nullptr) continue;
+    if (total_gain(*others[i], *list[i]) > clearly_deeper) {
+      std::swap(others[i], list[i]);
+      m_moved = true;
+    }
+    // The lower valley leaves something slow: with a second effect it may be the deeper one.
+    if (excess_of(*others[i]).largest < 2.0 || !near(*others[i], 0.03)) continue;
+    if (m_other_valley == nullptr || by_total(others[i], m_other_valley)) m_other_valley = others[i];
+  }
+  std::sort(list.begin(), list.end(), by_total);
+  return list;
+}
+
+ModelPtr Selector::other_valley(const ModelPtr& model) const {
+  if (!m_options.own_misfit || near_its_description(*model)) return nullptr;
+  const ModelPtr anew = restarted(*model, m_facts);
+  return anew == nullptr ? nullptr : with_ordinary(anew);
+}
+
+ModelPtr Selector::in_the_deeper_valley(const ModelPtr& model) {
+  ModelPtr other = other_valley(model);
+  if (other == nullptr || total_gain(*other, *model) <= clearly_deeper) return model;
+  m_moved = true;
+  return other;
+}
+
+void Selector::base_from(const Model& best) {
+  if (!m_moved) return;
+  ModelPtr without = reduced(best, best.machine().effects.size() - 1);
+  without->fit({15, 0.05, true});
+  without = with_ordinary(without);
+  if (by_total(without, m_result.base)) m_result.best = m_result.base = without;
+}
+
+void Selector::ask_others() {
+  const Model& best = *m_result.best;
+  if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return;
+  std::vector<Candidate> screened = screen(best, m_facts);
+  // What a room sensor does wrong is its own in each recording. Tiny effects, which are not worth naming, often score
+  // before one that is.
+  std::erase_if(screened, [](const Candidate& candidate) {
+    constexpr double tiny = 0.1;  // half of what is worth naming: a score's step is rough
+    const auto small = [](double step) { return std::abs(step) < tiny; };
+    return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault" ||
+           std::all_of(candidate.step.begin(), candidate.step.end(), small);
+  });
+  const bool alone = m_result.best == m_result.base;
+  std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, alone ? 8u : 4u});
+  in_parallel(doubtful.size(), [&](std::size_t i) { doubtful[i] = with_ordinary(doubtful[i]); });
+  std::erase_if(doubtful, [&](const ModelPtr& fit) {
+    return total_gain(*fit, best) < 0.0 || !worth_naming(*fit) || doubles_a_joint(*fit);
+  });
+  ask_elsewhere(doubtful, best, m_options.others);
+  if (doubtful.empty()) return;
+  const auto together = [&](const ModelPtr& fit) { return total_gain(*fit, best) + fit->elsewhere; };
+  std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
+  // What is not quite right about a strong effect's law shows in both.
+  const double least = alone ? m_options.together_alone
+                             : std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
+  if (together(doubtful.front()) <= least) return;
+  m_result.levels.push_back(doubtful);
+  m_result.best = doubtful.front();
+}
+
+void Selector::tell_apart() {
+  constexpr double in_doubt = 8.0;
+  const ModelPtr best = m_result.best;
+  if (m_options.others.empty() || !m_options.own_misfit || best == m_result.base || best->elsewhere != 0.0) return;
+  if (happened_once(*best)) return;
+  std::vector<ModelPtr> near = {best};
+  for (const auto& level : m_result.levels) {
+    for (const auto& fit : level) {
+      const bool other = last_effect(*fit).id != last_effect(*best).id && worth_naming(*fit) && !happened_once(*fit);
+      if (!other || fit->machine().effects.size() != best->machine().effects.size()) continue;
+      if (best->log_evidence() - fit->log_evidence() < in_doubt) near.push_back(fit);
+    }
+  }
+  if (near.size() == 1) return;
+  const ModelPtr less = reduced(*best, best->machine().effects.size() - 1);
+  less->fit({15, 0.05, true});
+  ask_elsewhere(near, *less, m_options.others);
+  for (const ModelPtr& fit : near) {
+    if (evidence_of(*fit) > evidence_of(*m_result.best)) m_result.best = fit;
+  }
+}
+
+void Selector::align() {
+  const auto& data = m_result.best->shared_data();
+  if (!m_options.own_misfit) return;
+  m_result.base = under(*m_result.base, data);
+  const std::size_t size = m_result.best->machine().effects.size();
+  for (auto& level : m_result.levels) {
+    std::vector<ModelPtr> kept;
+    std::set<std::string> ids;
+    for (const auto& fit : level) {
+      if (fit->machine().effects.size() != size || kept.size() == 4) continue;
+      if (ids.insert(last_effect(*fit).id).second) kept.push_back(fit);
+    }
+    in_parallel(kept.size(), [&](std::size_t i) {
+      kept[i] = under(*kept[i], data);
+      if (!m_moved) return;
+      const ModelPtr moved = in_the_valley_of(*kept[i], *m_result.best);
+      if (by_evidence(moved, kept[i])) kept[i] = moved;
     });
-    ask_elsewhere(doubtful, best, m_options.others);
-    if (doubtful.empty()) return;
-    const auto together = [&](const ModelPtr& fit) { return total_gain(*fit, best) + fit->elsewhere; };
-    std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
-    // What is not quite right about a strong effect's law shows in both.
-    const double least = alone ? m_options.together_alone
-                               : std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
-    if (together(doubtful.front()) <= least) return;
-    m_result.levels.push_back(doubtful);
-    m_result.best = doubtful.front();
+    level = std::move(kept);
   }
+}
 
-  /// What this recording can hardly tell apart the others may.
-  void tell_apart() {
-    constexpr double in_doubt = 8.0;
-    const ModelPtr best = m_result.best;
-    if (m_options.others.empty() || !m_options.own_misfit || best == m_result.base || best->elsewhere != 0.0) return;
-    if (happened_once(*best)) return;
-    std::vector<ModelPtr> near = {best};
-    for (const auto& level : m_result.levels) {
-      for (const auto& fit : level) {
-        const bool other = last_effect(*fit).id != last_effect(*best).id && worth_naming(*fit) && !happened_once(*fit);
-        if (!other || fit->machine().effects.size() != best->machine().effects.size()) continue;
-        if (best->log_evidence() - fit->log_evidence() < in_doubt) near.push_back(fit);
-      }
-    }
-    if (near.size() == 1) return;
-    const ModelPtr less = reduced(*best, best->machine().effects.size() - 1);
-    less->fit({15, 0.05, true});
-    ask_elsewhere(near, *less, m_options.others);
-    for (const ModelPtr& fit : near) {
-      if (evidence_of(*fit) > evidence_of(*m_result.best)) m_result.best = fit;
-    }
+bool Selector::swap_one(bool forms) {
+  const std::size_t count = m_result.best->machine().effects.size();
+  if (forms && count < m_result.described + 2) return false;
+  for (std::size_t i = m_result.described; i < count; ++i) {
+    const auto rivals = in_place_of(*m_result.best, i, m_facts, forms);
+    if (rivals.empty() || doubles_a_joint(*rivals.front())) continue;
+    if (rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
+    m_result.best = rivals.front();
+    return true;
   }
+  return false;
+}
 
-  /// Base and rivals under the final model's misfit, so that they can be told against it.
-  void align() {
-    const auto& data = m_result.best->shared_data();
-    if (!m_options.own_misfit) return;
-    m_result.base = under(*m_result.base, data);
-    const std::size_t size = m_result.best->machine().effects.size();
-    for (auto& level : m_result.levels) {
-      std::vector<ModelPtr> kept;
-      std::set<std::string> ids;
-      for (const auto& fit : level) {
-        if (fit->machine().effects.size() != size || kept.size() == 4) continue;
-        if (ids.insert(last_effect(*fit).id).second) kept.push_back(fit);
-      }
-      in_parallel(kept.size(), [&](std::size_t i) {
-        kept[i] = under(*kept[i], data);
-        if (!m_moved) return;
-        const ModelPtr moved = in_the_valley_of(*kept[i], *m_result.best);
-        if (by_evidence(moved, kept[i])) kept[i] = moved;
-      });
-      level = std::move(kept);
-    }
+void Selector::add_one(const std::vector<ModelPtr>& beam) {
+  std::vector<ModelPtr> fits;
+  for (const auto& start : beam) {
+    start->fit({2, 0.05, true});
+    auto screened = screen(*start, m_facts);
+    if (screened.size() > 60) screened.resize(60);
+    for (auto& fit : refine(start, screened, {1, m_options.second_screen, 7})) fits.push_back(std::move(fit));
   }
-
-  /// Another family in the place of one effect, where it is better; with `forms` also another form of the same.
-  bool swap_one(bool forms = false) {
-    const std::size_t count = m_result.best->machine().effects.size();
-    if (forms && count < m_result.described + 2) return false;
-    for (std::size_t i = m_result.described; i < count; ++i) {
-      const auto rivals = in_place_of(*m_result.best, i, m_facts, forms);
-      if (rivals.empty() || doubles_a_joint(*rivals.front())) continue;
-      if (rivals.front()->log_evidence() < m_result.best->log_evidence() + 0.5) continue;
-      m_result.best = rivals.front();
-      return true;
-    }
-    return false;
+  std::sort(fits.begin(), fits.end(), by_total);
+  m_result.levels.push_back(fits);
+  std::vector<ModelPtr> leading;
+  for (const auto& fit : fits) {
+    if (leading.size() == 2) break;
+    leading.push_back(with_ordinary(fit));
   }
-
-  void add_one(const std::vector<ModelPtr>& beam) {
-    std::vector<ModelPtr> fits;
-    for (const auto& start : beam) {
-      start->fit({2, 0.05, true});
-      auto screened = screen(*start, m_facts);
-      if (screened.size() > 60) screened.resize(60);
-      for (auto& fit : refine(start, screened, {1, m_options.second_screen, 7})) fits.push_back(std::move(fit));
-    }
-    std::sort(fits.begin(), fits.end(), by_total);
-    m_result.levels.push_back(fits);
-    std::vector<ModelPtr> leading;
-    for (const auto& fit : fits) {
-      if (leading.size() == 2) break;
-      leading.push_back(with_ordinary(fit));
-    }
-    std::sort(leading.begin(), leading.end(), by_total);
-    const Excess before = excess_of(*m_result.best);
-    for (const auto& fit : leading) {
-      if (doubles_a_joint(*fit)) {
-        if (const ModelPtr single = one_of_its_joints(*fit)) {
-          m_result.best = single;
-          return;
-        }
-      }
-      if (accepted(*fit, before)) {
-        m_result.best = in_the_deeper_valley(fit);
+  std::sort(leading.begin(), leading.end(), by_total);
+  const Excess before = excess_of(*m_result.best);
+  for (const auto& fit : leading) {
+    if (doubles_a_joint(*fit)) {
+      if (const ModelPtr single = one_of_its_joints(*fit)) {
+        m_result.best = single;
         return;
       }
     }
-  }
-
-  /// Where a second joint beside the first is liked, the one joint may stand where the second was put: with that alone,
-  /// where it is better than what there is, else none.
-  ModelPtr one_of_its_joints(const Model& doubled) const {
-    ModelPtr best;
-    for (std::size_t i = m_result.described; i < doubled.machine().effects.size(); ++i) {
-      if (doubled.machine().effects[i].id != "contact_resistance") continue;
-      ModelPtr single = reduced(doubled, i);
-      single->fit({15, 0.05, true});
-      single = with_ordinary(single);
-      if (best == nullptr || by_total(single, best)) best = single;
+    if (accepted(*fit, before)) {
+      m_result.best = in_the_deeper_valley(fit);
+      return;
     }
-    return best != nullptr && total_gain(*best, *m_result.best) > clearly_deeper ? best : nullptr;
   }
+}
 
-  /// What an effect more has to gain where the others leave nothing slow.
-  double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
-
-  /// What an effect against none has to gain.
-  double least_first(const Model& fit) const {
-    return m_options.own_misfit && !worth_naming(fit) ? m_options.tiny : m_options.first;
+ModelPtr Selector::one_of_its_joints(const Model& doubled) const {
+  ModelPtr best;
+  for (std::size_t i = m_result.described; i < doubled.machine().effects.size(); ++i) {
+    if (doubled.machine().effects[i].id != "contact_resistance") continue;
+    ModelPtr single = reduced(doubled, i);
+    single->fit({15, 0.05, true});
+    single = with_ordinary(single);
+    if (best == nullptr || by_total(single, best)) best = single;
   }
+  return best != nullptr && total_gain(*best, *m_result.best) > clearly_deeper ? best : nullptr;
+}
 
-  bool accepted(const Model& fit, const Excess& before) const {
-    if (doubles_a_joint(fit)) return false;
-    const double gained = total_gain(fit, *m_result.best);
-    const double so_far = total_gain(*m_result.best, *m_result.base);
-    if (m_options.own_misfit && gained <= m_options.tiny && !worth_naming(fit)) return false;
-    if (before.largest < 2.0) return gained > least_gain(so_far);
-    if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
-    if (!m_options.excess_must_fall) return true;
-    const Excess after = excess_of(fit);
-    return after.largest - 1.0 < 0.6 * (before.largest - 1.0) || after.mean - 1.0 < 0.6 * (before.mean - 1.0);
+double Selector::least_first(const Model& fit) const {
+  return m_options.own_misfit && !worth_naming(fit) ? m_options.tiny : m_options.first;
+}
+
+bool Selector::accepted(const Model& fit, const Excess& before) const {
+  if (doubles_a_joint(fit)) return false;
+  const double gained = total_gain(fit, *m_result.best);
+  const double so_far = total_gain(*m_result.best, *m_result.base);
+  if (m_options.own_misfit && gained <= m_options.tiny && !worth_naming(fit)) return false;
+  if (before.largest < 2.0) return gained > least_gain(so_far);
+  if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
+  if (!m_options.excess_must_fall) return true;
+  const Excess after = excess_of(fit);
+  return after.largest - 1.0 < 0.6 * (before.largest - 1.0) || after.mean - 1.0 < 0.6 * (before.mean - 1.0);
+}
+
+void Selector::eliminate() {
+  constexpr int most_rounds = 4;
+  for (int round = 0; round < most_rounds && remove_one(); ++round) add_one({m_result.best});
+}
+
+bool Selector::remove_one() {
+  const std::size_t count = m_result.best->machine().effects.size();
+  if (count <= m_result.described + 1) return false;
+  for (std::size_t i = m_result.described; i < count; ++i) {
+    ModelPtr without = reduced(*m_result.best, i);
+    without->fit({15, 0.05, true});
+    without = with_ordinary(without);
+    const double so_far = total_gain(*without, *m_result.base);
+    if (total_gain(*m_result.best, *without) >= least_gain(so_far)) continue;
+    m_result.best = without;
+    return true;
   }
-
-  /// Is each effect still needed beside the others? What is added in the place of one that was not is asked the same.
-  void eliminate() {
-    constexpr int most_rounds = 4;
-    for (int round = 0; round < most_rounds && remove_one(); ++round) add_one({m_result.best});
-  }
-
-  bool remove_one() {
-    const std::size_t count = m_result.best->machine().effects.size();
-    if (count <= m_result.described + 1) return false;
-    for (std::size_t i = m_result.described; i < count; ++i) {
-      ModelPtr without = reduced(*m_result.best, i);
-      without->fit({15, 0.05, true});
-      without = with_ordinary(without);
-      const double so_far = total_gain(*without, *m_result.base);
-      if (total_gain(*m_result.best, *without) >= least_gain(so_far)) continue;
-      m_result.best = without;
-      return true;
-    }
-    return false;
-  }
-
-  physics::RunFacts m_facts;
-  SelectionOptions m_options;
-  const TaskContext& m_context;
-  std::shared_ptr<const Dataset> m_usual;  // with default widths
-  ModelPtr m_other_valley;                 // of a first effect, worth a second one
-  bool m_moved = false;                    // some model was better in another valley than where the base had led it
-  Selection m_result;
-};
-
-}  // namespace
+  return false;
+}
 
 Excess excess_of(const Model& model) {
   Excess excess;

@@ -37,6 +37,7 @@ Excess excess_of(const Model& model);
 struct Selection {
   std::shared_ptr<Model> base;  // refitted without any effect
   std::shared_ptr<Model> best;
+  std::vector<std::shared_ptr<Model>> without;              // the best without each of effects(), fitted
   std::vector<Candidate> screened;                          // around the base
   std::vector<std::vector<std::shared_ptr<Model>>> levels;  // refits with one effect more, best first
   double falling_heat = 0.0;  // log evidence by which heat that falls with speed beats the best; 0: it does not

@@ -116,4 +116,20 @@ TEST(BadInput, ASecondRecordingOfAnotherMachineIsNamed) {
   EXPECT_TRUE(has_note(*answer, "held_out_differs:other"));
 }
 
+/// However wrong the description is, what is named has more evidence than the verdict asks for.
+TEST(BadInput, NothingIsNamedAgainstItsOwnEvidence) {
+  constexpr double least = 7.5;  // SelectionOptions::second_clean
+  for (const double factor : {0.1, 0.4, 3.0}) {
+    proof::Case one = proof::make_case(109, factor < 1.0 ? "none" : "sensor_lag");
+    auto& rod = one.machine["components"][0];
+    for (const char* key : {"outer_diameter_mm", "bore_diameter_mm"}) {
+      if (rod.contains(key)) rod[key] = rod[key].get<double>() * factor;
+    }
+    const auto answer = answer_for(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_EQ(answer->verdict == Verdict::missing_effect, !answer->effects.empty() && !answer->refuted) << factor;
+    for (const auto& effect : answer->effects) EXPECT_GT(effect.log_evidence_gain, least) << effect.id << factor;
+  }
+}
+
 }  // namespace zerodrift::diagnosis
