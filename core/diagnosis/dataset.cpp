@@ -192,17 +192,21 @@ Dataset with_discrepancy(Dataset data, const std::vector<Discrepancy>& channels)
 }
 
 void set_timing_noise(Dataset& data, const physics::Network& network, const physics::InputSet& inputs) {
+  const auto hold = static_cast<std::size_t>(network.hold_parameter);
   std::vector<double> values = network.start_values();
-  values[network.hold_parameter] = 0.0;
-  const physics::Prediction early = predict(network, inputs, values);
-  values[network.hold_parameter] = 1.0;
+  values[hold] = 0.0;
   const physics::Prediction late = predict(network, inputs, values);
+  values[hold] = 1.0;
+  const physics::Prediction early = predict(network, inputs, values);
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    MeasuredChannel& channel = data.channels[c];
     double before = 0.0;
     for (std::size_t k = 0; k < data.rows(); ++k) {
-      const double moved = std::abs(late.channels[c].values[k] - early.channels[c].values[k]);
-      const double rise = 0.3 * std::max(0.0, moved - before);
-      data.channels[c].timing[k] = rise * rise;
+      // New is what the slow drift does not carry over from the sample before, whether it rises or falls.
+      const double fade = k == 0 ? 0.0 : std::exp(-(data.time_s[k] - data.time_s[k - 1]) / channel.drift_time_s);
+      const double moved = early.channels[c].values[k] - late.channels[c].values[k];
+      const double change = network.parameters[hold].sigma * (moved - fade * before);
+      channel.timing[k] = change * change;
       before = moved;
     }
   }

@@ -74,7 +74,8 @@ std::vector<Discrepancy> ordinary_discrepancy(const Dataset& data, const physics
 std::vector<Discrepancy> likely_discrepancy(const Dataset& data, const physics::Prediction& prediction);
 /// The data with those discrepancies (relative to the widths they have).
 Dataset with_discrepancy(Dataset data, const std::vector<Discrepancy>& channels);
-/// Sets the timing noise from how much the switching time moves the nominal prediction.
+/// Sets the timing noise from how much the switching times, each unknown by the width of the network's hold parameter,
+/// move the nominal prediction.
 void set_timing_noise(Dataset& data, const physics::Network& network, const physics::InputSet& inputs);
 
 /// Whitens measured - predicted and, if wanted, the prediction's derivatives (times `slopes`) as columns starting at

@@ -265,8 +265,15 @@ void NetworkBuilder::build() {
   if (count > 0) m_mean_initial_C = sum / count;
   Parameter hold;
   hold.key = "hold";
-  hold.mean = 0.3;
-  hold.sigma = 0.3;
+  // An input switches anywhere between two samples, unless its time is known better (or worse).
+  constexpr double anywhere = 0.3;  // of a sample interval, one sigma
+  hold.sigma = anywhere;
+  const std::vector<double>& time_s = m_inputs.time_s;
+  if (m_machine.input_timing_sigma_s > 0.0 && time_s.size() > 1) {
+    const double interval_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+    hold.sigma = std::max(1e-3, m_machine.input_timing_sigma_s / interval_s);
+  }
+  hold.mean = std::min(anywhere, hold.sigma);
   hold.low = 0.0;
   hold.high = 1.0;
   hold.start = 0.0;
