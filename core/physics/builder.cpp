@@ -179,6 +179,27 @@ Term NetworkBuilder::film_over(const std::string& component, double from_mm, dou
   return term;
 }
 
+Term NetworkBuilder::film_up_to(const std::string& component, int place_parameter) const {
+  const auto at = place(component);
+  Term term;
+  term.kind = TermKind::film;
+  term.first_node = at.first;
+  term.weights.assign(at.count, 0.0);
+  term.place_parameter = place_parameter;
+  const double cell_mm = at.cell_m / m_per_mm;
+  const double perimeter_mm = m_machine.find(component)->perimeter_m() * m_per_mm;  // m2 for each mm of length
+  term.reshape = [at, cell_mm, perimeter_mm](double place_mm, std::vector<double>& weights, std::vector<double>& by) {
+    weights.resize(at.count);
+    by.resize(at.count);
+    for (int i = 0; i < at.count; ++i) {
+      const double covered_mm = place_mm - i * cell_mm;
+      weights[i] = perimeter_mm * std::clamp(covered_mm, 0.0, cell_mm);
+      by[i] = covered_mm > 0.0 && covered_mm <= cell_mm ? perimeter_mm : 0.0;
+    }
+  };
+  return term;
+}
+
 Term NetworkBuilder::source_at(const std::string& component, int place_parameter, double width_mm) const {
   const auto at = place(component);
   Term term;

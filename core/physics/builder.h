@@ -57,6 +57,8 @@ class NetworkBuilder {
   Term source_over(const std::string& component, double from_mm, double to_mm) const;
   Term film_over(const std::string& component, double from_mm, double to_mm) const;
   /// A source whose Gaussian shape moves with a position parameter.
+  /// From the fixed end of a rod to a place that is a parameter.
+  Term film_up_to(const std::string& component, int place_parameter) const;
   Term source_at(const std::string& component, int place_parameter, double width_mm) const;
   Probe probe_at(const std::string& component, double position_mm) const;
   Probe mean_probe(const std::string& component) const;

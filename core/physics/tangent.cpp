@@ -114,10 +114,16 @@ void Tangent::force(std::size_t block, const StepTaken& step, bool first_stage) 
     const Unit& unit = m_units[push.term];
     double* r = m_r.data() + push.lane;
     if (push.slot == Slot::place) {
-      const double factor = step.alpha * sources * now.strength.value;
+      const double factor = step.alpha * now.strength.value;
       if (factor == 0.0) continue;
+      const Term& of = m_net.terms[push.term];
+      const bool film = of.kind == TermKind::film;
+      const double towards_C = film ? m_assembly.environment_C(of.environment) : 1.0;
       for (std::size_t w = 0; w < now.by_place.size(); ++w) {
-        r[static_cast<std::size_t>(unit.nodes[w]) * lanes] += factor * now.by_place[w];
+        const auto node = static_cast<std::size_t>(unit.nodes[w]);
+        double amount = sources * towards_C;
+        if (film) amount -= first_stage ? step.before_C[node] + step.star_C[node] : step.after_C[node];
+        r[node * lanes] += factor * now.by_place[w] * amount;
       }
       continue;
     }

@@ -5,6 +5,27 @@
 namespace zerodrift::physics {
 namespace coolant {
 
+/// What one film has too much is taken off by another.
+Law opposite(const Law& law) {
+  return [law](const LawPoint& at) {
+    Strength s = law(at);
+    s.value = -s.value;
+    s.by_driver = -s.by_driver;
+    s.by_environment = -s.by_environment;
+    for (double& by : s.by_parameter) by = -by;
+    return s;
+  };
+}
+
+/// An edge of the region: what a jet reaches is not what a drawing shows.
+int edge(NetworkBuilder& builder, const EffectSpec& spec, int index, const std::string& key, double low, double high) {
+  const int parameter = builder.effect_parameter(spec, index, key);
+  Parameter& p = builder.network().parameters[static_cast<std::size_t>(parameter)];
+  p.low = low;
+  p.high = high;
+  return parameter;
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
   const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
@@ -36,25 +57,42 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const int environment = builder.environment(std::move(liquid));
   for_components(builder, spec, [&](const Component& component) {
     if (!by_conductance && !has_surface(component)) return;
-    Term film = builder.film_over(component.id, spec.number_or("from_mm", 0.0),
-                                  std::min(component.length_mm, spec.number_or("to_mm", component.length_mm)));
+    const double from_mm = spec.number_or("from_mm", 0.0);
+    const double to_mm = std::min(component.length_mm, spec.number_or("to_mm", component.length_mm));
+    const auto put = [&](Term film, bool minus) {
+      film.label = component.id + "/coolant";
+      film.environment = environment;
+      film.parameters = {strength};
+      film.law_kind = always_on ? LawKind::constant : LawKind::inputs;
+      film.law = always_on ? Law(proportional_law) : times_input(builder.held(flow));
+      if (minus) film.law = opposite(film.law);
+      builder.add(std::move(film));
+    };
+    if (spec.candidate && spec.numbers.count("from_mm") != 0 && !component.lump) {
+      const double middle_mm = 0.5 * (from_mm + to_mm);
+      const int from = edge(builder, spec, index, "from_mm", 0.0, middle_mm);
+      const int to = edge(builder, spec, index, "to_mm", middle_mm, component.length_mm);
+      put(builder.film_up_to(component.id, to), false);
+      put(builder.film_up_to(component.id, from), true);
+      return;
+    }
+    Term film = builder.film_over(component.id, from_mm, to_mm);
     if (by_conductance) film.weights.assign(film.weights.size(), 1.0 / static_cast<double>(film.weights.size()));
-    film.label = component.id + "/coolant";
-    film.environment = environment;
-    film.parameters = {strength};
-    film.law_kind = always_on ? LawKind::constant : LawKind::inputs;
-    film.law = always_on ? Law(proportional_law) : times_input(builder.held(flow));
-    builder.add(std::move(film));
+    put(std::move(film), false);
   });
 }
 
 void add_regions(const Component& component, std::vector<EffectSpec>& list) {
+  const double edge_mm = 0.1 * component.length_mm;
   const auto region = [&](const std::string& name, double from_mm, double to_mm) {
-    list.push_back(
-        {"coolant",
-         true,
-         {{"h_W_m2K", 0.0}, {"from_mm", std::max(0.0, from_mm)}, {"to_mm", std::min(component.length_mm, to_mm)}},
-         {{"component", component.id}, {"region", name}}});
+    list.push_back({"coolant",
+                    true,
+                    {{"h_W_m2K", 0.0},
+                     {"from_mm", std::max(0.0, from_mm)},
+                     {"to_mm", std::min(component.length_mm, to_mm)},
+                     {"from_mm_prior_sigma", edge_mm},
+                     {"to_mm_prior_sigma", edge_mm}},
+                    {{"component", component.id}, {"region", name}}});
   };
   region("all", 0.0, component.length_mm);
   const double margin_mm = 0.06 * component.length_mm;
@@ -107,7 +145,9 @@ const Effect coolant_effect = {
     "extra_heat_source convection",
     {{"h_W_m2K", 60.0, 0.0, 1500.0, true},
      {"conductance_W_K", 0.5, 0.0, 200.0, true},
-     {"temperature_C", 2.0, -20.0, 90.0}},
+     {"temperature_C", 2.0, -20.0, 90.0},
+     {"from_mm", 50.0},
+     {"to_mm", 50.0}},
     {"h_W_m2K", "conductance_W_K"},
     coolant::add,
     coolant::candidates,
