@@ -1,5 +1,6 @@
 #include "app/cli/command.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <set>
@@ -75,6 +76,14 @@ Result<std::vector<double>> numbers_from(const std::string& text, const std::str
 
 std::vector<std::string> names_from(const std::string& text) {
   return split(text);
+}
+
+CLI::Validator names_with_commas() {
+  const auto look = [](std::string& text) {
+    const auto commas = static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
+    return split(text).size() == commas + 1 ? std::string() : "a name is missing in \"" + text + "\"";
+  };
+  return {look, "", "names"};
 }
 
 }  // namespace zerodrift::cli

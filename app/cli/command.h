@@ -43,6 +43,8 @@ class Cli {
 Result<std::vector<double>> numbers_from(const std::string& text, const std::string& option, std::size_t count = 0);
 /// "a,b,c" -> names without blanks.
 std::vector<std::string> names_from(const std::string& text);
+/// For options that names_from reads: a list in which a name is missing is wrong usage.
+CLI::Validator names_with_commas();
 
 // One line a command; each is defined in commands/<command>.cpp.
 void add_all_commands(Cli& cli);

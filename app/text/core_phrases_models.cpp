@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 291> models = {{
+constexpr std::array<const char*, 294> models = {{
     QT_TRANSLATE_NOOP("core", "near heat"),
     QT_TRANSLATE_NOOP("core", "a length in mm, 2 to 30000 (is it in metres?)"),
     QT_TRANSLATE_NOOP("core", "a diameter in mm, 1 to 5000 (is it in metres?)"),
@@ -241,6 +241,9 @@ constexpr std::array<const char*, 291> models = {{
     QT_TRANSLATE_NOOP("core", "%1 has hardly more measurements than parameters (%2)"),
     QT_TRANSLATE_NOOP("core", "%1 is outside what the training saw"),
     QT_TRANSLATE_NOOP("core", "%1 is outside what the training saw (%2)"),
+    QT_TRANSLATE_NOOP("core", "is not in every recording"),
+    QT_TRANSLATE_NOOP("core", "%1 is not in every recording"),
+    QT_TRANSLATE_NOOP("core", "%1 is not in every recording (%2)"),
     QT_TRANSLATE_NOOP("core", "%1 cannot be guaranteed from this recording"),
     QT_TRANSLATE_NOOP("core", "%1 cannot be guaranteed from this recording (%2)"),
     QT_TRANSLATE_NOOP("core", "%1 and the simulation and the inputs"),

@@ -39,6 +39,8 @@ std::string_view sentence_of(FindingKind kind) {
       return "has hardly more measurements than parameters";
     case FindingKind::extrapolation:
       return "is outside what the training saw";
+    case FindingKind::not_in_every_run:
+      return "is not in every recording";
     case FindingKind::not_guaranteed:
       return "cannot be guaranteed from this recording";
   }
@@ -79,6 +81,8 @@ std::string_view name_of(FindingKind kind) {
       return "few_rows";
     case FindingKind::extrapolation:
       return "extrapolation";
+    case FindingKind::not_in_every_run:
+      return "not_in_every_run";
     case FindingKind::not_guaranteed:
       return "not_guaranteed";
   }

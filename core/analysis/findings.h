@@ -25,6 +25,7 @@ enum class FindingKind {
   ill_conditioned,    // the sensors say nearly the same
   few_rows,           // hardly more measurements than parameters
   extrapolation,      // states that the training never saw
+  not_in_every_run,   // one of several recordings lacks it
   not_guaranteed,     // a figure that this recording is too short to guarantee
 };
 

@@ -48,6 +48,16 @@ bool goes_on(const Recording& before, const Recording& after) {
   return *middle < join_tolerance_K;
 }
 
+/// A channel that one recording lacks is told; one that was dropped there is told already.
+void tell_absent(const Prepared& there, const Recording& recording, std::vector<Finding>& findings) {
+  for (const auto* names : {&there.sensors, &there.errors}) {
+    for (const std::string& name : *names) {
+      if (recording.find(name) != nullptr) continue;
+      findings.push_back({FindingKind::not_in_every_run, FindingAction::dropped, name, recording.name});
+    }
+  }
+}
+
 void keep_common(std::vector<std::string>& names, const std::vector<std::string>& other) {
   std::erase_if(names, [&](const std::string& n) { return std::find(other.begin(), other.end(), n) == other.end(); });
 }
@@ -126,7 +136,8 @@ Result<TrainingSet> make_training(const std::vector<Recording>& recordings, cons
     return fail(ErrorCode::not_enough_data, {{"what", "the fit"}, {"found", "no recording"}, {"needed", "one"}});
   }
   TrainingSet set;
-  for (const auto& recording : join_continuing(recordings)) {
+  const std::vector<Recording> joined = join_continuing(recordings);
+  for (const auto& recording : joined) {
     auto run = prepare(recording, options);
     if (!run) return fail(std::move(run).error().with("recording", recording.name));
     set.findings.insert(set.findings.end(), run->findings.begin(), run->findings.end());
@@ -136,6 +147,8 @@ Result<TrainingSet> make_training(const std::vector<Recording>& recordings, cons
     } else {
       keep_common(set.sensors, run->sensors);
       keep_common(set.errors, run->errors);
+      tell_absent(set.runs.front(), recording, set.findings);
+      tell_absent(*run, joined.front(), set.findings);
     }
     set.runs.push_back(std::move(*run));
   }

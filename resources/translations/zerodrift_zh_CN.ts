@@ -3741,6 +3741,18 @@
         <source>a point of %1, %2 x %3 pixels</source>
         <translation>%1 中的点（%2 x %3 像素）</translation>
     </message>
+    <message>
+        <source>is not in every recording</source>
+        <translation>并非每次记录都有</translation>
+    </message>
+    <message>
+        <source>%1 is not in every recording</source>
+        <translation>%1 并非每次记录都有</translation>
+    </message>
+    <message>
+        <source>%1 is not in every recording (%2)</source>
+        <translation>%1 并非每次记录都有（%2 中没有）</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

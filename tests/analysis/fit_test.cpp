@@ -155,6 +155,28 @@ TEST(Fit, RefusesWhatCannotBeFitted) {
   EXPECT_EQ(fit({r}, options).error().code, ErrorCode::channel_missing);
 }
 
+TEST(Fit, AChannelThatOneRecordingLacksIsTold) {
+  const auto first = machine_run(warm_up());
+  auto second = machine_run(other_day());
+  std::erase_if(second.channels, [](const auto& channel) { return channel.name == "T3_C" || channel.name == "dY_um"; });
+  second.name = "second.csv";
+  FitOptions options;
+  options.method = Method::mlr;
+  for (const auto& recordings : {std::vector{first, second}, std::vector{second, first}}) {
+    const auto model = fit(recordings, options);
+    ASSERT_TRUE(model) << describe(model.error());
+    for (const char* channel : {"T3_C", "dY_um"}) {
+      EXPECT_EQ(std::count_if(model->findings.begin(), model->findings.end(),
+                              [&](const Finding& f) {
+                                return f.kind == FindingKind::not_in_every_run && f.channel == channel &&
+                                       f.detail == "second.csv";
+                              }),
+                1)
+          << channel;
+    }
+  }
+}
+
 TEST(Fit, NoNumberIsEverMissingInTheFile) {
   auto r = machine_run(warm_up());
   for (std::size_t i = 300; i < 400; ++i) r.find("T4_C")->values[i] = missing;

@@ -29,7 +29,11 @@ def check(folder):
         assert file.read() == before
     for clusters in ("0", "-3", "abc"):
         usage("cluster", "--recording", recording, "--clusters", clusters, "--out", other)
+    usage("cluster", "--recording", recording, "--seed", "-1", "--out", other)
+    usage("cluster", "--recording", recording, "--errors", "dX_um,,dZ_um", "--out", other)
     usage("fit", "--recording", recording, "--coverage", "500", "--out", other)
+    usage("fit", "--recording", recording, "--sensors", "", "--out", other)
+    usage("fit", "--recording", recording, "--errors", ",", "--out", other)
     usage("export", "--table", other, "--format", "bogus", "--out", other)
     usage("axis-table", "--laser", recording, "--threshold", "2", "--out", other)
     usage("axis-table", "--laser", recording, "--start-points", "1", "--out", other)

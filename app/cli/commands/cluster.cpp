@@ -95,14 +95,15 @@ void add_cluster(Cli& cli) {
         return cluster_count(text) ? std::string() : text + " is no number from 1 up, nor auto";
       })
       ->capture_default_str();
-  app.add_option("--errors", options->errors, "Errors to correlate with, for example dX_um,dY_um,dZ_um (default: all)");
+  app.add_option("--errors", options->errors, "Errors to correlate with, for example dX_um,dY_um,dZ_um (default: all)")
+      ->check(names_with_commas());
   app.add_option("--distance", options->distance, "raw (as published), rise over the first sample, or standardised")
       ->check(CLI::IsMember({"raw", "rise", "standardised"}))
       ->capture_default_str();
   app.add_option("--sum", options->sum, "Sum of correlations: signed (as published), absolute, or auto")
       ->check(CLI::IsMember({"auto", "signed", "absolute"}))
       ->capture_default_str();
-  app.add_option("--seed", options->seed, "Seed of the roulette")->capture_default_str();
+  app.add_option("--seed", options->seed, "Seed of the roulette")->check(CLI::NonNegativeNumber)->capture_default_str();
   app.add_option("--out", options->out, "clusters.json to write")->required();
 }
 

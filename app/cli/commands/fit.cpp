@@ -142,8 +142,10 @@ void add_fit(Cli& cli) {
                            [options](const TaskContext& context) { return run(*options, context); });
   app.add_option("--recording", options->recordings, "Recording (CSV); may be given several times")->required();
   app.add_option("--sensors", options->sensors, "Channels to use, for example T1_C,T5_C, or auto")
+      ->check(names_with_commas())
       ->capture_default_str();
-  app.add_option("--errors", options->errors, "Errors to fit, for example dX_um,dZ_um (default: all)");
+  app.add_option("--errors", options->errors, "Errors to fit, for example dX_um,dZ_um (default: all)")
+      ->check(names_with_commas());
   app.add_option("--method", options->method, "auto, mlr, ridge, pcr, lasso, robust, dynamic, arx, greybox or physics")
       ->check(CLI::IsMember({"auto", "mlr", "ridge", "pcr", "lasso", "robust", "dynamic", "arx", "greybox", "physics"}))
       ->capture_default_str();

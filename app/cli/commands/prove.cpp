@@ -66,7 +66,8 @@ void add_prove(Cli& cli) {
   CLI::App* command = cli.add("prove", "Blind trial: concealed physics, sealed answers, diagnosis, score and report",
                               [arguments](const TaskContext& context) { return run_prove(*arguments, context); });
   command->add_option("--cases", arguments->cases, "How many cases")->check(CLI::Range(1, 100000));
-  command->add_option("--seed", arguments->seed, "Seed of the cases; without it nobody knows them");
+  command->add_option("--seed", arguments->seed, "Seed of the cases; without it nobody knows them")
+      ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--hide", arguments->kind,
                    "What every case hides: an effect's id, none, pair or unlisted; without it a mixture")
