@@ -8,7 +8,9 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 180> measuring = {{
+constexpr std::array<const char*, 182> measuring = {{
+    QT_TRANSLATE_NOOP("core", "an empty cell"),
+    QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
     QT_TRANSLATE_NOOP("core", "a point of %1, %2 x %3 pixels"),
     QT_TRANSLATE_NOOP("core", "an interrupted run"),

@@ -143,9 +143,11 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file) {
       double& value = k == 1 ? view.x_mm : view.y_mm;
       ZD_TRY(value, recording::number_in(table, row, columns[k]));
       if (!std::isfinite(value)) {
-        return fail(
-            ErrorCode::csv_bad_number,
-            {{"file", file.string()}, {"line", std::to_string(table.lines[row])}, {"column", names[k]}, {"found", ""}});
+        const std::string& cell = table.rows[row][static_cast<std::size_t>(columns[k])];
+        return fail(ErrorCode::bad_argument,
+                    {{"what", fmt::format("{}, line {}, {}", file.string(), table.lines[row], names[k])},
+                     {"found", cell.empty() ? "an empty cell" : cell},
+                     {"expected", "where the machine stood, in mm"}});
       }
     }
     const fs::path beside = file.parent_path() / view.name;

@@ -3753,6 +3753,14 @@
         <source>%1 is not in every recording (%2)</source>
         <translation>%1 并非每次记录都有（%2 中没有）</translation>
     </message>
+    <message>
+        <source>an empty cell</source>
+        <translation>空单元格</translation>
+    </message>
+    <message>
+        <source>where the machine stood, in mm</source>
+        <translation>机床当时的位置（mm）</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

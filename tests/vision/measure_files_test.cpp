@@ -122,6 +122,8 @@ TEST_F(MeasureFiles, ViewsFileFaultsAreNamed) {
   EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::csv_bad_header);
   ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,up\n"));
   EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::csv_bad_number);
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,\n"));
+  EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::bad_argument);
 }
 
 TEST(RegionFinder, FindsThePatternAndSaysWhenThereIsNone) {
