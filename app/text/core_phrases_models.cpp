@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 294> models = {{
+constexpr std::array<const char*, 303> models = {{
     QT_TRANSLATE_NOOP("core", "near heat"),
     QT_TRANSLATE_NOOP("core", "a length in mm, 2 to 30000 (is it in metres?)"),
     QT_TRANSLATE_NOOP("core", "a diameter in mm, 1 to 5000 (is it in metres?)"),
@@ -341,6 +341,20 @@ constexpr std::array<const char*, 294> models = {{
     QT_TRANSLATE_NOOP(
         "core",
         "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."),
+    QT_TRANSLATE_NOOP("core",
+                      "No effect of the library is missing, but the simulation agrees with the recording only with "
+                      "numbers far from those described."),
+    QT_TRANSLATE_NOOP("core",
+                      "To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times "
+                      "its tolerance: check units, sizes and powers."),
+    QT_TRANSLATE_NOOP("core", "the heat"),
+    QT_TRANSLATE_NOOP("core", "the conductivity"),
+    QT_TRANSLATE_NOOP("core", "the heat capacity"),
+    QT_TRANSLATE_NOOP("core", "the expansion"),
+    QT_TRANSLATE_NOOP("core", "the film to the room"),
+    QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),
+    QT_TRANSLATE_NOOP("core",
+                      "With its sign turned, {channel} is as described: check which way it counts as positive."),
     QT_TRANSLATE_NOOP("core", "To see whether there is {@rival}, {minutes} min in all: {@run}."),
 }};
 

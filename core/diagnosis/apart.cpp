@@ -34,6 +34,9 @@ void merge(Diagnosis& all, Diagnosis part, std::size_t described) {
       if (note.starts_with("heat_falls_with_speed")) all.notes.push_back(note);
     }
   }
+  for (const auto& note : part.notes) {
+    if (note.starts_with("far_from_description:")) all.notes.push_back(note);
+  }
   const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(all.effects, part.effects);
   append(all.ambiguous_with, part.ambiguous_with);

@@ -91,9 +91,11 @@ Result<Diagnosis> Diagnoser::run() {
   effects();
   rivals();
   if (m_options.details) details();
-  m_out.sentences.push_back(explain_verdict(m_out));
-  if (m_out.verdict != Verdict::unexplained) cannot_show();
   m_out.notes = m_selection.base->network().notes;
+  std::vector<Sentence> far = far_parameters();
+  m_out.sentences.push_back(explain_verdict(m_out));
+  m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
+  if (m_out.verdict != Verdict::unexplained) cannot_show();
   notes();
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   m_context.progress(1.0, "done");
@@ -211,7 +213,10 @@ void Diagnoser::decide() {
     // imitated less well. The proof has the distribution of both.
     m_out.refuted = refuted();
     const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0;
-    const bool poor = wrong || (asked > 3.0 && leftover(of_best) > most_left * leftover(of_base));
+    // What stands for many parts as one lump each is a guess, and leaves what it leaves.
+    const double left = leftover(of_best);
+    const bool by_far = !m_lumps_only && left > most_left_widths;
+    const bool poor = wrong || by_far || (asked > 3.0 && left > most_left * leftover(of_base));
     m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
     // A wrong effect can worsen the prediction of another run: it is used only if it really helps.
     const bool helps = !wrong && after.mean < 0.7 * before.mean;

@@ -1,12 +1,17 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/experiment.h"
+#include "core/diagnosis/explain.h"
 #include "core/diagnosis/locate.h"
+#include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
 #include "core/physics/effects/effect.h"
+#include "core/physics/initial_state.h"
 
 namespace zerodrift::diagnosis {
 
@@ -287,6 +292,21 @@ void Diagnoser::details() {
   m_out.suggested = suggest_experiment(*m_selection.best, rivals);
 }
 
+/// A simulation that agrees only with numbers far from the description's does not bear the description out.
+std::vector<Sentence> Diagnoser::far_parameters() {
+  constexpr std::size_t most_told = 3;
+  std::vector<Sentence> told;
+  for (const FarParameter& one : far_from_description(*m_used)) {
+    m_out.notes.push_back(fmt::format("far_from_description:{}:{}:{:.3g}", one.quantity.substr(9), one.of, one.factor));
+    if (told.size() == most_told) continue;
+    told.push_back(explain_note("far_from_description", {{"quantity", one.quantity},
+                                                         {"part", one.of},
+                                                         {"factor", fmt::format("{:.2g}", one.factor)},
+                                                         {"widths", fmt::format("{:.0f}", one.widths)}}));
+  }
+  return told;
+}
+
 /// What may be there although it is not named: no size that there can be would have shown.
 void Diagnoser::cannot_show() {
   std::vector<std::string> unseen;
@@ -307,7 +327,21 @@ void Diagnoser::notes() {
     }
     return high - low > 12.0 * c.noise;
   });
-  if (!excited) m_out.notes.emplace_back("no_excitation");
+  // The room alone says little about the machine; what cools down from warm does.
+  const bool still =
+      physics::nothing_drives(m_selection.base->inputs()) && !physics::starts_warm(m_machine, recording());
+  if (!excited || still) {
+    m_out.notes.emplace_back("no_excitation");
+    m_out.sentences.push_back(explain_note("no_excitation"));
+  }
+  for (const MeasuredChannel& channel : m_default_data->channels) {
+    if (m_out.verdict == Verdict::consistent || channel.samples == 0) continue;
+    const auto report = std::find_if(m_out.channels.begin(), m_out.channels.end(),
+                                     [&](const ChannelReport& one) { return one.channel == channel.name; });
+    if (report == m_out.channels.end() || !is_mirrored(channel, report->nominal)) continue;
+    m_out.notes.push_back("sign_turned:" + channel.name);
+    m_out.sentences.push_back(explain_note("sign_turned", {{"channel", channel.name}}));
+  }
   if (m_out.verdict == Verdict::unexplained && m_selection.falling_heat > 0.0 && !m_out.mismatch.channels.empty()) {
     m_out.notes.push_back("heat_falls_with_speed:" + m_out.mismatch.channels.front());
   }

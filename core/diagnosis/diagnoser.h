@@ -18,6 +18,9 @@ class Diagnoser {
 
  private:
   static constexpr double most_left = 0.2;  // of the mismatch, rms, for an effect to explain it
+  /// What an explanation may leave, in widths of noise and ordinary misfit, however much it explains. Right ones leave
+  /// one.
+  static constexpr double most_left_widths = 10.0;
 
   /// What is fitted: the first recording, thinned if it is long.
   const recording::Recording& recording() const { return m_fitted; }
@@ -47,6 +50,7 @@ class Diagnoser {
   bool refuted() const;
   void details();
   void cannot_show();
+  std::vector<Sentence> far_parameters();
   void notes();
 
   const physics::Machine& m_machine;  // as described

@@ -133,7 +133,9 @@ struct DiagnoseOptions {
 /// leaves an effect in doubt or can hardly tell two apart, the others decide with it (elsewhere.h; note
 /// "decided_with_others:ID"); what is fitted is fitted to the first alone, but a place is told with what all recordings
 /// show of it where all fit (the refined description keeps the first's). Note "heat_falls_with_speed:CHANNEL": no law
-/// has such heat, and nothing is named there.
+/// has such heat, and nothing is named there. Note "far_from_description:QUANTITY:OF:FACTOR": the fit moved a number of
+/// the description by more than four of its tolerances. Note "sign_turned:CHANNEL": the displacement follows the
+/// description with its sign turned. Note "no_excitation": nothing moves, or nothing drives the machine.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

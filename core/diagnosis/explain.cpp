@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -150,6 +151,9 @@ Sentence explain_rival(const Rival& rival) {
 Sentence explain_verdict(const Diagnosis& diagnosis) {
   Sentence s;
   s.id = "verdict_" + std::string(name_of(diagnosis.verdict));
+  const bool bent = std::any_of(diagnosis.notes.begin(), diagnosis.notes.end(),
+                                [](const auto& note) { return note.starts_with("far_from_description:"); });
+  if (diagnosis.verdict == Verdict::consistent && bent) s.id += "_bent";
   if (diagnosis.verdict == Verdict::unexplained) {
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
     s.facts = {{"channel", channel}, {"regime", regime_or_always(diagnosis.mismatch.regime)}};
@@ -166,6 +170,10 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     s.facts = {{"effects", list}};
   }
   return finished(std::move(s));
+}
+
+Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts) {
+  return finished({id, std::move(facts), ""});
 }
 
 Sentence explain_unseen(const std::vector<std::string>& effects) {

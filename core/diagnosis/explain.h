@@ -13,6 +13,8 @@ Sentence explain_verdict(const Diagnosis& diagnosis);
 /// Empty for what is not shown (cosines, logarithms).
 std::string parameter_in_words(const std::string& key, double value, double sigma);
 /// Of effects that this recording would have shown only at an impossible size.
+/// A sentence of the catalogue with its facts.
+Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts = {});
 Sentence explain_unseen(const std::vector<std::string>& effects);
 /// `run` in English words: "half speed without coolant"; how long it takes in all.
 Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run,

@@ -1,6 +1,8 @@
 #pragma once
-// Before any effect is looked for: could this recording be of this machine at all? Units that are off by a thousand or
-// the wrong machine are no missing physics.
+// Is the description of this machine, and the recording of this description? Units that are off, a machine that was
+// never driven and a sign the wrong way round are no missing physics.
+
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/diagnosis/model.h"
@@ -9,5 +11,18 @@ namespace zerodrift::diagnosis {
 
 /// An error naming the channel whose movement differs from the simulated one by more than any missing effect could.
 Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal);
+
+/// What a fit has made of a number of the description.
+struct FarParameter {
+  std::string quantity;  // id in the catalogue of sentences: "quantity_heat" ...
+  std::string of;        // component or source
+  double factor = 1.0;   // fitted over described
+  double widths = 0.0;   // of its tolerance
+};
+/// Numbers of the description that a fit has moved out of all tolerance (more than four widths), farthest first.
+std::vector<FarParameter> far_from_description(const Model& model);
+
+/// Does the measured displacement follow the described one with the sign turned?
+bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nominal);
 
 }  // namespace zerodrift::diagnosis

@@ -31,6 +31,20 @@ constexpr std::array catalogue{
     Entry{
         "cannot_show",
         "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."},
+    Entry{
+        "verdict_consistent_bent",
+        "No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
+        "those described."},
+    Entry{"far_from_description",
+          "To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: "
+          "check units, sizes and powers."},
+    Entry{"quantity_heat", "the heat"},
+    Entry{"quantity_conductivity", "the conductivity"},
+    Entry{"quantity_capacity", "the heat capacity"},
+    Entry{"quantity_expansion", "the expansion"},
+    Entry{"quantity_film", "the film to the room"},
+    Entry{"no_excitation", "Nothing drives the machine in this recording: little can be learned from it."},
+    Entry{"sign_turned", "With its sign turned, {channel} is as described: check which way it counts as positive."},
     Entry{"experiment_show", "To see whether there is {@rival}, {minutes} min in all: {@run}."},
     Entry{"experiment_run", "To tell {@best} from {@rival}, {minutes} min in all: {@run}."},
     Entry{"nothing_to_simulate", "The profile holds no machine description, so there is nothing to simulate."},

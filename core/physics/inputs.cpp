@@ -77,6 +77,14 @@ std::vector<double> mended(const std::vector<double>& values, const std::vector<
   return out;
 }
 
+bool nothing_drives(const InputSet& inputs) {
+  const auto still = [](const std::vector<double>& row) {
+    return std::all_of(row.begin(), row.end(), [](double v) { return v == 0.0; });
+  };
+  return !inputs.held.empty() && !inputs.held.front().empty() &&
+         std::all_of(inputs.held.begin(), inputs.held.end(), still);
+}
+
 InputSet make_inputs(const Network& network, const recording::Recording& recording) {
   InputSet set;
   set.time_s = recording.time_s;

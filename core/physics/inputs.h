@@ -18,6 +18,9 @@ struct InputSet {
   std::size_t rows() const { return time_s.size(); }
 };
 
+/// There are inputs, and all of them are zero all the time: nothing heats but the room.
+bool nothing_drives(const InputSet& inputs);
+
 InputSet make_inputs(const Network& network, const recording::Recording& recording);
 
 /// Fills gaps linearly and removes isolated spikes (more than 8 noise widths and 2.5 times both neighbours' deviation

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/physics/builder.h"
+#include "core/physics/initial_state.h"
 #include "core/physics/prediction.h"
 #include "core/physics/simulate.h"
 #include "core/physics/simulator.h"
@@ -153,6 +154,7 @@ Result<Placement> place_sensor(const Machine& machine, const recording::Recordin
   placement.error = options.error;
   placement.length_mm = rod->length_mm;
   placement.notes = network.notes;
+  if (nothing_drives(set) && !starts_warm(machine, inputs)) placement.notes.emplace_back("no_excitation");
   std::vector<double> error;
   const recording::Channel* seen = inputs.find(options.error);
   if (seen != nullptr && recording::present_count(*seen) > 10) {

@@ -3430,6 +3430,42 @@
         <translation>本次记录无法判断是否存在{+effects}：只有超出可能范围的大小才会显示出来。</translation>
     </message>
     <message>
+        <source>No effect of the library is missing, but the simulation agrees with the recording only with numbers far from those described.</source>
+        <translation>没有缺少效应库中的效应，但只有在参数与描述相差很大时，仿真才与记录一致。</translation>
+    </message>
+    <message>
+        <source>To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: check units, sizes and powers.</source>
+        <translation>为了拟合，{part}的{@quantity}须为所述值的 {factor} 倍，偏差为其容差的 {widths} 倍：请检查单位、尺寸和功率。</translation>
+    </message>
+    <message>
+        <source>the heat</source>
+        <translation>发热量</translation>
+    </message>
+    <message>
+        <source>the conductivity</source>
+        <translation>导热系数</translation>
+    </message>
+    <message>
+        <source>the heat capacity</source>
+        <translation>热容</translation>
+    </message>
+    <message>
+        <source>the expansion</source>
+        <translation>热膨胀</translation>
+    </message>
+    <message>
+        <source>the film to the room</source>
+        <translation>对室内空气的换热</translation>
+    </message>
+    <message>
+        <source>Nothing drives the machine in this recording: little can be learned from it.</source>
+        <translation>本次记录中没有任何输入驱动机床：从中能得到的信息很少。</translation>
+    </message>
+    <message>
+        <source>With its sign turned, {channel} is as described: check which way it counts as positive.</source>
+        <translation>将符号反转后，{channel} 与描述一致：请检查哪个方向记为正。</translation>
+    </message>
+    <message>
         <source>To see whether there is {@rival}, {minutes} min in all: {@run}.</source>
         <translation>为判断是否存在{@rival}（共 {minutes} min）：{@run}。</translation>
     </message>

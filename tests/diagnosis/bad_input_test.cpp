@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/physics/simulate.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -129,6 +130,97 @@ TEST(BadInput, NothingIsNamedAgainstItsOwnEvidence) {
     ASSERT_TRUE(answer.has_value()) << describe(answer.error());
     EXPECT_EQ(answer->verdict == Verdict::missing_effect, !answer->effects.empty() && !answer->refuted) << factor;
     for (const auto& effect : answer->effects) EXPECT_GT(effect.log_evidence_gain, least) << effect.id << factor;
+  }
+}
+
+/// Fahrenheit looks like sources of nearly twice their power: no effect, but no agreement either.
+TEST(BadInput, NumbersFarFromTheDescriptionAreNamed) {
+  proof::Case one = proof::make_case(110, "none");
+  for (auto& channel : one.recordings[0].channels) {
+    if (!channel.name.ends_with("_C")) continue;
+    for (double& value : channel.values) value = 1.8 * value + 32.0;
+  }
+  one.machine.erase("initial_temperature_C");
+  one.recordings.resize(1);
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(has_note(*answer, "far_from_description:heat:"));
+  ASSERT_FALSE(answer->sentences.empty());
+  EXPECT_NE(answer->sentences.front().id, "verdict_consistent");
+  const auto sound = answer_for(proof::make_case(110, "none"));
+  ASSERT_TRUE(sound.has_value());
+  EXPECT_FALSE(has_note(*sound, "far_from_description"));
+}
+
+TEST(BadInput, AMachineThatIsNeverDrivenIsNamed) {
+  proof::Case one = proof::make_case(111, "none");
+  auto& run = one.recordings[0];
+  std::size_t still = 0;  // rows before anything turns
+  while (still < run.rows() && run.find("spindle_rpm")->values[still] == 0.0) ++still;
+  run = recording::slice(run, 0, std::max<std::size_t>(still, 30));
+  for (auto& channel : run.channels) {
+    if (channel.name == "ambient_C") {
+      for (std::size_t k = 0; k < run.rows(); ++k) channel.values[k] += 0.05 * static_cast<double>(k);
+    } else if (!channel.name.ends_with("_C") && !channel.name.ends_with("_um")) {
+      channel.values.assign(run.rows(), 0.0);
+    }
+  }
+  one.recordings.resize(1);
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(has_note(*answer, "no_excitation"));
+}
+
+TEST(BadInput, ADisplacementWithItsSignTurnedIsNamed) {
+  proof::Case one = proof::make_case(112, "none");
+  for (double& value : one.recordings[0].find("dZ_um")->values) value = -value;
+  one.recordings.resize(1);
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::unexplained);
+  EXPECT_TRUE(has_note(*answer, "sign_turned:dZ_um"));
+}
+
+/// Where the coolant wets what no drawing shows, the region is found; where it wets two, one of them is not enough.
+TEST(BadInput, ACoolantsRegionIsFoundAndHalfAnExplanationIsNone) {
+  for (const bool twice : {false, true}) {
+    const proof::Case one = proof::make_case(113, "none");
+    const double length_mm = one.machine["components"][0]["length_mm"];
+    auto machine = physics::machine_from_json(one.machine, one.name);
+    ASSERT_TRUE(machine.has_value());
+    physics::Machine wet = *machine;
+    const auto put = [&](double from, double to) {
+      wet.effects.push_back(
+          {"coolant",
+           false,
+           {{"h_W_m2K", 120.0}, {"temperature_C", 18.0}, {"from_mm", from * length_mm}, {"to_mm", to * length_mm}},
+           {{"component", wet.components.front().id}}});
+    };
+    put(0.55, 0.85);
+    if (twice) put(0.0, 0.2);
+    recording::Recording run = one.recordings[0];
+    auto& coolant = run.ensure("coolant_on").values;
+    for (std::size_t k = 0; k < run.rows(); ++k) coolant[k] = k / 60 % 2 == 1 ? 1.0 : 0.0;
+    const auto predicted = physics::simulate(wet, run);
+    ASSERT_TRUE(predicted.has_value()) << describe(predicted.error());
+    for (auto& channel : run.channels) {
+      const auto* seen = predicted->prediction.find(channel.name);
+      if (seen == nullptr || channel.name == "ambient_C") continue;
+      const bool moved = channel.name.ends_with("_um");
+      for (std::size_t k = 0; k < run.rows(); ++k) {
+        const double noise = std::sin(12.9898 * static_cast<double>(k * k) + channel.name[1]);
+        channel.values[k] = seen->values[k] + (moved ? 0.1 : 0.02) * noise;
+      }
+    }
+    const auto answer = diagnose(*machine, {run}, {false});
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    if (twice) {
+      EXPECT_EQ(answer->verdict, Verdict::unexplained) << answer->excess_after;
+      continue;
+    }
+    ASSERT_TRUE(only_names(*answer, "coolant"));
+    EXPECT_NEAR(answer->effects[0].parameters.at("from_mm"), 0.55 * length_mm, 12.0);
+    EXPECT_NEAR(answer->effects[0].parameters.at("to_mm"), 0.85 * length_mm, 12.0);
   }
 }
 

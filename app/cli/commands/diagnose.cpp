@@ -53,7 +53,7 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
   output.text = text_of(result);
   for (const auto& note : result.notes) {
     if (note == "no_excitation")
-      output.warnings.emplace_back("nothing warms in this recording: little can be learned from it");
+      output.warnings.emplace_back("nothing drives the machine in this recording: little can be learned from it");
     if (note.rfind("held_out_differs", 0) == 0) {
       output.warnings.push_back("a held-out recording does not fit this machine (" + note.substr(17) + ")");
     }

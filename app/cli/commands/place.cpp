@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/cli/command.h"
 #include "core/base/json.h"
 #include "core/physics/placement.h"
@@ -60,6 +62,9 @@ Result<CommandOutput> run_place(const PlaceArguments& arguments, const TaskConte
       "{:.2f} um rms (r = {:.4f}, {:.2f} um/K, lag {:.0f} s).",
       placement.component, placement.from_mm, placement.to_mm, placement.error, placement.best.residual_um,
       placement.best.correlation, placement.best.um_per_K, placement.best.lag_s);
+  if (std::find(placement.notes.begin(), placement.notes.end(), "no_excitation") != placement.notes.end()) {
+    output.warnings.emplace_back("nothing drives the machine in this recording: the place means little");
+  }
   return output;
 }
 
