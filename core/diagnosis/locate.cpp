@@ -220,7 +220,10 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
   if (spread < 0.35 * std::abs(mean)) return "all the time";
   std::string best = "at irregular times";
   constexpr double least = 0.55;
+  constexpr double least_of_the_named = 0.3;
   double largest = least;
+  double largest_of_the_named = least_of_the_named;
+  const char* words_of_the_named = nullptr;
   for (const auto& driver : drivers) {
     const recording::Channel* channel = recording.find(driver.channel);
     if (channel == nullptr) continue;
@@ -239,14 +242,17 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
       level.push_back(count > 0 ? sum / count : 0.0);
     }
     const double r = std::abs(correlation(level, scan.watts));
-    // Speed and coolant go together in most plans: the evidence for the named effect tells more than a correlation.
-    if (driven_by == driver.channel && r > least) return driver.words;
+    if (driven_by == driver.channel && r > largest_of_the_named) {
+      largest_of_the_named = r;
+      words_of_the_named = driver.words;
+    }
     if (r > largest) {
       largest = r;
       best = driver.words;
     }
   }
-  return best;
+  // Speed and coolant go together in most plans: the evidence for the named effect tells more than a correlation.
+  return words_of_the_named != nullptr ? words_of_the_named : best;
 }
 
 }  // namespace zerodrift::diagnosis
