@@ -17,7 +17,7 @@ struct SelectionOptions {
   double second = 25;             // a second effect where it does
   double second_relative = 0.002;
   double together = 10.0;  // an effect that two recordings have to show together: the faults of a description add up
-  double together_alone = 20.0;  // the same where nothing else is missing: sound machines reached 16
+  double together_alone = 40.0;  // the same where nothing else is missing: of 350 sound machines one reached 29
   double tiny = 30.0;            // an effect against none where it is so small that every machine has as much of it
   int most_effects = 3;
   bool own_misfit = true;        // models are compared at the ordinary misfit that suits each best

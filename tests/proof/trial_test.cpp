@@ -138,9 +138,10 @@ TEST(ConcealedCase, TheOtherRecordingTellsTheLawThePartnerAndThatItIsTheSame) {
   }
 }
 
-/// Radiation at ordinary rises is a larger film to one recording; two days tell.
+/// Friction that falls as the oil warms is another friction to one recording; two days tell.
 TEST(ConcealedCase, WhatOneRecordingLeavesInDoubtTwoMayShow) {
-  const ConcealedCase one = draw_case(5550123, 102, "radiation", false);
+  const ConcealedCase one = draw_case(2497346610, 54);
+  ASSERT_EQ(one.truth.words(), "bearing_viscosity");
   const fs::path folder = fs::path(testing::TempDir()) / ("zd_doubt_" + std::to_string(::getpid()));
   ASSERT_TRUE(write_case_files(one, folder));
   const auto alone = diagnose_files(folder, {"recording.csv"}, "alone.json", {});
@@ -150,9 +151,9 @@ TEST(ConcealedCase, WhatOneRecordingLeavesInDoubtTwoMayShow) {
   ASSERT_TRUE(both);
   EXPECT_EQ(both->at("verdict"), "missing_effect");
   ASSERT_EQ(both->at("effects").size(), 1u);
-  EXPECT_EQ(both->at("effects")[0].at("id"), "radiation");
+  EXPECT_EQ(both->at("effects")[0].at("id"), "bearing_viscosity");
   const auto notes = both->at("notes").get<std::vector<std::string>>();
-  EXPECT_NE(std::find(notes.begin(), notes.end(), "decided_with_others:radiation"), notes.end());
+  EXPECT_NE(std::find(notes.begin(), notes.end(), "decided_with_others:bearing_viscosity"), notes.end());
   fs::remove_all(folder);
 }
 
