@@ -11,7 +11,7 @@
 namespace zerodrift::vision {
 
 struct FramePatch {
-  enum State : std::uint8_t { seen, outside, too_bright };
+  enum State : std::uint8_t { seen, outside, too_bright, doubted };
 
   FramePatch(const GrayImage& frame, const Region& region, const Eigen::Matrix2d& blur_px2);
   /// Leaves out the surroundings of bright spots as well, where their flank still falls steeply.

@@ -4,12 +4,17 @@
 #include <opencv2/core.hpp>
 
 #include "core/vision/image.h"
+#include "core/vision/spline_image.h"
 
 namespace zerodrift::vision {
 
 /// A view of the same pixels; valid as long as the image lives.
 inline cv::Mat mat_view(const GrayImage& image) {
   return cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
+}
+
+inline cv::Mat mat_view(const FloatImage& image) {
+  return cv::Mat(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
 }
 
 inline GrayImage gray_from_mat(const cv::Mat& mat) {

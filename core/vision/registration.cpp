@@ -9,6 +9,7 @@
 #include "core/vision/frame_patch.h"
 #include "core/vision/registration_solver.h"
 #include "core/vision/smooth_field.h"
+#include "core/vision/window_likeness.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -33,7 +34,10 @@ constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nea
 constexpr double glare_share = 0.005;   // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
-constexpr double poor_residual = 4.0;  // grey levels at middle grey: no camera's noise is so large after the blur
+constexpr double poor_residual = 4.0;      // grey levels at middle grey: no camera's noise is so large after the blur
+constexpr double doubtful_residual = 2.4;  // the same where not all of the target is explained
+constexpr double some_hidden = 0.93;       // of the pixels
+constexpr int likeness_window_px = 15;
 constexpr int largest_rounds = 6;
 constexpr int shared_patch_px = 24;  // further apart, two patches are less work than one around both
 constexpr float seen_through = 0.02f;
@@ -242,15 +246,44 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
-  Registration first = attempt(patches, start, with_residual_map);
-  if (first.converged && first.residual < poor_residual) return first;
+  Registration best = attempt(patches, start, with_residual_map);
+  const auto stuck = [&] {
+    return !best.converged || best.residual > (best.inlier_share < some_hidden ? doubtful_residual : poor_residual);
+  };
+  const auto keep_better = [&](Registration other) {
+    if (other.converged && (!best.converged || fit_of(other) > fit_of(best))) best = std::move(other);
+  };
+  if (!stuck()) return best;
   // Under many chips the light, which is guessed first, may have been guessed from them: once more from that of the
   // template.
   start.light.emplace();
   start.light->setZero();
   (*start.light)(0) = 1.0;
-  const Registration second = attempt(patches, start, with_residual_map);
-  return second.converged && (!first.converged || fit_of(second) > fit_of(first)) ? second : first;
+  keep_better(attempt(patches, start, with_residual_map));
+  if (!stuck()) return best;
+  // Something in the way that is large against what the target shows pulls at the start: once more from the windows
+  // that are like the target where the coarse search has found it.
+  const std::vector<std::uint8_t> doubted = unlike(frame, dx_px, dy_px);
+  start.light.reset();
+  start.doubted = &doubted;
+  keep_better(attempt(patches, start, with_residual_map));
+  return best;
+}
+
+std::vector<std::uint8_t> Registrar::unlike(const GrayImage& frame, int dx_px, int dy_px) const {
+  const Region& region = m_source.region;
+  FloatImage weight(region.width, region.height);
+  for (std::size_t k = 0; k < weight.values.size(); ++k) weight.values[k] = m_source.usable[k] != 0 ? 1.0f : 0.0f;
+  const int margin = m_source.margin_px;
+  FloatImage shown(region.width, region.height);
+  for (int y = 0; y < region.height; ++y) {
+    std::copy_n(m_source.pixels.row(y + margin) + margin, region.width, shown.row(y));
+  }
+  const FloatImage there = crop(frame, {region.x + dx_px, region.y + dy_px, region.width, region.height});
+  const FloatImage likeness = window_likeness(shown, there, weight, likeness_window_px, 1.0);
+  std::vector<std::uint8_t> out(likeness.values.size());
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = likeness.values[k] > 0.0f ? 0 : 1;
+  return out;
 }
 
 Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {

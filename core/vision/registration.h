@@ -66,6 +66,8 @@ class Registrar {
  private:
   Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
   Region patch_at(int dx_px, int dy_px) const;
+  /// 1 for each pixel of the region around which a frame does not look like the template there.
+  std::vector<std::uint8_t> unlike(const GrayImage& frame, int dx_px, int dy_px) const;
   /// The share of saturated pixels; 0 if the first glance found nothing.
   double match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup, std::optional<TemplateModel>& blurred_model,
                                 RegistrationStart& start) const;

@@ -29,14 +29,15 @@ constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was s
 
 RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePatch& patch, const SmoothField* field,
                                        const RegistrationStart& start)
-    : m_model(model),
-      m_patch(patch),
-      m_field(field),
-      m_whole_px(start.whole_px),
+    : m_whole_px(start.whole_px),
       m_shift(start.shift_px),
       m_linear(start.linear),
-      m_prior(start.lens),
+      m_model(model),
+      m_patch(patch),
+      m_field(field),
+      m_doubted(start.doubted),
       m_lens(start.lens.per_px2),
+      m_prior(start.lens),
       m_judge(model, model.noise_correlation) {
   const int n = model.pixels;
   m_rows.resize(row_length, n);
@@ -109,6 +110,10 @@ void RegistrationSolver::sample(int count) {
       m_seen_y[k] = static_cast<float>(m_patch.at.y + row) + m_fy[k];
     }
     m_pixel_state[k] = known ? m_patch.state[m_place[k]] : std::uint8_t{FramePatch::outside};
+  }
+  for (int k = 0; m_doubted != nullptr && !m_all_pixels && k < count; ++k) {
+    const std::size_t at = static_cast<std::size_t>(m_model.row[k]) * m_model.region.width + m_model.column[k];
+    if ((*m_doubted)[at] != 0) m_pixel_state[k] = FramePatch::doubted;
   }
   m_patch.spline.sample(m_place.data(), m_fx.data(), m_fy.data(), count, m_frame.data());
   look_behind(count);

@@ -28,6 +28,8 @@ struct RegistrationStart {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
   LensTerm lens;
   std::optional<Eigen::Matrix<double, registration_light_count, 1>> light;  // of an earlier solve, without its blur
+  // Pixels of the region that the glance alone does without, 1 each; null: none.
+  const std::vector<std::uint8_t>* doubted = nullptr;
 };
 
 class RegistrationSolver {
@@ -88,33 +90,10 @@ class RegistrationSolver {
   Scores scores_of_tiles(int count) const;
   Eigen::Vector2d jackknife(const Scores& scores) const;
 
-  const TemplateModel& m_model;
-  const FramePatch& m_patch;
-  const SmoothField* m_field;
+  // Fields that are aligned alike stand together: the order leaves no gaps.
   Eigen::Vector2d m_whole_px;
   Eigen::Vector2d m_shift;
   Eigen::Matrix2d m_linear;
-  LensTerm m_prior;
-  double m_lens;  // 1 / px^2
-  Eigen::Matrix<double, light_count, 1> m_light;
-  Eigen::VectorXf m_field_levels;
-  Rows m_rows;
-  Eigen::VectorXf m_frame, m_error;
-  Eigen::VectorXf m_noise_weight, m_noise_root;  // 1 / variance of the noise, in units of that of middle grey
-  Eigen::VectorXf m_robust, m_neighbours;        // what the error and the surroundings say of each pixel, 0 .. 1
-  Eigen::VectorXf m_weight;                      // all three together
-  std::vector<std::uint8_t> m_pixel_state;
-  std::vector<float> m_scratch;
-  std::vector<int> m_place;               // in the frame's spline, of the pixels sampled
-  std::vector<float> m_fx, m_fy;          // fractions there
-  std::vector<float> m_seen_x, m_seen_y;  // and where that is in the frame, px; of a target with a backdrop
-  NeighbourWeights m_judge;
-  double m_tukey = 0.0;
-  bool m_all_pixels = false;  // after the glance
-  double m_scale = 1.0;
-  bool m_light_known = false;
-  double m_last_step_px = 1.0;
-  int m_iterations = 0;
 
   // The normal equations. Their matrix changes with the weights alone, so it is made anew only when those have changed;
   // where the steps end does not depend on it.
@@ -128,6 +107,32 @@ class RegistrationSolver {
     BandedCholesky field;
     Eigen::MatrixXd field_share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
   } m_prepared;
+
+  const TemplateModel& m_model;
+  const FramePatch& m_patch;
+  const SmoothField* m_field;
+  const std::vector<std::uint8_t>* m_doubted;
+  double m_lens;  // 1 / px^2
+  double m_tukey = 0.0;
+  double m_scale = 1.0;
+  double m_last_step_px = 1.0;
+  LensTerm m_prior;
+  Eigen::VectorXf m_field_levels;
+  Rows m_rows;
+  Eigen::VectorXf m_frame, m_error;
+  Eigen::VectorXf m_noise_weight, m_noise_root;  // 1 / variance of the noise, in units of that of middle grey
+  Eigen::VectorXf m_robust, m_neighbours;        // what the error and the surroundings say of each pixel, 0 .. 1
+  Eigen::VectorXf m_weight;                      // all three together
+  std::vector<std::uint8_t> m_pixel_state;
+  std::vector<float> m_scratch;
+  std::vector<int> m_place;               // in the frame's spline, of the pixels sampled
+  std::vector<float> m_fx, m_fy;          // fractions there
+  std::vector<float> m_seen_x, m_seen_y;  // and where that is in the frame, px; of a target with a backdrop
+  Eigen::Matrix<double, light_count, 1> m_light;
+  NeighbourWeights m_judge;
+  int m_iterations = 0;
+  bool m_all_pixels = false;  // after the glance
+  bool m_light_known = false;
 };
 
 }  // namespace zerodrift::vision

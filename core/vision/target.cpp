@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "core/vision/coarse_search.h"
-#include "core/vision/periods.h"
 #include "core/vision/registration.h"
+#include "core/vision/repeating_target.h"
 #include "core/vision/target_mask.h"
 
 namespace zerodrift::vision {
@@ -30,14 +30,6 @@ constexpr double sure_lead = 0.15;
 constexpr double least_glance_correlation = 0.8;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
-
-// A pattern that repeats and is not seen whole: a period further nearly as much of what is seen is explained.
-constexpr double seen_whole = 0.93;         // inliers, of all pixels
-constexpr double equally_explained = 0.93;  // of the gradient energy that the accepted place explains
-constexpr double least_rival_seen = 0.3;
-constexpr double bad_fit = 6.0;         // residual, standard deviations of shot noise
-constexpr double clearly_more = 1.1;    // what covers it may keep a rival from settling
-constexpr double rival_residual = 2.0;  // of the accepted place's
 
 // Limits of an accepted registration.
 constexpr double least_inliers = 0.55;
@@ -132,7 +124,7 @@ struct Target::Impl {
   std::shared_ptr<const Backdrop> backdrop;
   CoarseSearch coarse;
   Registrar fine;
-  std::vector<std::array<int, 2>> periods;
+  RepeatingTarget repeating;
 
   Impl(GrayImage picture, const Region& at, const PixelPoint& named, std::vector<std::uint8_t> usable,
        std::shared_ptr<const Backdrop> behind = nullptr)
@@ -143,35 +135,7 @@ struct Target::Impl {
         backdrop(std::move(behind)),
         coarse(image, at),
         fine(source_of(*this)),
-        periods(periods_of(image, region)) {}
-
-  // Whether the target may as well stand a period further: each such place that a glance does not rule out is looked at
-  // as closely as the one found.
-  bool ambiguous(const GrayImage& frame, const Registration& found, const LensTerm& lens) const {
-    // A bad fit has no outliers, because its scale is large.
-    if (periods.empty() || (found.inlier_share > seen_whole && found.residual < bad_fit)) return false;
-    if (found.residual >= bad_fit) return true;
-    // Of what is seen: neither outside the frame nor under glare.
-    const auto explained = [](const Registration& r) {
-      return r.informed_share / std::max(r.seen_share - r.saturated_share, 1e-3);
-    };
-    std::vector<std::array<int, 2>> places;
-    for (const auto& period : periods) {
-      places.push_back({static_cast<int>(std::lround(found.displacement_px(0))) + period[0],
-                        static_cast<int>(std::lround(found.displacement_px(1))) + period[1]});
-    }
-    const std::vector<Registration> glances = fine.glances(frame, places);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      if (!like_the_target(glances[k]) || glances[k].seen_share < least_rival_seen) continue;
-      const Registration rival = fine.run(frame, places[k][0], places[k][1], lens);
-      const double moved = (rival.displacement_px - found.displacement_px).norm();
-      if (!rival.converged || rival.seen_share < least_rival_seen || moved < 1.0) continue;
-      const double more = explained(rival) / explained(found);
-      const bool as_sharp = rival.residual < rival_residual * std::max(found.residual, 1.0);
-      if (more > (as_sharp ? equally_explained : clearly_more)) return true;
-    }
-    return false;
-  }
+        repeating(image, region, point, mask) {}
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
@@ -299,7 +263,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   }
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
-  if (m_impl->ambiguous(frame, best, m_lens)) return refuse(Refusal::ambiguous);
+  if (m_impl->repeating.may_be_elsewhere(frame, best)) return refuse(Refusal::ambiguous);
   out.ok = true;
   if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   out.refusal = Refusal::none;

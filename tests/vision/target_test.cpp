@@ -109,6 +109,61 @@ TEST(Target, APatternThatRepeatsIsNotTakenForItselfAPeriodFurther) {
   EXPECT_NEAR(beside.y_px, moved.dy, 4.0 * beside.sigma_y_px);
 }
 
+/// A plate with a triangle and a bar, `dx` and `dy` whole pixels from the middle of the target's region; its edges are
+/// as wide as a lens makes them, its noise is 1 grey level at most.
+GrayImage sparse_plate(int dx, int dy) {
+  GrayImage sharp{640, 480, std::vector<std::uint8_t>(640 * 480, 110)};
+  paint(sharp, {250 + dx, 170 + dy, 140, 140}, 215);
+  for (int row = 0; row < 90; ++row) {
+    const int half = row / 2;
+    paint(sharp, {320 + dx - half, 190 + dy + row, 2 * half, 1}, 20);
+  }
+  paint(sharp, {260 + dx, 289 + dy, 120, 12}, 20);
+  GrayImage image = sharp;
+  unsigned random = 1;
+  for (int y = 1; y < 479; ++y) {
+    for (int x = 1; x < 639; ++x) {
+      int sum = 0;
+      for (int k = -1; k <= 1; ++k) {
+        for (int i = -1; i <= 1; ++i) sum += (2 - std::abs(i)) * (2 - std::abs(k)) * sharp.at(x + i, y + k);
+      }
+      random = 1664525u * random + 1013904223u;
+      image.at(x, y) = static_cast<std::uint8_t>(sum / 16 + static_cast<int>(random >> 30) - 1);
+    }
+  }
+  return image;
+}
+
+// Of a target with few edges a cover hides much and shows an edge of its own.
+TEST(Target, ACoverOverFewEdgesDoesNotPull) {
+  const auto target = Target::create(sparse_plate(0, 0), target_region, {}, "template.png");
+  ASSERT_TRUE(target);
+  for (const Region cover : {Region{230, 150, 50, 180}, Region{360, 150, 40, 180}, Region{230, 150, 180, 40}}) {
+    for (const std::uint8_t level : {std::uint8_t{75}, std::uint8_t{225}}) {
+      GrayImage frame = sparse_plate(4, -3);
+      paint(frame, cover, level);
+      const Location at = target->locate(frame);
+      ASSERT_TRUE(at.ok) << at.reason << " under " << cover.x << ' ' << int{level};
+      EXPECT_NEAR(at.x_px, 4.0, 0.02) << cover.x << ' ' << int{level};
+      EXPECT_NEAR(at.y_px, -3.0, 0.02) << cover.x << ' ' << int{level};
+    }
+  }
+}
+
+// Chips within a grid leave both its ends to be seen.
+TEST(Target, AGridUnderChipsIsMeasured) {
+  const Target target = target_of(grid(), 1.0);
+  const Pose moved{.dx = 3.3, .dy = -2.1};
+  GrayImage chips = render(grid(), moved, {.noise = 1.0, .seed = 7});
+  for (const Region chip : {Region{270, 190, 26, 20}, Region{330, 250, 30, 24}, Region{300, 290, 22, 30}}) {
+    paint(chips, chip, 60);
+  }
+  const Location at = target.locate(chips);
+  ASSERT_TRUE(at.ok) << at.reason;
+  EXPECT_NEAR(at.x_px, moved.dx, 4.0 * at.sigma_x_px);
+  EXPECT_NEAR(at.y_px, moved.dy, 4.0 * at.sigma_y_px);
+}
+
 TEST(Target, RefusesWhatIsNotTheTarget) {
   const Target target = target_of(Speckle(4), 1.0);
   EXPECT_FALSE(target.locate(render(Speckle(5), {}, {.noise = 1.0})).ok);
