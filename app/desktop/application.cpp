@@ -333,6 +333,9 @@ void Application::updateSteps() {
     }
     return ui::StepState::blocked;
   };
+  const flow::Flow steps;
+  const auto all =
+      job == nullptr ? std::vector<flow::StepStatus>() : steps.status(*job).value_or(std::vector<flow::StepStatus>());
   for (auto* presenter : m_presenters) {
     if (job == nullptr) {
       m_window->setStepState(presenter->id(), ui::StepState::blocked, tr("Not started"));
@@ -342,7 +345,9 @@ void Application::updateSteps() {
       m_window->setStepState(presenter->id(), ui::StepState::ready, standing);
       continue;
     }
-    const auto status = flow::status_of(*job, presenter->id().toStdString());
+    const std::string id = presenter->id().toStdString();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.step->id == id; });
+    const flow::StepStatus status = at == all.end() ? flow::StepStatus() : *at;
     m_window->setStepState(presenter->id(), shown(status.state), words(status.state, status.reason));
   }
   if (job == nullptr) {

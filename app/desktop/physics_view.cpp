@@ -275,10 +275,9 @@ QVector<ui::TrialCurve> trial_curves(const Recording& recorded, const Recording&
   return curves;
 }
 
-Compared compared_of(const commissioning::Job& job) {
+Compared compared_of(const commissioning::Job& job, const Recording& recorded) {
   Compared runs;
-  const auto warmup = flow::need(job, "physics", "warmup");
-  if (warmup) runs.recorded = flow::run_of(job, *warmup).value_or(Recording{});
+  runs.recorded = recorded;
   const auto physics = job.latest("physics");
   if (!physics || !*physics) return runs;
   const auto read = [&](const char* name) -> Recording {

@@ -18,7 +18,7 @@ struct Compared {
   recording::Recording refined;
 };
 /// Empty recordings where the job has none.
-Compared compared_of(const commissioning::Job& job);
+Compared compared_of(const commissioning::Job& job, const recording::Recording& recorded);
 
 /// The rods of the machine with sources and sensors; `body` adds the recommended region and the place of the mismatch.
 QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const nlohmann::json& body);

@@ -68,15 +68,23 @@ QVector<ui::TableTerm> terms_of(const compensation::AxisTable* before, const com
   return rows;
 }
 
-compensation::Temperatures temperatures_at(const recording::Recording& run, const compensation::Table& table,
-                                           std::size_t row) {
-  compensation::Temperatures now;
-  for (const auto& sensor : compensation::sensors_of(table)) {
-    const auto* channel = run.find(sensor);
-    now[sensor] = channel == nullptr ? std::nan("") : channel->values[row];
+/// What the table's sensors read in the rows of a run.
+class TableTemperatures {
+ public:
+  TableTemperatures(const recording::Recording& run, const compensation::Table& table) {
+    for (const auto& sensor : compensation::sensors_of(table)) m_sensors.emplace_back(sensor, run.find(sensor));
   }
-  return now;
-}
+  const compensation::Temperatures& at(std::size_t row) {
+    for (const auto& [sensor, channel] : m_sensors) {
+      m_now[sensor] = channel == nullptr ? std::nan("") : channel->values[row];
+    }
+    return m_now;
+  }
+
+ private:
+  std::vector<std::pair<std::string, const recording::Channel*>> m_sensors;
+  compensation::Temperatures m_now;
+};
 
 double value_or_zero(const compensation::AxisTable* axis, double position_mm, const compensation::Temperatures& now) {
   if (axis == nullptr) return 0.0;
@@ -93,9 +101,11 @@ void over_run(ui::AxisTable& out, const compensation::AxisTable* before, const c
   out.overTime = true;
   out.abscissa = UploadView::tr("time of the warm-up run");
   const std::size_t stride = run.rows() / curve_points + 1;
+  TableTemperatures old_C(run, old_table);
+  TableTemperatures new_C(run, new_table);
   for (std::size_t r = 0; r < run.rows(); r += stride) {
-    const double old_um = value_or_zero(before, position_mm, temperatures_at(run, old_table, r));
-    const double new_um = value_or_zero(after, position_mm, temperatures_at(run, new_table, r));
+    const double old_um = value_or_zero(before, position_mm, old_C.at(r));
+    const double new_um = value_or_zero(after, position_mm, new_C.at(r));
     if (std::isnan(old_um) || std::isnan(new_um)) continue;
     out.x.append(run.time_s[r]);
     out.before_um.append(old_um);

@@ -64,6 +64,7 @@ void Workbench::useAccess(std::unique_ptr<access::Access> access) {
 
 Status Workbench::useJob(Result<commissioning::Job> job) {
   if (!job) return fail(std::move(job).error());
+  forgetRead();
   m_job = std::make_unique<commissioning::Job>(std::move(*job));
   log(LogKind::note, tr("Job %1").arg(QString::fromStdString(m_job->path().string())));
   // A job of another machine takes neither the connection nor its profile over.
@@ -97,6 +98,12 @@ Status Workbench::useJob(Result<commissioning::Job> job) {
   return {};
 }
 
+void Workbench::forgetRead() {
+  m_bodies.clear();
+  m_warmupRun = {};
+  m_warmupSeries = 0;
+}
+
 Status Workbench::createJob(const std::filesystem::path& path) {
   return useJob(commissioning::Job::create(path));
 }
@@ -106,6 +113,7 @@ Status Workbench::openJob(const std::filesystem::path& path) {
 }
 
 void Workbench::closeJob() {
+  forgetRead();
   m_job.reset();
   Q_EMIT jobChanged();
 }
@@ -136,11 +144,24 @@ bool Workbench::has(const std::string& kind) const {
   return latest && latest->has_value();
 }
 
-nlohmann::json Workbench::body(const std::string& kind) const {
-  if (!m_job) return nullptr;
+const nlohmann::json& Workbench::body(const std::string& kind) const {
+  static const nlohmann::json none;
+  if (!m_job) return none;
   const auto latest = m_job->latest(kind);
-  if (!latest || !*latest) return nullptr;
-  return (*latest)->document().value_or(nlohmann::json());
+  if (!latest || !*latest) return none;
+  Body& kept = m_bodies[kind];
+  if (kept.of != (*latest)->id) kept = {(*latest)->id, (*latest)->document().value_or(nlohmann::json())};
+  return kept.document;
+}
+
+const recording::Recording& Workbench::warmupRun() const {
+  const nlohmann::json& warmup = body("warmup");
+  const long long series = warmup.is_object() ? warmup.at("series").get<long long>() : 0;
+  if (series != m_warmupSeries) {
+    m_warmupRun = m_job->read_series(series).value_or(recording::Recording{});
+    m_warmupSeries = series;
+  }
+  return m_warmupRun;
 }
 
 Status Workbench::loadProfile(const std::filesystem::path& path) {
@@ -192,7 +213,7 @@ void Workbench::disconnectMachine() {
 HeldTable Workbench::heldTable() const {
   if (!m_look || m_lost || !m_look->table) return HeldTable::unknown;
   if (controller::is_empty_table(static_cast<std::size_t>(m_look->table->registers))) return HeldTable::none;
-  const auto upload = body("upload");
+  const auto& upload = body("upload");
   if (!upload.is_object()) return HeldTable::another;
   const auto words = upload.at("record").value("new_words", std::vector<std::uint16_t>{});
   return controller::is_marked(*m_look->table, words) ? HeldTable::own : HeldTable::another;

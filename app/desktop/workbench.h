@@ -4,6 +4,7 @@
 
 #include <QDateTime>
 #include <QObject>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "core/access/access.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
+#include "core/recording/recording.h"
 #include "core/report/wording.h"
 #include "core/vision/camera.h"
 
@@ -55,8 +57,10 @@ class Workbench : public QObject {
   /// Customer, machine, engineer: what the report's head says.
   Status setHeader(const commissioning::JobHeader& header);
   bool has(const std::string& kind) const;
-  /// Body of the latest artefact of this kind; null when there is none.
-  nlohmann::json body(const std::string& kind) const;
+  /// Body of the latest artefact of this kind, until another one is kept; null when there is none.
+  const nlohmann::json& body(const std::string& kind) const;
+  /// The warm-up run, until another one is kept; without rows when there is none.
+  const recording::Recording& warmupRun() const;
 
   // The machine
   Status loadProfile(const std::filesystem::path& path);
@@ -113,6 +117,7 @@ class Workbench : public QObject {
   /// Cameras that are not needed any more; they may be waiting for a picture.
   void dropCameras();
   Status useJob(Result<commissioning::Job> job);
+  void forgetRead();
 
   std::unique_ptr<access::Access> m_access;
   std::unique_ptr<commissioning::Job> m_job;
@@ -123,6 +128,14 @@ class Workbench : public QObject {
   MachineMonitor m_monitor;
   TaskRunner m_tasks;
   Aside m_ending;
+  struct Body {
+    long long of = 0;
+    nlohmann::json document;
+  };
+  // Of this job, as read: pages ask for them many times a second.
+  mutable std::map<std::string, Body> m_bodies;
+  mutable recording::Recording m_warmupRun;
+  mutable long long m_warmupSeries = 0;
   bool m_reached = false;  // a person has asked for this machine: until then nothing goes out to it or its cameras
   bool m_lost = false;
   QDateTime m_seenAt;

@@ -76,6 +76,7 @@ Result<Artefact> Job::put(const NewArtefact& artefact) {
   const std::scoped_lock lock(m_store->mutex);
   ZD_CHECK(m_store->writable());
   Database& database = *m_store->database;
+  m_store->newest.erase(artefact.kind);
   std::map<std::string, std::string> blob_hashes;
   for (const Blob& blob : artefact.blobs) blob_hashes[blob.name] = sha256_hex(blob.bytes);
 
@@ -142,12 +143,19 @@ Result<Artefact> Job::artefact(ArtefactId id) const {
 
 Result<std::optional<Artefact>> Job::latest(const std::string& kind) const {
   const std::scoped_lock lock(m_store->mutex);
+  const auto kept = m_store->newest.find(kind);
+  // Where this is a reader, another process may add to the job.
+  if (kept != m_store->newest.end() && !m_store->read_only) return kept->second;
   ZD_TRY(Statement rows, m_store->database->prepare("SELECT max(id) FROM artefact WHERE kind = ?"));
   ZD_TRY(const bool row, rows.bind(1, kind).step());
   const ArtefactId id = row ? rows.integer(0) : 0;
-  if (id == 0) return std::optional<Artefact>();
-  ZD_TRY(Artefact artefact, m_store->read_artefact(id));
-  return std::optional<Artefact>(std::move(artefact));
+  std::optional<Artefact> latest;
+  if (kept != m_store->newest.end() && kept->second && kept->second->id == id) return kept->second;
+  if (id != 0) {
+    ZD_TRY(latest, m_store->read_artefact(id));
+  }
+  m_store->newest[kind] = latest;
+  return latest;
 }
 
 Result<std::vector<Artefact>> Job::history(const std::string& kind) const {

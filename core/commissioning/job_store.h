@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Job::Store {
   std::unique_ptr<Database> database;
   mutable std::mutex mutex;
   std::map<SeriesId, SeriesTail> tails;
+  /// By kind, once asked for: nothing changes an artefact, so its text is read and its checksum looked at once.
+  mutable std::map<std::string, std::optional<Artefact>> newest;
 
   // These expect the mutex to be held.
   Status writable() const;

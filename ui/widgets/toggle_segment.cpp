@@ -35,8 +35,10 @@ void ToggleSegment::setItems(const QStringList& items) {
   for (int i = 0; i < buttons.size(); ++i) {
     const bool first = i == 0;
     const bool last = i + 1 == buttons.size();
+    const QString place = first && last ? "only" : first ? "first" : last ? "last" : "middle";
+    if (buttons[i]->text() == items[i] && buttons[i]->property("segment") == place) continue;
     buttons[i]->setText(items[i]);
-    buttons[i]->setProperty("segment", first && last ? "only" : first ? "first" : last ? "last" : "middle");
+    buttons[i]->setProperty("segment", place);
     buttons[i]->style()->unpolish(buttons[i]);
     buttons[i]->style()->polish(buttons[i]);
     // The chosen one is set heavier: all get the room for that, so that nothing moves or is cut.

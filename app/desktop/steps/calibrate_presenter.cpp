@@ -59,7 +59,7 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
 
 QRectF CalibratePresenter::regionOf(const std::string& camera) {
   if (const auto drawn = m_regions.find(camera); drawn != m_regions.end()) return rect_of(drawn->second);
-  const json body = bench().body("calibration");
+  const json& body = bench().body("calibration");
   if (body.is_object() && body.contains("cameras")) {
     for (const auto& one : body["cameras"]) {
       if (one.at("id") == camera) return rect_of(one.at("roi").get<std::array<int, 4>>());
@@ -325,7 +325,7 @@ void CalibratePresenter::refresh() {
   }
   fillPlan(state);
   fillPoints(state);
-  const json body = bench().body("calibration");
+  const json& body = bench().body("calibration");
   const bool drawn = m_camera < static_cast<int>(profile->cameras.size()) &&
                      m_regions.contains(profile->cameras[static_cast<std::size_t>(m_camera)].id);
   if (!m_running && !drawn && body.is_object() && body.value("source", "") == "camera") {

@@ -59,7 +59,7 @@ CompensatorPresenter::CompensatorPresenter(Workbench& bench, ui::CompensatorPage
 
 /// The sign of the offset was watched by camera or probes, in this job.
 bool CompensatorPresenter::signsSeen() const {
-  const auto upload = bench().body("upload");
+  const auto& upload = bench().body("upload");
   return upload.is_object() && upload.contains("sign_check") && upload["sign_check"].is_object();
 }
 

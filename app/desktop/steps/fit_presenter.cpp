@@ -224,16 +224,15 @@ void FitPresenter::fill(ui::FitState& state) {
   if (high > low) state.validity = tr("%1 to %2 °C").arg(low, 0, 'f', 0).arg(high, 0, 'f', 0);
   for (const auto& advice : model->quality.advice) state.advice << bench().inWords(advice);
   for (const auto& finding : model->findings) state.advice << bench().inWords(analysis::describe(finding));
-  const auto run = flow::run_of(*bench().job(), *warmup);
-  if (!run) return;
-  const auto prediction = analysis::predict(*model, *run);
+  const recording::Recording& run = bench().warmupRun();
+  const auto prediction = analysis::predict(*model, run);
   if (!prediction) return;
   const std::string sensor = model->sensors.empty() ? "" : model->sensors.front();
   const auto predicted = prediction->to_recording();
   for (const auto& error : model->errors) {
-    state.series.append(series_of(*run, predicted, error.error, sensor));
+    state.series.append(series_of(run, predicted, error.error, sensor));
   }
-  if (model->quality.cycles < 2) show_left_out(*model, *run, state);
+  if (model->quality.cycles < 2) show_left_out(*model, run, state);
 }
 
 void FitPresenter::refresh() {

@@ -295,7 +295,7 @@ void MachinePresenter::looked() {
 std::optional<int> MachinePresenter::virtualSeed() const {
   const auto& workbench = bench();
   const auto& profile = workbench.profile();
-  const auto machine = workbench.body("machine");
+  const auto& machine = workbench.body("machine");
   if (!profile || profile->controller.host != "127.0.0.1" || !machine.is_object()) return std::nullopt;
   return virtual_seed_of(machine.value("identity", nlohmann::json::object()).value("serial", 0U));
 }
@@ -318,7 +318,8 @@ void MachinePresenter::refresh() {
   state.connected = bench().connected() && !bench().lost();
   state.connecting = m_connecting || lost;
   state.compensationOn = bench().compensationOn();
-  if (const auto upload = bench().body("upload"); upload.is_object()) state.writtenVersion = upload.value("version", 0);
+  if (const auto& upload = bench().body("upload"); upload.is_object())
+    state.writtenVersion = upload.value("version", 0);
   const auto held = bench().heldTable();
   state.tableGone = held == HeldTable::none || held == HeldTable::another;
   state.sampleAvailable = find_resource("samples/sample.zdj").has_value();

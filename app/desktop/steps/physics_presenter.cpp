@@ -71,6 +71,7 @@ QString without_letters(QString text) {
 
 PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Presenter(bench, page), m_page(page) {
   m_watching.setInterval(watch_tick_ms);
+  connect(&bench, &Workbench::jobChanged, this, [this] { m_comparedOf = {}; });
   connect(&m_watching, &QTimer::timeout, this, &PhysicsPresenter::watchTrial);
   connect(page, &ui::PhysicsPage::componentChosen, this, [this](int index) {
     m_component = index;
@@ -259,6 +260,18 @@ void PhysicsPresenter::proposePlan() {
   Q_EMIT planProposed(*plan);
 }
 
+/// The curves of whole runs stand in the job as text: they are read when there are others, not each time.
+const Compared& PhysicsPresenter::compared() {
+  const auto id_of = [this](const char* kind) -> long long {
+    const auto latest = bench().job()->latest(kind);
+    return latest && *latest ? (*latest)->id : 0;
+  };
+  const std::pair of(id_of("warmup"), id_of("physics"));
+  if (of != m_comparedOf) m_compared = compared_of(*bench().job(), bench().warmupRun());
+  m_comparedOf = of;
+  return m_compared;
+}
+
 void PhysicsPresenter::refresh() {
   ui::PhysicsState state;
   const auto* job = bench().job();
@@ -280,8 +293,8 @@ void PhysicsPresenter::refresh() {
     show(machine.error());
     return;
   }
-  const json body = bench().body("physics");
-  const Compared runs = compared_of(*job);
+  const json& body = bench().body("physics");
+  const Compared& runs = compared();
   state.components = components_of(*machine, body);
   state.component = m_component < state.components.size() ? m_component : 0;
   state.channels = channels_of(runs, *profile, body);

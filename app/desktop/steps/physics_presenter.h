@@ -4,6 +4,7 @@
 #include <QTimer>
 
 #include "app/desktop/physics_search.h"
+#include "app/desktop/physics_view.h"
 #include "app/desktop/presenter.h"
 #include "core/acquisition/plan.h"
 #include "ui/pages/physics_page.h"
@@ -34,11 +35,14 @@ class PhysicsPresenter : public Presenter {
   void proposePlan();
   void findRegion();
   QString regionInWords();
+  const Compared& compared();
 
   ui::PhysicsPage* m_page;
   int m_component = 0;
   bool m_regionAsked = false;
   std::vector<Judgements> m_undo;
+  Compared m_compared;
+  std::pair<long long, long long> m_comparedOf;  // warm-up and physics artefact it was read from
   // The blind trial on the screen, and those that were opened.
   QTimer m_watching;
   TrialCase m_trial;

@@ -94,7 +94,7 @@ void SensorsPresenter::undo() {
 }
 
 void SensorsPresenter::rememberChoice() {
-  const json body = bench().body("sensors");
+  const json& body = bench().body("sensors");
   if (!body.is_object()) return;
   Choice choice{m_clusters, {}};
   // What was proposed is proposed again; only a choice by hand is put back sensor by sensor.
@@ -182,15 +182,12 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
 }
 
 void SensorsPresenter::fillSeries(ui::SensorsState& state) const {
-  const auto& workbench = bench();
-  const auto warmup = flow::need(*workbench.job(), "sensors", "warmup");
-  if (!warmup) return;
-  const auto run = flow::run_of(*workbench.job(), *warmup);
-  if (!run || run->rows() == 0) return;
-  const std::size_t stride = run->rows() / most_points + 1;
-  for (std::size_t r = 0; r < run->rows(); r += stride) state.time_s.append(run->time_s[r]);
+  const recording::Recording& run = bench().warmupRun();
+  if (run.rows() == 0) return;
+  const std::size_t stride = run.rows() / most_points + 1;
+  for (std::size_t r = 0; r < run.rows(); r += stride) state.time_s.append(run.time_s[r]);
   for (const auto& row : state.sensors) {
-    const auto* channel = run->find(row.id.toStdString());
+    const auto* channel = run.find(row.id.toStdString());
     state.temperatures.append(channel == nullptr ? QVector<double>() : standardised(channel->values, stride));
   }
 }
@@ -199,7 +196,7 @@ void SensorsPresenter::refresh() {
   ui::SensorsState state;
   if (!bench().has("warmup")) {
     state.blocked = tr("Record a warm-up run first: the sensors are chosen from it.");
-  } else if (const json body = bench().body("sensors"); body.is_object()) {
+  } else if (const json& body = bench().body("sensors"); body.is_object()) {
     fill(state, body);
     fillSeries(state);
   }

@@ -102,7 +102,7 @@ void UploadPresenter::fillHistory(ui::UploadState& state) const {
   std::optional<controller::ActiveTable> active;
   if (m_preview) {
     active = controller::ActiveTable{m_preview->record.old_words, m_preview->record.old_sequence, 0};
-  } else if (const json body = workbench.body("upload"); body.is_object()) {
+  } else if (const json& body = workbench.body("upload"); body.is_object()) {
     // Away from the machine the job's table is taken for the active one as long as nothing says otherwise.
     const controller::ActiveTable written{body.at("record").value("new_words", std::vector<std::uint16_t>{}),
                                           body.value("version", 0), 0};
@@ -129,7 +129,7 @@ void UploadPresenter::refresh() {
   const auto profile = flow::profile_of(*job, "upload");
   const auto artefact = job->latest("model");
   const auto model = flow::model_of(**artefact);
-  const json body = bench().body("upload");
+  const json& body = bench().body("upload");
   state.changeLimit_um = profile ? profile->max_um : 200.0;
   state.steepestLimit_um_per_K = profile ? profile->max_um_per_K : 50.0;
   if (const auto& look = bench().look(); look && look->identity.table_capacity_registers > 0) {
@@ -146,8 +146,6 @@ void UploadPresenter::refresh() {
   if (m_preview) fillFromPreview(state);
   if (body.is_object()) fillFromArtefact(state, body);
   if (profile && model) {
-    const auto warmup = flow::need(*job, "upload", "warmup");
-    const auto run = warmup ? flow::run_of(*job, *warmup).value_or(recording::Recording{}) : recording::Recording{};
     compensation::Table old_table;
     compensation::Table table;
     if (showsPreview(state.written)) {
@@ -161,7 +159,7 @@ void UploadPresenter::refresh() {
       table =
           compensation::table_from_model(*model, controller::table_options(*profile)).value_or(compensation::Table{});
     }
-    state.axes = axes_of(old_table, table, *profile, run);
+    state.axes = axes_of(old_table, table, *profile, bench().warmupRun());
     if (std::isnan(state.steepest_um_per_K)) state.steepest_um_per_K = steepest_um_per_K(table);
     if (!model->is_static()) {
       state.lost << tr("the model's memory of the past (its static part is written)");

@@ -306,7 +306,7 @@ void UploadPresenter::askAndRollBack() {
 /// The log of the machine's tables as it is on this computer, with what the job knows beside it.
 void UploadPresenter::readLog() {
   const auto* job = bench().job();
-  const json machine = bench().body("machine");
+  const json& machine = bench().body("machine");
   m_log = {};
   if (job == nullptr || !machine.is_object()) return;
   const auto serial = machine.at("identity").value("serial", 0U);

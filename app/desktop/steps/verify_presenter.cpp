@@ -215,7 +215,7 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
                                     axis.value("rms_now_um", 0.0)});
     }
   }
-  const json model = bench().body("model");
+  const json& model = bench().body("model");
   if (model.is_object()) {
     for (const auto& figure : model.value("figures", json::array())) {
       const auto peak = figure.find("peak_held_out_um");
@@ -240,7 +240,7 @@ void VerifyPresenter::compute(const commissioning::Artefact& verification) {
 void VerifyPresenter::fillCorrection(ui::VerifyState& state) {
   const auto artefact = bench().job()->latest("verification");
   if (!artefact || !*artefact) return;
-  const json body = bench().body("verification");
+  const json& body = bench().body("verification");
   // The threshold that the job was judged by, unless another one is being set.
   if (!m_judging.isActive() && body.contains("threshold_um")) m_threshold_um = body["threshold_um"].get<double>();
   state.threshold_um = m_threshold_um;
@@ -311,12 +311,12 @@ void VerifyPresenter::refresh() {
   state.threshold_um = m_threshold_um;
   state.peakLimit_um = flow::VerifyOptions().limit_um;
   state.compensationOn = bench().compensationOn();
-  const auto warmup = bench().body("warmup");
+  const auto& warmup = bench().body("warmup");
   if (warmup.is_object()) {
     state.peakBefore_um = largest(warmup, "peak_um");
     state.frameLimit_s = missed_measurements * warmup.value("plan", json::object()).value("measure_period_s", 60.0);
   }
-  const json body = bench().body("verification");
+  const json& body = bench().body("verification");
   if (running()) {
     fillRun(state);
   } else if (body.is_object() && !m_again && !ofAnotherTable()) {

@@ -208,7 +208,7 @@ void WarmupPresenter::refresh() {
   std::error_code unknown;
   const auto space = std::filesystem::space(std::filesystem::absolute(job->path()).parent_path(), unknown);
   state.diskFree_GB = unknown ? std::nan("") : static_cast<double>(space.available) / 1e9;
-  const json body = bench().body("warmup");
+  const json& body = bench().body("warmup");
   if (running()) {
     fillRun(state);
   } else if (body.is_object() && !m_again) {
