@@ -21,6 +21,7 @@
 #include "app/text/error_text.h"
 #include "core/acquisition/job_sink.h"
 #include "core/flow/flow.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
@@ -475,7 +476,7 @@ void Application::mayClose(bool* allowed) {
   if (m_bench->tasks().running()) {
     *allowed =
         ask(m_window.get(), tr("Close Zerodrift?"),
-            tr("%1 is running.").arg(m_bench->tasks().name()) + QLatin1Char(' ') + whatClosingDoes(), tr("Close"));
+            ui::sentencesText({tr("%1 is running.").arg(m_bench->tasks().name()), whatClosingDoes()}), tr("Close"));
   }
   if (!*allowed) return;
   QSettings settings;

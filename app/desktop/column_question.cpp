@@ -8,6 +8,7 @@
 
 #include "app/text/error_text.h"
 #include "ui/widgets/column_dialog.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -63,7 +64,7 @@ void judge(ui::ColumnDialog& dialog, const std::string& bytes, const std::string
   const auto report = compensation::parse_laser(bytes, file, options);
   if (!report) {
     const ErrorText text = textOf(report.error());
-    return dialog.setVerdict(text.sentence + QLatin1Char(' ') + text.remedy, false);
+    return dialog.setVerdict(ui::sentencesText({text.sentence, text.remedy}), false);
   }
   double low = INFINITY;
   double high = -INFINITY;

@@ -3,6 +3,7 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QRegularExpression>
+#include <nlohmann/json.hpp>
 
 #include "core/base/json.h"
 

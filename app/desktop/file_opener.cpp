@@ -14,6 +14,7 @@
 #include "core/base/resources.h"
 #include "core/flow/steps/import_step.h"
 #include "core/recording/csv.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
@@ -95,10 +96,9 @@ void FileOpener::openRecording(const QString& path) {
   const QString where = bench.job() == nullptr ? tr("A new job is made for it.")
                         : bench.has("warmup")  ? tr("It takes the place of the warm-up run that this job has.")
                                                : QString();
-  if (m_asking &&
-      !ask(&m_application.window(), tr("Use %1 as the warm-up run?").arg(name),
-           QStringList{size, where, tr("It must have been recorded with the compensation off.")}.join(QLatin1Char(' ')),
-           tr("Use it"))) {
+  if (m_asking && !ask(&m_application.window(), tr("Use %1 as the warm-up run?").arg(name),
+                       ui::sentencesText({size, where, tr("It must have been recorded with the compensation off.")}),
+                       tr("Use it"))) {
     return;
   }
   if (bench.job() == nullptr) {

@@ -231,7 +231,10 @@ QString parametersInWords(const std::string& parameters) {
 
 QString sentence_of(const json& stored, const std::string& english) {
   auto sentence = diagnosis::sentence_from_json(stored);
-  if (auto& component = sentence.facts["component"]; !component.empty()) component = coreText(component).toStdString();
+  for (const char* key : {"component", "part"}) {
+    const auto named = sentence.facts.find(key);
+    if (named != sentence.facts.end()) named->second = coreText(named->second).toStdString();
+  }
   if (auto& parameters = sentence.facts["parameters"]; !parameters.empty()) {
     parameters = parametersInWords(parameters).toStdString();
   }
@@ -247,7 +250,7 @@ QString sentences_of(const json& body) {
   for (std::size_t i = 0; i < english.size(); ++i) {
     sentences << sentence_of(i < stored.size() ? stored[i] : json(), english[i].get<std::string>());
   }
-  return sentences.join(QLatin1Char(' '));
+  return ui::sentencesText(sentences);
 }
 
 QString effect_name(const std::string& id) {

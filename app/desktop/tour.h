@@ -18,6 +18,7 @@ class Tour : public QObject {
 
  private:
   void begin();
+  void nextStep();
   void openStep();
   void whenIdle(const std::function<void()>& then);
   void stepDone(bool good);

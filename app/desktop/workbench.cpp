@@ -168,7 +168,7 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
   std::vector<std::string> warnings;
   ZD_TRY(auto profile, controller::read_profile(path, &warnings));
   ZD_TRY(m_profileDocument, read_json_file(path));
-  for (const auto& warning : warnings) log(LogKind::warning, coreText(warning));
+  for (const auto& warning : warnings) log(LogKind::warning, inWords(warning));
   m_profile = std::move(profile);
   dropCameras();
   m_reached = false;
@@ -240,12 +240,23 @@ QString Workbench::inWords(const std::string& text) const {
   if (coreText(room) == room) return QString::fromStdString(report::readable(text, labels()));
   static const QRegularExpression channels(QStringLiteral(
       "(?<![A-Za-z0-9_])(T\\d+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)(?![A-Za-z0-9_])"));
+  // The sentences leave a space beside a channel, as beside any word of another script; between Chinese ones is none.
+  const auto chinese = [](const QString& of, qsizetype at) {
+    return at >= 0 && at < of.size() && of[at].script() == QChar::Script_Han;
+  };
   QString words;
   qsizetype from = 0;
   for (auto at = channels.globalMatch(said); at.hasNext();) {
     const auto found = at.next();
-    words += said.mid(from, found.capturedStart() - from) + channelInWords(found.captured().toStdString());
+    const QString channel = channelInWords(found.captured().toStdString());
+    words += said.mid(from, found.capturedStart() - from);
+    if (words.endsWith(QLatin1Char(' ')) && chinese(words, words.size() - 2) && chinese(channel, 0)) words.chop(1);
+    words += channel;
     from = found.capturedEnd();
+    if (from < said.size() && said[from] == QLatin1Char(' ') && chinese(said, from + 1) &&
+        chinese(channel, channel.size() - 1)) {
+      ++from;
+    }
   }
   return words + said.mid(from);
 }

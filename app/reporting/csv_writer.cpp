@@ -1,3 +1,4 @@
+#include "app/reporting/drawing.h"
 #include "app/reporting/writers.h"
 #include "core/base/file.h"
 #include "core/recording/csv.h"
@@ -46,14 +47,45 @@ std::string csv_of(const report::Report& report) {
   return out;
 }
 
-Status write_report(const report::Report& report, const std::filesystem::path& path) {
+namespace {
+
+class CsvDrawing : public Drawing {
+ public:
+  CsvDrawing(report::Report report, std::filesystem::path path)
+      : m_report(std::move(report)), m_path(std::move(path)) {}
+
+  Result<bool> step() override {
+    ZD_CHECK(write_file(m_path, csv_of(m_report)));
+    return false;
+  }
+
+ private:
+  report::Report m_report;
+  std::filesystem::path m_path;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Drawing>> drawing_of(report::Report report, const std::filesystem::path& path) {
   const auto extension = path.extension();
-  if (extension == ".pdf") return write_pdf(report, path);
-  if (extension == ".html" || extension == ".htm") return write_file(path, html_of(report));
-  if (extension == ".csv") return write_file(path, csv_of(report));
+  if (extension == ".pdf") return pdf_drawing(std::move(report), path);
+  if (extension == ".html" || extension == ".htm") return html_drawing(std::move(report), path);
+  if (extension == ".csv") return std::unique_ptr<Drawing>(std::make_unique<CsvDrawing>(std::move(report), path));
   return fail(ErrorCode::wrong_format, {{"file", path.string()},
                                         {"found", "a name ending in \"" + extension.string() + "\""},
                                         {"expected", ".pdf, .html or .csv"}});
+}
+
+Status draw(Drawing& drawing) {
+  for (;;) {
+    ZD_TRY(const bool more, drawing.step());
+    if (!more) return {};
+  }
+}
+
+Status write_report(const report::Report& report, const std::filesystem::path& path) {
+  ZD_TRY(const auto drawing, drawing_of(report, path));
+  return draw(*drawing);
 }
 
 }  // namespace zerodrift::reporting

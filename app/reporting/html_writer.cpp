@@ -1,8 +1,10 @@
 #include <QString>
 #include <set>
 
+#include "app/reporting/drawing.h"
 #include "app/reporting/plot_data.h"
 #include "app/reporting/writers.h"
+#include "core/base/file.h"
 #include "core/report/find_figure.h"
 
 namespace zerodrift::reporting {
@@ -134,31 +136,90 @@ std::string traces_of(const report::Report& report) {
   return "<h2 id=\"origins\">" + escaped(heading) + "</h2>\n<table><tbody>\n" + rows + "</tbody></table>\n";
 }
 
+class HtmlText {
+ public:
+  explicit HtmlText(const report::Report& report) : m_report(report) {}
+
+  /// The next block; false when that was the last.
+  bool step() {
+    if (m_text.empty()) {
+      head();
+    } else if (m_section < m_report.sections.size()) {
+      next_block();
+    } else {
+      foot();
+      return false;
+    }
+    return true;
+  }
+  const std::string& text() const { return m_text; }
+
+ private:
+  void head() {
+    m_text = "<!DOCTYPE html>\n<html lang=\"" + escaped(m_report.language) +
+             "\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
+             escaped(m_report.title) + "</title><style>" + style + "</style></head><body><main>\n<h1>" +
+             escaped(m_report.title) + "</h1>\n<div class=\"head\">";
+    for (const auto& [name, value] : m_report.header) {
+      m_text += "<span>" + escaped(name) + "</span><span>" + escaped(value) + "</span>\n";
+    }
+    m_text += "</div>\n<nav>";
+    for (const auto& section : m_report.sections) {
+      m_text += "<a href=\"#" + escaped(section.id) + "\">" + escaped(section.title) + "</a>\n";
+    }
+    m_text += "</nav>\n";
+  }
+  void next_block() {
+    const auto& section = m_report.sections[m_section];
+    if (m_block == 0) m_text += "<h2 id=\"" + escaped(section.id) + "\">" + escaped(section.title) + "</h2>\n";
+    if (m_block < section.blocks.size()) m_text += std::visit(BlockHtml{}, section.blocks[m_block]);
+    if (++m_block < section.blocks.size()) return;
+    m_block = 0;
+    ++m_section;
+  }
+  void foot() {
+    m_text += traces_of(m_report);
+    if (!m_report.signature_png.empty()) {
+      const auto png = QByteArray::fromStdString(m_report.signature_png).toBase64().toStdString();
+      m_text += "<p><img alt=\"signature\" height=\"64\" src=\"data:image/png;base64," + png + "\"></p>\n";
+    }
+    m_text += "<footer>" + escaped(m_report.provenance) + "</footer></main></body></html>\n";
+  }
+
+  const report::Report& m_report;
+  std::string m_text;
+  std::size_t m_section = 0;
+  std::size_t m_block = 0;
+};
+
+class HtmlDrawing : public Drawing {
+ public:
+  HtmlDrawing(report::Report report, std::filesystem::path path)
+      : m_report(std::move(report)), m_path(std::move(path)), m_text(m_report) {}
+
+  Result<bool> step() override {
+    if (m_text.step()) return true;
+    ZD_CHECK(write_file(m_path, m_text.text()));
+    return false;
+  }
+
+ private:
+  report::Report m_report;
+  std::filesystem::path m_path;
+  HtmlText m_text;
+};
+
 }  // namespace
 
 std::string html_of(const report::Report& report) {
-  std::string out = "<!DOCTYPE html>\n<html lang=\"" + escaped(report.language) +
-                    "\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
-                    escaped(report.title) + "</title><style>" + style + "</style></head><body><main>\n<h1>" +
-                    escaped(report.title) + "</h1>\n<div class=\"head\">";
-  for (const auto& [name, value] : report.header) {
-    out += "<span>" + escaped(name) + "</span><span>" + escaped(value) + "</span>\n";
+  HtmlText text(report);
+  while (text.step()) {
   }
-  out += "</div>\n<nav>";
-  for (const auto& section : report.sections) {
-    out += "<a href=\"#" + escaped(section.id) + "\">" + escaped(section.title) + "</a>\n";
-  }
-  out += "</nav>\n";
-  for (const auto& section : report.sections) {
-    out += "<h2 id=\"" + escaped(section.id) + "\">" + escaped(section.title) + "</h2>\n";
-    for (const auto& block : section.blocks) out += std::visit(BlockHtml{}, block);
-  }
-  out += traces_of(report);
-  if (!report.signature_png.empty()) {
-    const auto png = QByteArray::fromStdString(report.signature_png).toBase64().toStdString();
-    out += "<p><img alt=\"signature\" height=\"64\" src=\"data:image/png;base64," + png + "\"></p>\n";
-  }
-  return out + "<footer>" + escaped(report.provenance) + "</footer></main></body></html>\n";
+  return text.text();
+}
+
+std::unique_ptr<Drawing> html_drawing(report::Report report, const std::filesystem::path& path) {
+  return std::make_unique<HtmlDrawing>(std::move(report), path);
 }
 
 }  // namespace zerodrift::reporting

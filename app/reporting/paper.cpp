@@ -77,39 +77,53 @@ Paper::Paper(const QSizeF& size, QPainter* painter, std::function<void()> next_p
   m_height = size.height();
 }
 
-void Paper::write(const std::vector<PaperOutline>& outline, int pages) {
+void Paper::begin(std::vector<PaperOutline> outline, int pages) {
   m_pages = pages;
-  title();
+  const auto part = [this](std::function<void()> write) { m_parts.push_back(std::move(write)); };
+  part([this] { title(); });
   for (std::size_t i = 0; i < m_report.sections.size(); ++i) {
     const auto& section = m_report.sections[i];
-    heading(paper_text(section.title));
-    blocks(section);
+    part([this, &section] { heading(paper_text(section.title)); });
+    plan_blocks(section);
     // The first page is the customer's alone.
     if (i == 0 && !m_report.contents.empty() && m_report.sections.size() > 1) {
-      if (!m_report.signature_png.empty()) signature();
-      new_page();
-      contents(outline);
+      part([this, outline = std::move(outline)] {
+        if (!m_report.signature_png.empty()) signature();
+        new_page();
+        contents(outline);
+      });
     }
   }
-  if (m_report.contents.empty() || m_report.sections.size() < 2) signature();
-  footer();
+  part([this] {
+    if (m_report.contents.empty() || m_report.sections.size() < 2) signature();
+    footer();
+  });
 }
 
-void Paper::blocks(const report::Section& section) {
+bool Paper::step() {
+  if (m_next_part >= m_parts.size()) return false;
+  m_parts[m_next_part++]();
+  return true;
+}
+
+void Paper::plan_blocks(const report::Section& section) {
   const report::Plot* waiting = nullptr;
+  const auto halves = [this](const report::Plot* left, const report::Plot* right) {
+    m_parts.emplace_back([this, left, right] { half_plots(*left, right); });
+  };
   for (const auto& block : section.blocks) {
     const auto* plot = std::get_if<report::Plot>(&block);
     const bool half = plot != nullptr && plot->width == report::Width::half;
     if (half && waiting != nullptr) {
-      half_plots(*waiting, plot);
+      halves(waiting, plot);
       waiting = nullptr;
       continue;
     }
-    if (waiting != nullptr) half_plots(*waiting, nullptr);
+    if (waiting != nullptr) halves(waiting, nullptr);
     waiting = half ? plot : nullptr;
-    if (!half) std::visit(*this, block);
+    if (!half) m_parts.emplace_back([this, &block] { std::visit(*this, block); });
   }
-  if (waiting != nullptr) half_plots(*waiting, nullptr);
+  if (waiting != nullptr) halves(waiting, nullptr);
 }
 
 void Paper::operator()(const report::Text& text) {

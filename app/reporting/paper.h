@@ -35,8 +35,13 @@ class Paper {
   /// is drawn: the places of the sections are found, which the contents need before they are drawn.
   Paper(const QSizeF& size, QPainter* painter, std::function<void()> next_page, const report::Report& report);
 
+  Paper(const Paper&) = delete;
+  Paper& operator=(const Paper&) = delete;
+
   /// `outline` and `pages`: of a pass without painter.
-  void write(const std::vector<PaperOutline>& outline = {}, int pages = 0);
+  void begin(std::vector<PaperOutline> outline = {}, int pages = 0);
+  /// The next block; false when there is none left.
+  bool step();
 
   const std::vector<PaperOutline>& outline() const { return m_outline; }
   const std::vector<PaperLink>& links() const { return m_links; }
@@ -51,7 +56,7 @@ class Paper {
  private:
   void title();
   void contents(const std::vector<PaperOutline>& outline);
-  void blocks(const report::Section& section);
+  void plan_blocks(const report::Section& section);
   void half_plots(const report::Plot& left, const report::Plot* right);
   void heading(const QString& text);
   void label(const QString& text, double left, double width);
@@ -71,6 +76,8 @@ class Paper {
   QPainter* m_painter;
   std::function<void()> m_next;
   const report::Report& m_report;
+  std::vector<std::function<void()>> m_parts;  // in the order they are written
+  std::size_t m_next_part = 0;
   std::vector<PaperOutline> m_outline;
   std::vector<PaperLink> m_links;
   double m_width = 0.0;

@@ -48,6 +48,15 @@ std::string with_units(const std::string& original) {
   return std::regex_replace(text, signed_zero, "$1$2");
 }
 
+/// A Chinese character in UTF-8 (U+4000 to U+9FFF) begins here.
+bool is_chinese(std::string_view text, std::size_t at) {
+  return at + 2 < text.size() && text[at] >= '\xE4' && text[at] <= '\xE9';
+}
+
+bool ends_chinese(std::string_view text) {
+  return text.size() >= 3 && is_chinese(text, text.size() - 3);
+}
+
 }  // namespace
 
 std::string readable(const std::string& original, const Labels& labels) {
@@ -65,8 +74,15 @@ std::string readable(const std::string& original, const Labels& labels,
     std::string said = name ? name(at->str()) : channel_in_words(at->str(), labels);
     const bool begins = words.empty() || words.ends_with(". ") || words.ends_with(": ");
     if (!name && !begins && at->str().front() != 'T') said.front() = static_cast<char>(std::tolower(said.front()));
+    // The sentences leave a space beside a channel, as beside any word of another script; between Chinese ones is none.
+    if (words.ends_with(' ') && ends_chinese(std::string_view(words).substr(0, words.size() - 1)) &&
+        is_chinese(said, 0)) {
+      words.pop_back();
+    }
     words += said;
     from = text.cbegin() + at->position() + at->length();
+    const std::string_view behind(text.data() + (from - text.cbegin()), static_cast<std::size_t>(text.cend() - from));
+    if (behind.starts_with(' ') && is_chinese(behind, 1) && ends_chinese(said)) ++from;
     // Some sentences name the place already.
     const auto label = labels.find(at->str());
     const std::string place = label == labels.end() ? std::string() : label->second;

@@ -2419,7 +2419,7 @@
     </message>
     <message>
         <source>The simulation is too hot from the moment the coolant runs; the error steps with coolant_on</source>
-        <translation>自冷却液开启起仿真温度偏高；误差随 coolant_on 阶跃</translation>
+        <translation>自冷却液开启起仿真温度偏高；误差随冷却液开关而跳变</translation>
     </message>
     <message>
         <source>The nose is simulated too cold while the machine cuts</source>
@@ -5294,6 +5294,14 @@
         <translation>报告已保存：%1</translation>
     </message>
     <message>
+        <source>Preview of the report</source>
+        <translation>报告预览</translation>
+    </message>
+    <message>
+        <source>Saving the report</source>
+        <translation>正在保存报告</translation>
+    </message>
+    <message>
         <source>Technical bundle: %1</source>
         <translation>技术数据包：%1</translation>
     </message>
@@ -5835,7 +5843,7 @@
     </message>
     <message>
         <source>Cut into segments</source>
-        <translation>分段</translation>
+        <translation>分段方式</translation>
     </message>
     <message>
         <source>Criterion</source>

@@ -84,7 +84,10 @@ TEST(Job, IsReadBesideItsWriter) {
   ASSERT_OK(writer->put({"note", R"({"n":1})", {}, {}, {}}));
   auto reader = Job::open_read_only(folder / "a.zdj");
   ASSERT_OK(reader);
+  EXPECT_EQ((*reader->latest("note"))->body, R"({"n":1})");
+  EXPECT_EQ((*writer->latest("note"))->body, R"({"n":1})");
   ASSERT_OK(writer->put({"note", R"({"n":2})", {}, {}, {}}));
+  EXPECT_EQ((*writer->latest("note"))->body, R"({"n":2})");
   const auto latest = reader->latest("note");
   ASSERT_OK(latest);
   ASSERT_TRUE(latest->has_value());

@@ -178,6 +178,9 @@ TEST(Wording, IdentifiersBecomeWords) {
   EXPECT_EQ(readable("from -3 C to 21.5 C", labels), "from -3 °C to 21.5 °C");
   EXPECT_EQ(readable("T15_C, maximum, C1, Column", labels), "T15, maximum, C1, Column");
   EXPECT_EQ(channel_in_words("ambient_C", labels), "Room");
+  // No space between Chinese words, one beside a word of another script.
+  EXPECT_EQ(readable("不含时 T14_C 与仿真相差", {{"T14_C", "主轴前端"}}), "不含时 T14 主轴前端与仿真相差");
+  EXPECT_EQ(readable("不含时 T14_C 与仿真相差", {}), "不含时 T14 与仿真相差");
 }
 
 }  // namespace zerodrift::report

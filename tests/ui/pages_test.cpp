@@ -273,6 +273,8 @@ void PagesTest::nothingIsMinusZero() {
   QCOMPARE(fixedText(-0.04, 1), QString("0.0"));
   QCOMPARE(fixedText(-0.06, 1), QString("-0.1"));
   QCOMPARE(fixedText(-0.4, 0), QString("0"));
+  QCOMPARE(sentencesText({"One.", "Two.", QString(), "Three."}), QString("One. Two. Three."));
+  QCOMPARE(sentencesText({QString::fromUtf8("一。"), QString::fromUtf8("二。")}), QString::fromUtf8("一。二。"));
   QCOMPARE(figureOf("x", -0.004, 2, "µm").value, QString("0.00"));
 }
 

@@ -268,7 +268,7 @@ void AxisPage::renderExport() {
     check.append(tr("Largest difference %1 µm.").arg(m_state.formatLoss_um, 0, 'f', 3));
   }
   if (!m_state.formatConfirm.isEmpty()) check.append(tr("Confirm on one point first: %1.").arg(m_state.formatConfirm));
-  m_check->setText(check.join(' '));
+  m_check->setText(sentencesText(check));
 }
 
 void AxisPage::renderRivals() {

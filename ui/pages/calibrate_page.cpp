@@ -7,6 +7,7 @@
 #include "ui/widgets/card.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/level_bar.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 #include "ui/widgets/toggle_segment.h"
 #include "ui/widgets/wrap_label.h"
@@ -355,7 +356,7 @@ void CalibratePage::renderMoves() {
     notes << tr("First the machine drives to %1; an axis not named here stays where it is.").arg(m_state.movePosition);
   }
   if (m_state.moveNumber < m_state.moveOf) notes << tr("Before the next camera is calibrated, you are asked again.");
-  m_moveNote->setText(notes.join(QLatin1Char(' ')));
+  m_moveNote->setText(sentencesText(notes));
   m_moveNote->setVisible(!notes.isEmpty());
 }
 

@@ -1,6 +1,7 @@
 #include "ui/pages/report_page.h"
 
 #include "ui/widgets/card.h"
+#include "ui/widgets/paper_sheet.h"
 #include "ui/widgets/signature_pad.h"
 #include "ui/widgets/toggle_segment.h"
 
@@ -205,19 +206,13 @@ void ReportPage::renderPreview() {
   auto* layout = m_scroll->widget()->layout();
   while (m_sheets.size() > m_state.pages.size()) delete m_sheets.takeLast();
   while (m_sheets.size() < m_state.pages.size()) {
-    auto* sheet = new QLabel(m_scroll->widget());
-    sheet->setAlignment(Qt::AlignHCenter);
+    auto* sheet = new PaperSheet(m_scroll->widget());
     layout->addWidget(sheet);
     m_sheets.append(sheet);
   }
-  const double ratio = devicePixelRatioF();
   const int width = std::clamp(m_scroll->viewport()->width() - 56, 200, 760);
   for (int i = 0; i < m_sheets.size(); ++i) {
-    QPixmap picture =
-        QPixmap::fromImage(m_state.pages[i].scaledToWidth(static_cast<int>(width * ratio), Qt::SmoothTransformation));
-    picture.setDevicePixelRatio(ratio);
-    m_sheets[i]->setPixmap(picture);
-    m_sheets[i]->setMinimumHeight(static_cast<int>(picture.height() / ratio));
+    m_sheets[i]->setPicture(m_state.pages[i], width);
     m_sheets[i]->setAccessibleName(tr("Page %1").arg(i + 1));
   }
 }

@@ -18,6 +18,7 @@ class QStackedWidget;
 namespace zerodrift::ui {
 
 class Card;
+class PaperSheet;
 class SignaturePad;
 class ToggleSegment;
 
@@ -103,7 +104,7 @@ class ReportPage : public Page {
   QStackedWidget* m_views;
   QScrollArea* m_scroll;
   QLabel* m_noPreview;
-  QVector<QLabel*> m_sheets;
+  QVector<PaperSheet*> m_sheets;
   SignaturePad* m_signature;
   bool m_filling = false;
 };

@@ -207,7 +207,7 @@ void UploadPage::render() {
   loss.append(m_state.lost.isEmpty() ? tr("Nothing is lost on the way.")
                                      : tr("Lost: %1.").arg(m_state.lost.join("; ")));
   for (const QString& warning : m_state.warnings) loss.append(tr("%1.", "a whole sentence").arg(warning));
-  m_loss->setText(loss.join(' '));
+  m_loss->setText(sentencesText(loss));
   m_writeCard->setTitle(tr("Transaction"));
   m_side->setItems({tr("Write"), tr("History, roll back")});
   m_signCard->setTitle(tr("Sign check"));

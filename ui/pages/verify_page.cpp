@@ -121,7 +121,7 @@ QStringList VerifyPage::axesOverLimit() const {
 
 /// What matters most comes first: an axis that got worse, then one over its limit, then a correction to look at.
 QString VerifyPage::finishedSentence() const {
-  if (!m_state.notHeld.isEmpty()) return m_state.notHeld + QLatin1Char(' ') + tr("The result below is of before.");
+  if (!m_state.notHeld.isEmpty()) return sentencesText({m_state.notHeld, tr("The result below is of before.")});
   const QStringList over = axesOverLimit();
   if (m_state.runsDisagree) {
     return tr(
@@ -335,7 +335,7 @@ QStringList VerifyPage::words() const {
                 ? tr("Without is this same run less what was applied: the same speeds and the same minutes.")
                 : tr("Without is the warm-up run: other speeds, over the same minutes since the start of each run, as "
                      "far as the shorter one goes."));
-  lines.last() += QLatin1Char(' ') + tr("At the end: mean of the last tenth.");
+  lines.last() = sentencesText({lines.last(), tr("At the end: mean of the last tenth.")});
   return lines;
 }
 

@@ -14,4 +14,14 @@ QString listText(const QStringList& words) {
   return words.join(QCoreApplication::translate("Lists", ", ", "between the words of a list"));
 }
 
+QString sentencesText(const QStringList& sentences) {
+  constexpr char16_t first_full_width = 0x3000;
+  QString text;
+  for (const QString& sentence : sentences) {
+    if (!text.isEmpty() && !sentence.isEmpty() && text.back() < QChar(first_full_width)) text += QLatin1Char(' ');
+    text += sentence;
+  }
+  return text;
+}
+
 }  // namespace zerodrift::ui

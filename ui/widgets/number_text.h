@@ -9,5 +9,7 @@ namespace zerodrift::ui {
 QString fixedText(double value, int decimals);
 /// "X, Y, Z" with the comma of the language.
 QString listText(const QStringList& words);
+/// One sentence after the other; after a full-width full stop, which brings its own room, without a space.
+QString sentencesText(const QStringList& sentences);
 
 }  // namespace zerodrift::ui

@@ -16,6 +16,7 @@
 #include "core/compensation/positioning.h"
 #include "core/controller/exports/export_format.h"
 #include "ui/pages/axis_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -276,9 +277,9 @@ void AxisErrorsPresenter::fillMeasurement(ui::AxisState& state) const {
   }
   state.position_mm = QVector<double>(m_position_mm.begin(), m_position_mm.end());
   state.mean_um = QVector<double>(m_error_um.begin(), m_error_um.end());
-  state.fileNotes = tr("%1: %n target(s)", nullptr, static_cast<int>(m_report.targets_mm.size()))
-                        .arg(QFileInfo(QString::fromStdString(m_report.file)).fileName()) +
-                    QStringLiteral(", ") + tr("%n run(s)", nullptr, static_cast<int>(runs.size()));
+  state.fileNotes = ui::listText({tr("%1: %n target(s)", nullptr, static_cast<int>(m_report.targets_mm.size()))
+                                      .arg(QFileInfo(QString::fromStdString(m_report.file)).fileName()),
+                                  tr("%n run(s)", nullptr, static_cast<int>(runs.size()))});
 }
 
 void AxisErrorsPresenter::fillFigures(ui::AxisState& state) const {

@@ -70,7 +70,12 @@ constexpr std::array offered = {report::Language::english, report::Language::chi
 }  // namespace
 
 ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Presenter(bench, page), m_page(page) {
-  connect(&bench, &Workbench::jobChanged, this, [this] { m_savedTo.clear(); });
+  connect(&bench, &Workbench::jobChanged, this, [this] {
+    m_savedTo.clear();
+    m_drawing.drop();
+    if (m_writing.running()) m_page->clearProgress();
+    m_writing.drop();
+  });
   m_redraw.setSingleShot(true);
   m_redraw.setInterval(rest_ms);
   connect(&m_redraw, &QTimer::timeout, this, &ReportPresenter::drawPreview);
@@ -81,7 +86,6 @@ ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Prese
     } else {
       m_left.insert(section);
     }
-    m_of.clear();
     m_redraw.start();
   });
   connect(page, &ui::ReportPage::languageChosen, this, &ReportPresenter::setLanguage);
@@ -91,7 +95,6 @@ ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Prese
   connect(page, &ui::ReportPage::doubtClicked, this, &Presenter::pageRequested);
   connect(page, &ui::ReportPage::signatureDrawn, this, [this](const QImage& signature) {
     m_signature = signature;
-    m_of.clear();
     m_redraw.start();
   });
   connect(page, &ui::Page::primaryTriggered, this, [this] { saveAs(QStringLiteral("pdf")); });
@@ -110,40 +113,67 @@ void ReportPresenter::leave() {
   m_redraw.stop();
 }
 
-Result<report::Report> ReportPresenter::build() const {
-  const auto* job = bench().job();
-  ZD_TRY(auto report, report::build_report(*job, m_language));
+report::Report ReportPresenter::chosen(report::Report whole) const {
+  std::erase_if(whole.sections,
+                [this](const auto& section) { return m_left.contains(QString::fromStdString(section.id)); });
   if (!m_signature.isNull()) {
     QByteArray bytes;
     QBuffer buffer(&bytes);
     buffer.open(QIODevice::WriteOnly);
     m_signature.save(&buffer, "PNG");
-    report.signature_png = bytes.toStdString();
+    whole.signature_png = bytes.toStdString();
   }
-  return report;
+  return whole;
 }
 
 void ReportPresenter::drawPreview() {
-  if (bench().job() == nullptr || !bench().has("warmup")) return;
-  auto report = build();
-  if (!report) {
-    show(report.error());
-    return;
+  m_again = m_building.running();
+  if (m_again) return;
+  m_drawing.drop();
+  if (bench().job() == nullptr || !bench().has("warmup")) return previewDone();
+  const auto path = bench().job()->path();
+  m_building.start<report::Report>(
+      tr("Preview of the report"),
+      [path, language = m_language](const TaskContext&) -> Result<report::Report> {
+        // A way of its own into the file: the window may close its job meanwhile.
+        ZD_TRY(const auto job, commissioning::Job::open_read_only(path));
+        return report::build_report(job, language);
+      },
+      [this, path](Result<report::Report> made) { built(path, std::move(made)); });
+}
+
+void ReportPresenter::built(const std::filesystem::path& job, Result<report::Report> made) {
+  if (m_again || bench().job() == nullptr || bench().job()->path() != job) return drawPreview();
+  if (!made) {
+    show(made.error());
+    return previewDone();
   }
-  m_report = std::move(*report);
-  report::Report shown = m_report;
-  std::erase_if(shown.sections,
-                [this](const auto& section) { return m_left.contains(QString::fromStdString(section.id)); });
-  QStringList head;
-  for (const auto& [name, value] : shown.header) head << QString::fromStdString(value);
-  const QString of = QString::fromStdString(shown.language) + QString::fromStdString(shown.provenance) +
-                     head.join(QLatin1Char('|')) + QString::number(shown.sections.size());
-  if (m_pages.isEmpty() || of != m_of) {
-    m_of = of;
-    const auto pages = reporting::preview_pages(shown, preview_width_px);
-    m_pages = QVector<QImage>(pages.begin(), pages.end());
-  }
+  m_report = std::move(*made);
+  const report::Report shown = chosen(m_report);
+  QStringList parts{QString::fromStdString(shown.language), QString::fromStdString(shown.provenance),
+                    QString::number(m_signature.cacheKey())};
+  for (const auto& [name, value] : shown.header) parts << QString::fromStdString(value);
+  for (const auto& section : shown.sections) parts << QString::fromStdString(section.id);
+  const QString of = parts.join(QLatin1Char('|'));
   refresh();
+  if (!m_pages.isEmpty() && of == m_of) return previewDone();
+  auto pictures = std::make_unique<reporting::PagePictures>(shown, preview_width_px);
+  const auto* drawn = pictures.get();
+  m_drawing.begin(std::move(pictures), [this, drawn, of](const Status& ended) {
+    if (ended) {
+      const auto pages = drawn->pages();
+      m_pages = QVector<QImage>(pages.begin(), pages.end());
+      m_of = of;
+      refresh();
+    } else {
+      show(ended.error());
+    }
+    previewDone();
+  });
+}
+
+void ReportPresenter::previewDone() {
+  if (const auto then = std::exchange(m_whenDrawn, nullptr)) then();
 }
 
 void ReportPresenter::setLanguage(int index) {
@@ -190,36 +220,61 @@ void ReportPresenter::saveAs(const QString& ending) {
   save({path});
 }
 
-bool ReportPresenter::save(const QStringList& paths) {
-  m_page->clearProblem();
-  auto report = build();
-  if (!report) {
-    show(report.error());
-    return false;
-  }
-  std::erase_if(report->sections,
-                [this](const auto& section) { return m_left.contains(QString::fromStdString(section.id)); });
-  json files = json::array();
-  for (const QString& path : paths) {
-    if (const Status written = reporting::write_report(*report, path.toStdString()); !written) {
-      show(written.error());
-      return false;
-    }
-    files.push_back(path.toStdString());
+struct ReportPresenter::Saving {
+  report::Report report;
+  QStringList paths;
+  qsizetype written = 0;
+  std::function<void(bool good)> done;
+};
+
+void ReportPresenter::save(const QStringList& paths, std::function<void(bool good)> done) {
+  if (m_writing.running()) return;
+  runTask<report::Report>(
+      tr("Saving the report"),
+      [job = bench().job(), language = m_language](const TaskContext&) { return report::build_report(*job, language); },
+      [this, paths, done = std::move(done)](Result<report::Report> made) {
+        if (!made) {
+          if (done) done(false);
+          return;
+        }
+        writeNext(std::make_shared<Saving>(Saving{chosen(std::move(*made)), paths, 0, done}));
+      });
+}
+
+void ReportPresenter::writeNext(const std::shared_ptr<Saving>& saving) {
+  if (saving->written == saving->paths.size()) return saved(*saving);
+  const QString path = saving->paths[saving->written];
+  auto drawing = reporting::drawing_of(saving->report, path.toStdString());
+  if (!drawing) return failed(*saving, drawing.error());
+  m_page->setProgress(tr("Saving the report"), -1.0, std::nullopt, false);
+  m_writing.begin(std::move(*drawing), [this, saving, path](const Status& ended) {
+    if (!ended) return failed(*saving, ended.error());
     bench().log(LogKind::good, tr("Report saved: %1").arg(path));
-  }
+    ++saving->written;
+    writeNext(saving);
+  });
+}
+
+void ReportPresenter::failed(const Saving& saving, const Error& error) {
+  m_page->clearProgress();
+  show(error);
+  if (saving.done) saving.done(false);
+}
+
+void ReportPresenter::saved(const Saving& saving) {
+  m_page->clearProgress();
+  json files = json::array();
+  for (const QString& path : saving.paths) files.push_back(path.toStdString());
   std::vector<commissioning::ArtefactId> inputs;
   for (const char* kind : {"verification", "physics", "axis_table"}) {
     const auto latest = bench().job()->latest(kind);
     if (latest && *latest) inputs.push_back((*latest)->id);
   }
-  if (const Status kept = bench().keep(NewArtefact::of("report", {{"files", files}}, inputs)); !kept) {
-    show(kept.error());
-    return false;
-  }
-  m_savedTo = QDir::toNativeSeparators(paths.front());
+  const Status kept = bench().keep(NewArtefact::of("report", {{"files", files}}, inputs));
+  if (!kept) return failed(saving, kept.error());
+  m_savedTo = QDir::toNativeSeparators(saving.paths.front());
   refresh();
-  return true;
+  if (saving.done) saving.done(true);
 }
 
 std::vector<reporting::BundleExtra> ReportPresenter::screenshots() const {
@@ -295,10 +350,11 @@ void ReportPresenter::refresh() {
 
 void ReportPresenter::tour(std::function<void(bool good)> done) {
   const QDir folder = QFileInfo(defaultPath(QStringLiteral("pdf"))).absoluteDir();
-  const bool good =
-      save({folder.filePath(QStringLiteral("report.pdf")), folder.filePath(QStringLiteral("report.html"))});
-  drawPreview();
-  done(good);
+  save({folder.filePath(QStringLiteral("report.pdf")), folder.filePath(QStringLiteral("report.html"))},
+       [this, done = std::move(done)](bool good) {
+         m_whenDrawn = [done, good] { done(good); };
+         drawPreview();
+       });
 }
 
 }  // namespace zerodrift::desktop

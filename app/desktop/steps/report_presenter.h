@@ -5,6 +5,7 @@
 #include <QSet>
 #include <QTimer>
 
+#include "app/desktop/drawing_loop.h"
 #include "app/desktop/presenter.h"
 #include "app/reporting/bundle.h"
 #include "core/report/text/language.h"
@@ -35,16 +36,27 @@ class ReportPresenter : public Presenter {
   /// Every page of the window as it is now, for support.
   std::vector<reporting::BundleExtra> screenshots() const;
   /// Writes the report into these files and keeps that it was done.
-  bool save(const QStringList& paths);
+  void save(const QStringList& paths, std::function<void(bool good)> done = {});
+  struct Saving;
+  void writeNext(const std::shared_ptr<Saving>& saving);
+  void saved(const Saving& saving);
+  void failed(const Saving& saving, const Error& error);
   void setHead(const ui::ReportHead& head);
-  /// The whole report of the job; then what is left out is taken from it.
-  Result<report::Report> build() const;
+  /// As chosen here: without what is left out, with the signature.
+  report::Report chosen(report::Report whole) const;
   void drawPreview();
+  void built(const std::filesystem::path& job, Result<report::Report> made);
+  void previewDone();
   void fillSections(ui::ReportState& state) const;
   QString defaultPath(const QString& ending) const;
 
   ui::ReportPage* m_page;
   QTimer m_redraw;  // the preview follows changes when they rest
+  TaskRunner m_building;
+  DrawingLoop m_drawing;  // of the preview
+  DrawingLoop m_writing;  // of the files
+  bool m_again = false;   // something was changed while the preview was made
+  std::function<void()> m_whenDrawn;
   QSet<QString> m_left;
   QImage m_signature;
   report::Report m_report;

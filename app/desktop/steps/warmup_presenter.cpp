@@ -13,6 +13,7 @@
 #include "core/recording/csv.h"
 #include "core/report/limits.h"
 #include "ui/pages/warmup_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -108,7 +109,7 @@ void WarmupPresenter::finishInterrupted() {
   const bool there = bench().connected() && !bench().lost();
   const QString kept = tr("What was recorded until the interruption is kept and used.");
   const QString away = tr("No machine is connected, so none is stopped: look whether its spindle stands.");
-  if (!ask(m_page, tr("Finish the interrupted run?"), there ? kept : kept + QLatin1Char(' ') + away, tr("Finish"))) {
+  if (!ask(m_page, tr("Finish the interrupted run?"), there ? kept : ui::sentencesText({kept, away}), tr("Finish"))) {
     return;
   }
   if (!there) {

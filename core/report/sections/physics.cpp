@@ -34,7 +34,7 @@ std::string said_parameters(const Source& source, const std::string& parameters)
 std::string said_here(const Source& source, const json& stored, const std::string& english) {
   auto sentence = diagnosis::sentence_from_json(stored);
   for (auto& [key, fact] : sentence.facts) {
-    if (key == "component") fact = source.say(fact);
+    if (key == "component" || key == "part") fact = source.say(fact);
     if (key == "parameters") fact = said_parameters(source, fact);
   }
   const std::string text = diagnosis::said(sentence, [&](const std::string& words) { return source.say(words); });
