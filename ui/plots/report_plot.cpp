@@ -231,42 +231,6 @@ void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData
   onto(painter, place, plot);
 }
 
-ReportPlotDrawing::ReportPlotDrawing(const QRectF& place, const ReportPlotData& data)
-    : m_place(place), m_plot(std::make_unique<QCustomPlot>()) {
-  fill(*m_plot, data, place.width());
-}
-
-ReportPlotDrawing::~ReportPlotDrawing() = default;
-
-/// One drawing of the whole for each bit, in which all but the bit is hidden: the order stays that of the layers.
-bool ReportPlotDrawing::step(QPainter& painter) {
-  constexpr qsizetype at_once = 4;
-  QCPLayer* curves = m_plot->layer(QStringLiteral("main"));
-  const QList<QCPLayerable*> all = curves->children();
-  const bool below = m_next < 0;
-  const bool above = m_next >= all.size();
-  for (int i = 0; i < m_plot->layerCount(); ++i) {
-    QCPLayer* layer = m_plot->layer(i);
-    layer->setVisible(below   ? layer->index() < curves->index()
-                      : above ? layer->index() > curves->index()
-                              : layer == curves);
-  }
-  if (!below && !above) {
-    QVector<bool> shown;
-    for (qsizetype i = 0; i < all.size(); ++i) {
-      shown.append(all[i]->visible());
-      if (i < m_next || i >= m_next + at_once) all[i]->setVisible(false);
-    }
-    onto(painter, m_place, *m_plot);
-    for (qsizetype i = 0; i < all.size(); ++i) all[i]->setVisible(shown[i]);
-  } else {
-    onto(painter, m_place, *m_plot);
-  }
-  m_plot->setBackground(QBrush(Qt::NoBrush));  // it was painted below all
-  m_next = below ? 0 : m_next + at_once;
-  return !above;
-}
-
 void drawReportMap(QPainter& painter, const QRectF& place, const ReportMapData& data) {
   constexpr double scaleHeight = 22.0;
   const double largest = largestOf(data.rows);

@@ -10,8 +10,6 @@
 #include <memory>
 #include <utility>
 
-class QCustomPlot;
-
 namespace zerodrift::ui {
 
 struct ReportCurve {
@@ -61,19 +59,6 @@ struct ReportMapData {
 std::unique_ptr<QPainter> makeVectorPainter(QPaintDevice* device);
 /// Draws into the rectangle (in the painter's logical pixels of 1/96 inch); the painter is one of makeVectorPainter.
 void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData& data);
-/// The same bit by bit: twenty long curves at once would hold a window.
-class ReportPlotDrawing {
- public:
-  ReportPlotDrawing(const QRectF& place, const ReportPlotData& data);
-  ~ReportPlotDrawing();
-  /// Some more of it; false when that was the last.
-  bool step(QPainter& painter);
-
- private:
-  QRectF m_place;
-  std::unique_ptr<QCustomPlot> m_plot;
-  qsizetype m_next = -1;  // of what stands between the grid and the axes; before that: what is below them
-};
 void drawReportMap(QPainter& painter, const QRectF& place, const ReportMapData& data);
 /// The same as a stand-alone SVG element.
 QByteArray reportPlotSvg(const ReportPlotData& data, const QSize& size);
