@@ -101,6 +101,10 @@ void Paper::begin(std::vector<PaperOutline> outline, int pages) {
 }
 
 bool Paper::step() {
+  if (!m_plots.empty()) {
+    if (!m_plots.front()->step(*m_painter)) m_plots.pop_front();
+    return true;
+  }
   if (m_next_part >= m_parts.size()) return false;
   m_parts[m_next_part++]();
   return true;
@@ -184,9 +188,7 @@ void Paper::operator()(const report::Table& table) {
 void Paper::operator()(const report::Plot& plot) {
   room_for(plot_height + 20 + gap);
   label(paper_text(plot.title), margin, m_width);
-  if (m_painter != nullptr) {
-    ui::drawReportPlot(*m_painter, QRectF(margin, m_y, m_width, plot_height), plot_data(plot));
-  }
+  draw_plot(QRectF(margin, m_y, m_width, plot_height), plot);
   m_y += plot_height + gap;
 }
 
@@ -197,6 +199,10 @@ void Paper::operator()(const report::HeatMap& map) {
     ui::drawReportMap(*m_painter, QRectF(margin, m_y, m_width, plot_height), map_data(map));
   }
   m_y += plot_height + gap;
+}
+
+void Paper::draw_plot(const QRectF& place, const report::Plot& plot) {
+  if (m_painter != nullptr) m_plots.push_back(std::make_unique<ui::ReportPlotDrawing>(place, plot_data(plot)));
 }
 
 void Paper::half_plots(const report::Plot& left, const report::Plot* right) {
@@ -214,9 +220,7 @@ void Paper::half_plots(const report::Plot& left, const report::Plot* right) {
     if (plot == nullptr) continue;
     m_y = top;
     label(paper_text(plot->title), x, width);
-    if (m_painter != nullptr) {
-      ui::drawReportPlot(*m_painter, QRectF(x, top + title_height, width, half_height), plot_data(*plot));
-    }
+    draw_plot(QRectF(x, top + title_height, width, half_height), *plot);
     x += width + gap;
   }
   m_y = top + title_height + half_height + gap;

@@ -5,10 +5,13 @@
 #include <QFont>
 #include <QPainter>
 #include <QRectF>
+#include <deque>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/report/report.h"
+#include "ui/plots/report_plot.h"
 
 namespace zerodrift::reporting {
 
@@ -57,6 +60,7 @@ class Paper {
   void title();
   void contents(const std::vector<PaperOutline>& outline);
   void plan_blocks(const report::Section& section);
+  void draw_plot(const QRectF& place, const report::Plot& plot);
   void half_plots(const report::Plot& left, const report::Plot* right);
   void heading(const QString& text);
   void label(const QString& text, double left, double width);
@@ -78,6 +82,7 @@ class Paper {
   const report::Report& m_report;
   std::vector<std::function<void()>> m_parts;  // in the order they are written
   std::size_t m_next_part = 0;
+  std::deque<std::unique_ptr<ui::ReportPlotDrawing>> m_plots;  // of the part before, not finished yet
   std::vector<PaperOutline> m_outline;
   std::vector<PaperLink> m_links;
   double m_width = 0.0;

@@ -5,10 +5,12 @@
 #include <QtWidgets>
 #include <cmath>
 #include <ctime>
+#include <functional>
 
 #include "ui/plots/custom_plot.h"
 #include "ui/plots/heat_map.h"
 #include "ui/plots/live_plot.h"
+#include "ui/plots/report_plot.h"
 #include "ui/plots/series.h"
 #include "ui/plots/xy_plot.h"
 
@@ -29,6 +31,7 @@ class PlotsTest : public QObject {
   void svgAndPngAreWritten();
   void pointsCanBeClicked();
   void heatMapPutsZeroInTheMiddle();
+  void aPaperPlotInBitsIsTheSame();
 };
 
 static QVector<double> ramp(int count, double step) {
@@ -234,6 +237,39 @@ void PlotsTest::heatMapPutsZeroInTheMiddle() {
   // The empty quarter has the neutral colour, not the cold end.
   const QColor corner = image.pixelColor(80, 200);
   QVERIFY2(corner.hslSaturation() < 60, qPrintable(corner.name()));
+}
+
+/// Bit by bit the same picture as at once: nothing in front of what stood behind it, nothing moved.
+void PlotsTest::aPaperPlotInBitsIsTheSame() {
+  ReportPlotData data{"time / h", "error / µm", {}};
+  for (int k = 0; k < 11; ++k) {
+    ReportCurve curve{QString("T%1").arg(k + 1), ramp(300, 0.01), ramp(300, 0.1 * (k - 4))};
+    curve.points = k == 3;
+    data.curves.append(curve);
+  }
+  data.stretches = {{0.5, 1.5, 0.8, "3000 rpm"}, {1.5, 2.5, 0.2, {}}};
+  data.marks = {{2.0, "pause"}};
+  data.limit = 20.0;
+  const QRectF place(10, 20, 700, 300);
+  const auto drawn = [&](const std::function<void(QPainter&)>& draw) {
+    QImage page(990, 470, QImage::Format_RGB32);
+    page.fill(Qt::white);
+    const auto painter = makeVectorPainter(&page);
+    painter->setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
+    painter->scale(1.37, 1.37);
+    draw(*painter);
+    painter->end();
+    return page;
+  };
+  int bits = 0;
+  const QImage whole = drawn([&](QPainter& painter) { drawReportPlot(painter, place, data); });
+  const QImage pieces = drawn([&](QPainter& painter) {
+    ReportPlotDrawing plot(place, data);
+    for (bits = 1; plot.step(painter);) ++bits;
+  });
+  QVERIFY2(bits > 2, qPrintable(QString::number(bits)));
+  QVERIFY(whole.pixelColor(490, 240) != QColor(Qt::white));
+  QCOMPARE(pieces, whole);
 }
 
 QTEST_MAIN(PlotsTest)

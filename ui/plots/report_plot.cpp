@@ -231,6 +231,39 @@ void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData
   onto(painter, place, plot);
 }
 
+ReportPlotDrawing::ReportPlotDrawing(const QRectF& place, const ReportPlotData& data)
+    : m_place(place), m_plot(std::make_unique<QCustomPlot>()) {
+  fill(*m_plot, data, place.width());
+}
+
+ReportPlotDrawing::~ReportPlotDrawing() = default;
+
+bool ReportPlotDrawing::step(QPainter& painter) {
+  constexpr int strips = 5;
+  auto* page = painter.device()->devType() == QInternal::Image ? static_cast<QImage*>(painter.device()) : nullptr;
+  if (page == nullptr) {  // lines are written down there and not filled
+    onto(painter, m_place, *m_plot);
+    return false;
+  }
+  // The whole is drawn onto each strip, which keeps what falls on it: the same pixels as at once.
+  const QTransform scale = painter.deviceTransform();
+  const QRect all = scale.mapRect(m_place).toAlignedRect().adjusted(-2, -2, 2, 2) & page->rect();
+  const int left = all.left() + all.width() * m_next / strips;
+  const int right = all.left() + all.width() * (m_next + 1) / strips;
+  const QRect strip(left, all.top(), right - left, all.height());
+  QImage part = page->copy(strip);
+  const auto on = makeVectorPainter(&part);
+  on->setRenderHints(painter.renderHints());
+  on->setTransform(scale * QTransform::fromTranslate(-strip.left(), -strip.top()));
+  onto(*on, m_place, *m_plot);
+  on->end();
+  painter.save();
+  painter.resetTransform();
+  painter.drawImage(strip.topLeft(), part);
+  painter.restore();
+  return ++m_next < strips;
+}
+
 void drawReportMap(QPainter& painter, const QRectF& place, const ReportMapData& data) {
   constexpr double scaleHeight = 22.0;
   const double largest = largestOf(data.rows);

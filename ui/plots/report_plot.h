@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+class QCustomPlot;
+
 namespace zerodrift::ui {
 
 struct ReportCurve {
@@ -59,6 +61,20 @@ struct ReportMapData {
 std::unique_ptr<QPainter> makeVectorPainter(QPaintDevice* device);
 /// Draws into the rectangle (in the painter's logical pixels of 1/96 inch); the painter is one of makeVectorPainter.
 void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData& data);
+/// The same bit by bit, where it is a picture that is painted on: to fill the lines of twenty long curves at once would
+/// hold a window.
+class ReportPlotDrawing {
+ public:
+  ReportPlotDrawing(const QRectF& place, const ReportPlotData& data);
+  ~ReportPlotDrawing();
+  /// The next of some upright strips; false when that was the last.
+  bool step(QPainter& painter);
+
+ private:
+  QRectF m_place;
+  std::unique_ptr<QCustomPlot> m_plot;
+  int m_next = 0;
+};
 void drawReportMap(QPainter& painter, const QRectF& place, const ReportMapData& data);
 /// The same as a stand-alone SVG element.
 QByteArray reportPlotSvg(const ReportPlotData& data, const QSize& size);
