@@ -24,6 +24,8 @@ using physics::Machine;
 using recording::Recording;
 
 constexpr std::size_t most_rows = 1500;
+// Of the length: a joint is broad and conducts unevenly, so that its middle is not known better.
+constexpr double least_of_a_joint = 0.006;
 
 /// Excess of a prediction under other noise assumptions.
 Excess excess_under(const physics::Prediction& prediction, const Dataset& data) {
@@ -230,7 +232,7 @@ void Diagnoser::decide() {
 
 /// The others know the place too, each with offsets and a start of its own. What is fitted stays the first's alone.
 void Diagnoser::place_from_others(FoundEffect& found, std::size_t index) {
-  if (m_limits.others.empty() || happened_once(*m_selection.best)) return;
+  if (m_limits.others.empty()) return;
   if (m_of_all == nullptr) m_of_all = seen_by_all(*m_selection.best, m_limits.others);
   if (m_of_all == nullptr) return;
   std::map<std::string, double> sigma;
@@ -257,6 +259,11 @@ void Diagnoser::effects() {
       found.position_mm = spec.numbers.at("position_mm");
       found.position_sigma_mm = found.sigma["position_mm"];
       place_from_others(found, index);
+      const physics::Component* rod = m_machine.find(found.component);
+      if (found.id == "contact_resistance" && rod != nullptr) {
+        found.position_sigma_mm = found.sigma["position_mm"] =
+            std::hypot(found.sigma["position_mm"], least_of_a_joint * rod->length_mm);
+      }
     }
     found.bounds_reached = best.bounds_reached();
     found.log_evidence_gain = best.log_evidence() - without->log_evidence();

@@ -90,9 +90,12 @@ void Model::set_z(std::size_t i, double z) {
 void Model::learn_from(const Model& other) {
   const Index n = static_cast<Index>(m_free.size());
   std::vector<Index> mine, theirs;
+  const auto is_new = [&](const physics::Parameter& p) {
+    return p.per_recording || (p.effect >= 0 && physics::happens_once(m_machine.effects[p.effect].id));
+  };
   for (std::size_t i = 0; i < unknowns(); ++i) {
     for (std::size_t k = 0; k < other.unknowns(); ++k) {
-      if (unknown(i).per_recording || !is_same(unknown(i), other.unknown(k))) continue;
+      if (is_new(unknown(i)) || !is_same(unknown(i), other.unknown(k))) continue;
       mine.push_back(static_cast<Index>(i));
       theirs.push_back(static_cast<Index>(k));
       break;

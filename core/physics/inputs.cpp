@@ -85,9 +85,36 @@ bool nothing_drives(const InputSet& inputs) {
          std::all_of(inputs.held.begin(), inputs.held.end(), still);
 }
 
+/// Whether the network uses an input or not: an effect that is absent must not change the steps.
+static std::vector<bool> settled_rows(const recording::Recording& recording) {
+  constexpr double while_s = 600.0;
+  constexpr double step = 0.1;  // of an input's range; less is noise of a measured one
+  std::vector<bool> stepped(recording.rows() + 1, false);
+  for (const auto& channel : recording.channels) {
+    if (!recording::is_input(channel.kind())) continue;
+    double low = 1e300, high = -1e300, last = 0.0;
+    for (const double v : channel.values) {
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    for (std::size_t k = 0; k < channel.values.size(); ++k) {
+      const double now = std::isfinite(channel.values[k]) ? channel.values[k] : last;
+      if (k > 0 && std::abs(now - last) > step * (high - low)) stepped[k] = true;
+      last = now;
+    }
+  }
+  std::vector<bool> settled(recording.rows(), false);
+  double stepped_s = recording.rows() == 0 ? 0.0 : recording.time_s[0];
+  for (std::size_t k = 0; k < settled.size(); ++k) {
+    if (stepped[k]) stepped_s = recording.time_s[k];
+    settled[k] = recording.time_s[k] - stepped_s >= while_s && !stepped[k + 1];
+  }
+  return settled;
+}
+
 InputSet make_inputs(const Network& network, const recording::Recording& recording) {
   InputSet set;
   set.time_s = recording.time_s;
+  set.settled = settled_rows(recording);
   const std::size_t rows = set.rows();
   set.held.assign(rows, std::vector<double>(network.held_channels.size(), 0.0));
   set.linear.assign(rows, std::vector<double>(network.linear_channels.size(), 0.0));

@@ -15,6 +15,7 @@ struct InputSet {
   std::vector<std::vector<double>> held;     // [row][index of held channel]
   std::vector<std::vector<double>> linear;   // [row][index of linear channel]
   std::vector<std::vector<double>> signals;  // [row][index of signal]
+  std::vector<bool> settled;  // [row] no input of the recording has stepped for a while, nor does it next
   std::size_t rows() const { return time_s.size(); }
 };
 

@@ -123,7 +123,9 @@ Trajectory Stepper::run() {
   if (rows > 0) record(0);
   for (std::size_t k = 0; k + 1 < rows; ++k) {
     const double interval_s = m_in.time_s[k + 1] - m_in.time_s[k];
-    const int steps = std::max(1, static_cast<int>(std::ceil(interval_s / m_options.longest_step_s)));
+    // Some time after every step of an input what is left is slow.
+    const double longest_s = (m_in.settled[k] ? 2.0 : 1.0) * m_options.longest_step_s;
+    const int steps = std::max(1, static_cast<int>(std::ceil(interval_s / longest_s)));
     for (int q = 0; q < steps; ++q) step(k, double(q) / steps, double(q + 1) / steps, interval_s / steps);
     record(k + 1);
   }

@@ -13,9 +13,9 @@
 namespace zerodrift::physics {
 
 struct SimulateOptions {
-  double longest_step_s = 31.0;
-  bool keep_field = false;    // node temperatures at every sample
-  bool keep_balance = false;  // stored and supplied heat
+  double longest_step_s = 31.0;  // twice that where no input has stepped for a while
+  bool keep_field = false;       // node temperatures at every sample
+  bool keep_balance = false;     // stored and supplied heat
 };
 
 struct Trajectory {

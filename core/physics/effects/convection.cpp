@@ -1,13 +1,39 @@
 // Heat lost to the room over the outer surface: rho c A dT/dt = ... - h P (T - T_room). The published spindle model
 // writes this term and then drops it. A lump of unknown surface has a conductance instead; with a room lag it feels the
 // room late: tau dE/dt = T_room - E, -G (T - E).
+#include <algorithm>
+#include <cmath>
+
 #include "core/physics/effects/laws.h"
 #include "core/physics/initial_state.h"
 
 namespace zerodrift::physics {
 namespace convection {
 
-/// Where a film acts the ends lose heat too; how much, the data say (0 unless the description knows it).
+/// A film over an end of the rod; where it has two bodies, over both.
+void add_end(NetworkBuilder& builder, const Component& component, bool far, Term term) {
+  const auto at = builder.place(component.id);
+  const int cell = far ? at.count - 1 : 0;
+  term.kind = TermKind::film;
+  term.environment = builder.room();
+  term.first_node = at.first + cell;
+  term.weights = {(1.0 - at.inner_share) * component.section_m2()};
+  if (at.inner >= 0) {
+    Term inside = term;
+    inside.first_node = at.inner + cell;
+    inside.weights = {at.inner_share * component.section_m2()};
+    builder.add(std::move(inside));
+  }
+  builder.add(std::move(term));
+}
+
+bool turns(const Component& component) {
+  return std::any_of(component.sources.begin(), component.sources.end(),
+                     [](const HeatSource& source) { return source.kind == SourceKind::bearing; });
+}
+
+/// Where a film acts the ends lose heat too, and the nose of a spindle more when it turns, as (n / n_full)^0.7; how
+/// much, the data say (0 unless the description knows it).
 void add_end_loss(NetworkBuilder& builder, const Component& component, const EffectSpec& spec, int index) {
   Parameter h;
   h.key = "end_h_W_m2K";
@@ -17,26 +43,26 @@ void add_end_loss(NetworkBuilder& builder, const Component& component, const Eff
   h.sigma = spec.candidate ? 10.0 : 0.7 * std::max(1.0, spec.number_or("h_W_m2K", 10.0));
   h.high = 8.0 * h.sigma;
   h.start = spec.number_or(h.key, 0.0);
-  const int parameter = builder.add_parameter(h);
-  const auto at = builder.place(component.id);
-  std::vector<std::pair<int, double>> ends = {{at.first, 1.0 - at.inner_share},
-                                              {at.first + at.count - 1, 1.0 - at.inner_share}};
-  if (at.inner >= 0) {
-    ends.emplace_back(at.inner, at.inner_share);
-    ends.emplace_back(at.inner + at.count - 1, at.inner_share);
-  }
-  for (const auto& [node, share] : ends) {
-    Term term;
-    term.kind = TermKind::film;
-    term.law_kind = LawKind::constant;
-    term.label = component.id + "/end";
-    term.first_node = node;
-    term.weights = {share * component.section_m2()};
-    term.environment = builder.room();
-    term.parameters = {parameter};
-    term.law = proportional_law;
-    builder.add(std::move(term));
-  }
+  Term ends;
+  ends.label = component.id + "/end";
+  ends.law_kind = LawKind::constant;
+  ends.law = proportional_law;
+  ends.parameters = {builder.add_parameter(h)};
+  add_end(builder, component, false, ends);
+  add_end(builder, component, true, std::move(ends));
+  if (!turns(component)) return;
+  h.key = "nose_h_W_m2K";
+  h.start = spec.number_or(h.key, 0.0);
+  Term nose;
+  nose.label = component.id + "/nose";
+  nose.parameters = {builder.add_parameter(h)};
+  nose.law = [speed = builder.held_speed(), full_rpm = builder.network().full_speed_rpm](const LawPoint& at) {
+    Strength s;
+    s.by_parameter[0] = std::pow(std::abs(at.held[speed]) / full_rpm, 0.7);
+    s.value = at.values[0] * s.by_parameter[0];
+    return s;
+  };
+  add_end(builder, component, true, std::move(nose));
 }
 
 /// h (1 + t (x / L - 1/2)): one end sits in its seat, the other in moving air. How much, the data say.
