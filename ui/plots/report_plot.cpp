@@ -1,6 +1,7 @@
 #include "ui/plots/report_plot.h"
 
 #include <QBuffer>
+#include <QCoreApplication>
 #include <QSvgGenerator>
 #include <algorithm>
 #include <cmath>
@@ -234,6 +235,8 @@ void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData
 ReportPlotDrawing::ReportPlotDrawing(const QRectF& place, const ReportPlotData& data)
     : m_place(place), m_plot(std::make_unique<QCustomPlot>()) {
   fill(*m_plot, data, place.width());
+  // A new plot asks to be painted in its own window, which this one has not.
+  QCoreApplication::removePostedEvents(m_plot.get(), QEvent::MetaCall);
 }
 
 ReportPlotDrawing::~ReportPlotDrawing() = default;
