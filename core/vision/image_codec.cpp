@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/file.h"
+#include "core/vision/image_header.h"
 #include "core/vision/opencv_image.h"
 
 namespace zerodrift::vision {
@@ -28,17 +29,13 @@ bool contains_near_end(Bytes bytes, std::string_view mark) {
 // What makes these bytes unfit before a decoder is trusted with them; "" if nothing does.
 std::string fault_of(Bytes bytes) {
   if (bytes.empty()) return "the file is empty";
+  // Each side by itself first: sizes of 32 bits can have a product beyond 64.
+  if (const auto size = claimed_size(bytes); size && (std::max(size->width, size->height) > largest_image_px ||
+                                                      size->width * size->height > largest_image_px)) {
+    return "the picture is larger than 100 megapixels";
+  }
   if (starts_with(bytes, {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a})) {
     if (bytes.size() < 33) return "the PNG file ends early";
-    const auto number_at = [&](std::size_t at) {
-      return (std::int64_t{bytes[at]} << 24) | (bytes[at + 1] << 16) | (bytes[at + 2] << 8) | bytes[at + 3];
-    };
-    const std::int64_t width = number_at(16);
-    const std::int64_t height = number_at(20);
-    // Each by itself first: sizes of 32 bits can have a product beyond 64.
-    if (std::max(width, height) > largest_image_px || width * height > largest_image_px) {
-      return "the picture is larger than 100 megapixels";
-    }
     return contains_near_end(bytes, "IEND") ? "" : "the PNG file ends early";
   }
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) {

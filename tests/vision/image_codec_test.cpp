@@ -57,6 +57,32 @@ TEST(ImageCodec, AHugeSizeInTheHeaderIsRefused) {
   EXPECT_NE(picture.error().context.at("detail").find("100 megapixels"), std::string::npos);
 }
 
+std::vector<std::uint8_t> bytes_of(std::initializer_list<int> values, std::size_t size) {
+  std::vector<std::uint8_t> out(values.begin(), values.end());
+  out.resize(size, 0);
+  return out;
+}
+
+// No decoder may take gigabytes for what 50 bytes claim.
+TEST(ImageCodec, AHugeSizeIsRefusedInEveryFormat) {
+  const std::vector<std::uint8_t> bmp =
+      bytes_of({'B', 'M', 0, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 0x02, 0xfa, 0, 0, 0x03, 0x40}, 60);
+  std::vector<std::uint8_t> upside_down = bmp;  // a height below zero
+  upside_down[22] = 0x00, upside_down[23] = 0x80, upside_down[24] = 0xff, upside_down[25] = 0xff;
+  // A comment, then the frame header with 65535 x 65535, then the end.
+  const std::vector<std::uint8_t> jpeg = bytes_of(
+      {0xff, 0xd8, 0xff, 0xfe, 0, 4, 'a', 'b', 0xff, 0xc0, 0, 17, 8, 0xff, 0xff, 0xff, 0xff, 3, 0xff, 0xd9}, 20);
+  // One directory: 70000 x 70000, as numbers of 32 bits, the high byte first.
+  const std::vector<std::uint8_t> tiff = bytes_of({'M', 'M', 0, 42,   0,    0, 0, 8, 0, 2, 1, 0, 0, 4, 0, 0,    0,
+                                                   1,   0,   1, 0x11, 0x70, 1, 1, 0, 4, 0, 0, 0, 1, 0, 1, 0x11, 0x70},
+                                                  40);
+  for (const auto& file : {bmp, upside_down, jpeg, tiff}) {
+    const auto picture = decode(file, "claims.much");
+    ASSERT_FALSE(picture);
+    EXPECT_EQ(picture.error().context.at("detail"), "the picture is larger than 100 megapixels");
+  }
+}
+
 TEST(ImageCodec, OtherFilesAreNamed) {
   const std::vector<std::uint8_t> text{'h', 'e', 'l', 'l', 'o'};
   const auto result = decode(text, "notes.txt");

@@ -280,9 +280,10 @@ Figure VerifyPage::removedFigure() const {
   for (const AxisResult& axis : m_state.results) {
     if (std::isnan(axis.removed_percent)) continue;
     axes << axis.axis;
-    values << fixedText(axis.removed_percent, 0);
+    const double whole_percent = std::floor(axis.removed_percent);  // 84.7 is not the 85 that is asked
+    values << fixedText(whole_percent, 0);
     const bool counts = axis.before_um > m_state.peakLimit_um || axis.before_um >= largest_um;
-    if (counts) least_percent = std::fmin(least_percent, axis.removed_percent);
+    if (counts) least_percent = std::fmin(least_percent, whole_percent);
   }
   Figure removed = figureAtLeast(tr("Removed"), least_percent, 0, "%", m_state.removedTarget_percent);
   removed.tip = tr("Share of the largest error that is gone, for each direction by itself; %1. Judged by the least of "
