@@ -22,14 +22,30 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
+/// No command writes pictures, and views and frames are read without being named one by one.
+bool is_picture(const std::filesystem::path& path) {
+  static const std::set<std::string> endings = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return endings.contains(ending);
+}
+
 /// A file that is read is not written over: a recording would be gone for good. A model may be updated in place.
 void refuse_writing_over(const CLI::App& command) {
   const auto writes = [](const CLI::Option& option) {
     static const std::set<std::string> names = {"--out", "--refined", "--statistics", "--report", "--log"};
     return names.contains(option.get_name());
   };
+  std::set<std::string> all_written;
   for (const CLI::Option* written : command.get_options([&](const CLI::Option* o) { return writes(*o); })) {
     for (const std::string& path : written->results()) {
+      std::error_code none;
+      if (is_picture(path) && std::filesystem::is_regular_file(path, none)) {
+        throw CLI::ValidationError(written->get_name(), "a picture would be written over: " + path);
+      }
+      if (!all_written.insert(std::filesystem::weakly_canonical(path, none).string()).second) {
+        throw CLI::ValidationError(written->get_name(), "two outputs would go to the same file: " + path);
+      }
       for (const CLI::Option* read : command.get_options()) {
         if (writes(*read) || read->get_name() == "--update") continue;
         for (const std::string& other : read->results()) {

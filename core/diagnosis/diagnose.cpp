@@ -12,6 +12,7 @@
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/explain.h"
+#include "core/diagnosis/long_gaps.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/thinning.h"
@@ -351,7 +352,8 @@ void Diagnoser::rivals() {
   // What of a strong effect's law is not quite right must not exclude a rival; where the description is good that is
   // little.
   const double not_quite = m_limits.own_misfit && !m_wide ? 0.003 : 0.02;
-  const double margin = std::max(8.0, not_quite * (best - m_selection.base->log_evidence()));
+  constexpr double beyond_doubt = 100.0;
+  const double margin = std::clamp(not_quite * (best - m_selection.base->log_evidence()), 8.0, beyond_doubt);
   std::vector<std::shared_ptr<Model>> others;
   const bool one_by_one = m_options.details && (m_out.effects.size() > 1 || m_out.drift_factor > 1.0);
   if (one_by_one) {
@@ -403,11 +405,18 @@ std::string_view name_of(Verdict verdict) {
                                            : "missing_effect";
 }
 
-Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>& recordings,
-                           const DiagnoseOptions& options, const TaskContext& context) {
-  if (recordings.empty())
+Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>& given, const DiagnoseOptions& options,
+                           const TaskContext& context) {
+  if (given.empty())
     return fail(ErrorCode::bad_argument, {{"what", "recordings"}, {"found", "none"}, {"expected", "at least one"}});
   std::vector<std::string> warnings;
+  std::vector<Recording> recordings = given;
+  for (Recording& recording : recordings) {
+    std::optional<LongestPart> part = longest_part(recording);
+    if (!part) continue;
+    warnings.push_back(std::move(part->note));
+    recording = std::move(part->recording);
+  }
   for (const auto& recording : recordings) {
     ZD_TRY(auto more, physics::check_recording(machine, recording));
     warnings.insert(warnings.end(), more.begin(), more.end());

@@ -93,6 +93,44 @@ TEST(BadInput, AWarmStartIsNoEffect) {
   for (const auto& effect : answer->effects) EXPECT_LT(effect.confidence, 0.5) << effect.id;
 }
 
+// What a machine does while nothing is measured is not known: no effect may be named for it.
+TEST(BadInput, AnHourWithoutMeasurementsIsNoEffect) {
+  for (const unsigned seed : {105u, 107u, 109u}) {
+    proof::Case one = proof::make_case(seed, "none");
+    recording::Recording& whole = one.recordings[0];
+    const recording::Channel* speed = whole.find("spindle_rpm");
+    ASSERT_NE(speed, nullptr);
+    // Around the change of speed that is nearest to a third of the run.
+    std::size_t change = 0;
+    for (std::size_t k = 1; k < whole.rows(); ++k) {
+      const auto away = [&](std::size_t row) {
+        return std::abs(static_cast<double>(row) - static_cast<double>(whole.rows()) / 3.0);
+      };
+      if (std::abs(speed->values[k] - speed->values[k - 1]) > 500.0 && away(k) < away(change)) change = k;
+    }
+    ASSERT_GT(change, 0u);
+    const double from_s = whole.time_s[change] - 900.0;
+    const double to_s = whole.time_s[change] + 2700.0;
+    recording::Recording left;
+    left.name = whole.name;
+    for (const auto& channel : whole.channels) left.channels.push_back({channel.name, {}});
+    for (std::size_t k = 0; k < whole.rows(); ++k) {
+      if (whole.time_s[k] > from_s && whole.time_s[k] < to_s) continue;
+      left.time_s.push_back(whole.time_s[k]);
+      for (std::size_t c = 0; c < left.channels.size(); ++c) {
+        left.channels[c].values.push_back(whole.channels[c].values[k]);
+      }
+    }
+    one.recordings[0] = left;
+    const auto answer = answer_for(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(answer->effects.empty()) << seed << ' ' << answer->effects.front().id;
+    EXPECT_TRUE(std::any_of(answer->notes.begin(), answer->notes.end(), [](const std::string& note) {
+      return note.find("nothing was measured for 60 min") != std::string::npos;
+    })) << seed;
+  }
+}
+
 TEST(BadInput, GapsAndSpikesDoNotChangeTheName) {
   proof::Case one = proof::make_case(106, "sensor_lag");
   auto& recording = one.recordings[0];

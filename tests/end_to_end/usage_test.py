@@ -27,6 +27,17 @@ def check(folder):
     usage("cluster", "--recording", recording, "--out", os.path.join(folder, ".", "r.csv"))
     with open(recording) as file:
         assert file.read() == before
+    picture = os.path.join(folder, "frame.png")
+    with open(picture, "wb") as file:
+        file.write(b"a picture")
+    assert "picture" in usage("fit", "--recording", recording, "--out", picture)
+    with open(picture, "rb") as file:
+        assert file.read() == b"a picture"
+    machine = os.path.join(folder, "machine.json")
+    with open(machine, "w") as file:
+        file.write("{}")
+    assert "same file" in usage("diagnose", "--machine", machine, "--recording", recording, "--out", other,
+                                "--refined", other)
     for clusters in ("0", "-3", "abc"):
         usage("cluster", "--recording", recording, "--clusters", clusters, "--out", other)
     usage("cluster", "--recording", recording, "--seed", "-1", "--out", other)

@@ -150,6 +150,28 @@ TEST(Target, ACoverOverFewEdgesDoesNotPull) {
   }
 }
 
+// More than half hidden, by something with a pattern of its own: measured as well as is said, or not at all.
+TEST(Target, UnderALargeCoverNothingWrongIsTold) {
+  const auto target = Target::create(sparse_plate(0, 0), target_region, {}, "template.png");
+  ASSERT_TRUE(target);
+  for (int k = 0; k < 24; ++k) {
+    GrayImage frame = sparse_plate(4, -3);
+    const int size = 70 + 4 * (k % 6);
+    const Region cover = k % 4 == 0   ? Region{230, 150, size, 190}
+                         : k % 4 == 1 ? Region{420 - size, 150, size, 190}
+                         : k % 4 == 2 ? Region{230, 150, 190, size}
+                                      : Region{230, 340 - size, 190, size};
+    for (int y = 0; y < cover.height; ++y) {
+      const int level = 60 + (y / 9 + k) % 3 * (20 + k);
+      paint(frame, {cover.x, cover.y + y, cover.width, 1}, static_cast<std::uint8_t>(level));
+    }
+    const Location at = target->locate(frame);
+    if (!at.ok) continue;
+    EXPECT_NEAR(at.x_px, 4.0, std::max(0.02, 4.0 * at.sigma_x_px)) << k;
+    EXPECT_NEAR(at.y_px, -3.0, std::max(0.02, 4.0 * at.sigma_y_px)) << k;
+  }
+}
+
 // Chips within a grid leave both its ends to be seen.
 TEST(Target, AGridUnderChipsIsMeasured) {
   const Target target = target_of(grid(), 1.0);
