@@ -8,7 +8,10 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 303> models = {{
+constexpr std::array<const char*, 304> models = {{
+    QT_TRANSLATE_NOOP(
+        "core",
+        "%1: %2 of %3 samples were used, from %4 to %5 min, for nothing was measured for %6 min before or after them"),
     QT_TRANSLATE_NOOP("core", "near heat"),
     QT_TRANSLATE_NOOP("core", "a length in mm, 2 to 30000 (is it in metres?)"),
     QT_TRANSLATE_NOOP("core", "a diameter in mm, 1 to 5000 (is it in metres?)"),

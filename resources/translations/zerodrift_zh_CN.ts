@@ -3797,6 +3797,10 @@
         <source>where the machine stood, in mm</source>
         <translation>机床当时的位置（mm）</translation>
     </message>
+    <message>
+        <source>%1: %2 of %3 samples were used, from %4 to %5 min, for nothing was measured for %6 min before or after them</source>
+        <translation>%1：%3 个采样中使用了 %2 个（%4 至 %5 min），因为其前或其后有 %6 min 未进行测量</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
