@@ -8,7 +8,7 @@
 namespace zerodrift::diagnosis {
 namespace {
 
-constexpr double fits = 2.3;  // excess, as of a description that nothing is missing in
+constexpr double fitting_excess = 2.3;  // excess, as of a description that nothing is missing in
 
 struct Elsewhere {
   double evidence = 0.0;
@@ -66,7 +66,7 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    if (left[i] <= fits) {
+    if (left[i] <= fitting_excess) {
       models[kept++] = models[i];
     } else {
       models[i]->elsewhere = 0.0;
@@ -78,7 +78,7 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
 ModelPtr seen_by_all(const Model& fit, const OtherRecordings& others) {
   if (others.empty()) return nullptr;
   const Elsewhere there = elsewhere(fit, others);
-  return there.left <= fits ? there.last : nullptr;
+  return there.left <= fitting_excess ? there.last : nullptr;
 }
 
 double evidence_of(const Model& model) {
