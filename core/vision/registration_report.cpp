@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/vision/other_print.h"
 #include "core/vision/registration_solver.h"
 
 namespace zerodrift::vision {
@@ -13,7 +14,9 @@ namespace {
 
 constexpr int tiles = tiles_a_side * tiles_a_side;
 constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
-constexpr double most_of_tile = 0.95;
+constexpr double most_of_part = 0.95;
+constexpr double beyond_noise = 3.3;       // times: 0.1 % of chi-square of eight over eight is above
+constexpr double hidden_weight = 0.05;     // a pixel with less does not show the target
 constexpr double least_rim_energy = 0.05;  // of the gradient energy: with less the rim says nothing
 
 bool in_rim(int tile) {
@@ -53,8 +56,10 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
   light.segment<light_count>(motion_count) = -m_light.cast<float>();
   Eigen::VectorXf model = Eigen::VectorXf::Zero(count);
   subtract_model(m_rows.data(), light.data(), count, model.data(), model.data());
+  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(count), 0);
   for (int k = 0; k < count; ++k) {
     const double w = m_robust(k);
+    hidden[k] = m_pixel_state[k] != FramePatch::seen ? 2 : w < hidden_weight ? 1 : 0;
     sum_w += w;
     sum_m += w * model(k);
     sum_g += w * (model(k) + m_error(k));
@@ -69,6 +74,9 @@ void RegistrationSolver::tell_fit(int count, Registration& out) const {
     seen += m_pixel_state[k] != FramePatch::outside;
     bright += m_pixel_state[k] == FramePatch::too_bright;
   }
+  const Eigen::Map<const Eigen::VectorXf> value(m_model.value.data(), count);
+  out.printed_otherwise =
+      printed_otherwise(m_model, value + m_error.head(count) / static_cast<float>(std::max(m_light(0), 0.05)), hidden);
   const double mean_m = sum_m / sum_w;
   const double mean_g = sum_g / sum_w;
   double mm = 0.0, gg = 0.0, mg = 0.0;
@@ -127,19 +135,47 @@ RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const 
   return out;
 }
 
-// Variance of the shift by leaving out each tile in turn (Quenouille's and Tukey's jackknife): a few tiles that carry
-// the result, as a ball's limb does, draw it towards themselves and would look innocent in a sum of squared scores.
-Eigen::Vector2d RegistrationSolver::jackknife(const Scores& scores) const {
-  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+// Variance of the shift by leaving out each part in turn (Quenouille's and Tukey's jackknife): a few parts that
+// carry the result, as a ball's limb does, draw it towards themselves and would look innocent in a sum of squared
+// scores. `part_of` tells the part of each tile.
+template <typename PartOf>
+Eigen::Vector2d RegistrationSolver::jackknife(const Scores& scores, PartOf part_of) const {
+  std::array<int, tiles> part{};
+  int parts = 0;
   for (int tile = 0; tile < tiles; ++tile) {
-    if (!scores.used[tile]) continue;
-    // What is left without the tile; at least a part of it, where the others cannot tell a column at all.
-    const Normal without = m_prepared.normal - most_of_tile * scores.normal[tile];
+    part[tile] = part_of(tile);
+    parts = std::max(parts, part[tile] + 1);
+  }
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (int one = 0; one < parts; ++one) {
+    // What is left without the part; at least a share of it, where the others cannot tell a column at all.
+    Normal without = m_prepared.normal;
+    Vector gradient = Vector::Zero();
+    for (int tile = 0; tile < tiles; ++tile) {
+      if (part[tile] != one || !scores.used[tile]) continue;
+      without -= most_of_part * scores.normal[tile];
+      gradient += scores.gradient[tile];
+    }
     const Eigen::LDLT<Normal> solved(without);
     if (solved.info() != Eigen::Success) continue;
-    squares += solved.solve(scores.gradient[tile]).head<2>().cwiseAbs2();
+    squares += solved.solve(gradient).head<2>().cwiseAbs2();
   }
   return squares;
+}
+
+// By tiles, and where an error is the same all along an edge, as the blocks of a JPEG picture or folded-down grooves
+// make it, by their columns and rows: these are few, so they count only where noise would hardly make so much of them.
+Eigen::Vector2d RegistrationSolver::variance_by_parts(const Scores& scores) const {
+  Eigen::Vector2d out = jackknife(scores, [](int tile) { return tile; });
+  const Eigen::Vector2d by_columns = jackknife(scores, [](int tile) { return tile % tiles_a_side; });
+  const Eigen::Vector2d by_rows = jackknife(scores, [](int tile) { return tile / tiles_a_side; });
+  const Eigen::Vector2d by_tiles = out;
+  for (const Eigen::Vector2d& along : {by_columns, by_rows}) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (along(axis) > beyond_noise * by_tiles(axis)) out(axis) = std::max(out(axis), along(axis));
+    }
+  }
+  return out;
 }
 
 // How far the means of the errors over tiles are beyond their noise; returns the variance of single errors.
@@ -173,7 +209,7 @@ double RegistrationSolver::tell_structure(int count, Registration& out) const {
 }
 
 // Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
-// in the residual: the scores summed over tiles instead of pixels, each tile left out in turn, which sees what the
+// in the residual: the scores summed over parts instead of pixels, each part left out in turn, which sees what the
 // noise formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
 void RegistrationSolver::tell_uncertainty(Registration& out) const {
   const int count = m_model.pixels;
@@ -195,11 +231,11 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   const double factor = variance * used / sum_w * shrink * shrink;
   const Eigen::Vector2d growth(std::sqrt(m_model.noise_growth_x), std::sqrt(m_model.noise_growth_y));
   const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;
-  const Eigen::Vector2d by_tiles = jackknife(scores) * (shrink * shrink);
+  const Eigen::Vector2d by_parts = variance_by_parts(scores) * (shrink * shrink);
   out.noise_variance_px2 = noise.diagonal();
-  // Each axis grows to what the tiles say; the correlation of the noise formula is kept.
-  const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_tiles(0) / noise(0, 0))),
-                              std::sqrt(std::max(1.0, by_tiles(1) / noise(1, 1))));
+  // Each axis grows to what the parts say; the correlation of the noise formula is kept.
+  const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_parts(0) / noise(0, 0))),
+                              std::sqrt(std::max(1.0, by_parts(1) / noise(1, 1))));
   out.covariance_px2 = ratio.asDiagonal() * noise * ratio.asDiagonal();
   out.lens.per_px2 = m_lens;
   out.lens.sigma_per_px2 = std::sqrt(std::max(inverse(bend, bend) * factor, 0.0)) * registration_lens_unit;

@@ -88,7 +88,9 @@ class RegistrationSolver {
   void tell_fit(int count, Registration& out) const;
   double tell_structure(int count, Registration& out) const;
   Scores scores_of_tiles(int count) const;
-  Eigen::Vector2d jackknife(const Scores& scores) const;
+  template <typename PartOf>
+  Eigen::Vector2d jackknife(const Scores& scores, PartOf part_of) const;
+  Eigen::Vector2d variance_by_parts(const Scores& scores) const;
 
   // Fields that are aligned alike stand together: the order leaves no gaps.
   Eigen::Vector2d m_whole_px;

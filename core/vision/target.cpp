@@ -48,11 +48,14 @@ constexpr double largest_contrast = 3.0;
 constexpr double largest_linear = 0.035;
 constexpr double largest_linear_in_glare = 0.07;  // a halo bends what little a ball shows
 constexpr double some_glare = 0.02;               // of the pixels
+constexpr double some_saturated = 0.005;          // of the pixels: it is glare that spoils the picture
 constexpr double accepted_blur_px2 = 12.0;
 constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
 constexpr double rough_residual = 2.4;     // standard deviations of shot noise
 constexpr double rough_sigma_px = 0.01;
 constexpr double nothing_hidden = 0.97;
+constexpr double another_print =
+    0.5;  // of what does not fit: covers and chips stay below 0.25, other codes and letters above 0.65
 constexpr double least_seen = 0.70;
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
@@ -67,7 +70,8 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   const bool all_but_glare = r.correlation > glare_correlation && r.inlier_share + r.saturated_share > glare_explained;
   const bool bent_by_glare = all_but_glare && r.saturated_share > some_glare;
   if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
-  if (r.structure > largest_structure) return r.saturated_share > 0.02 ? Refusal::glare : Refusal::too_different;
+  if (r.structure > largest_structure)
+    return r.saturated_share > some_saturated ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
   if (r.covariance_px2.diagonal().maxCoeff() > largest_sigma_px * largest_sigma_px) return Refusal::too_different;
   // A cover over much of the target can hold the fit at another place, where it leaves no outliers because it is rough
@@ -75,6 +79,7 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   // better.
   const bool rough = r.residual > rough_residual && r.inlier_share + r.saturated_share < nothing_hidden;
   if (rough && r.covariance_px2.diagonal().maxCoeff() > rough_sigma_px * rough_sigma_px) return Refusal::occluded;
+  if (r.printed_otherwise > another_print) return Refusal::wrong_target;
   if (r.rim_share < least_rim && !bent_by_glare) return Refusal::wrong_target;
   const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;
   if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {

@@ -117,4 +117,21 @@ TEST(RenderedFrames, AStarOfAnotherSizeIsNotTheTarget) {
   EXPECT_TRUE(target->locate(image_of(session.renderer.render(session.frames.front()))).ok);
 }
 
+// Another code of the same make fits with its frame and with half of its cells.
+TEST(RenderedFrames, AnotherCodeIsNotTheTarget) {
+  const test_support::Session session = test_support::make_session(PatternKind::code, Disturbance::clean, 5, 1);
+  const auto target = Target::create(image_of(session.renderer.render(session.template_spec)), region_of(session.roi),
+                                     std::nullopt, "template");
+  ASSERT_TRUE(target);
+  const double half_um = session.renderer.stage().target.half_um();
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    test_support::FrameSpec spec = session.frames.front();
+    spec.other_target = std::make_shared<test_support::Pattern>(PatternKind::code, half_um, seed);
+    const Location at = target->locate(image_of(session.renderer.render(spec)));
+    EXPECT_FALSE(at.ok) << "seed " << seed << " " << at.correlation << " " << at.inlier_share;
+  }
+  // The same cells under chips are the same target.
+  EXPECT_LT(largest_error_px(PatternKind::code, Disturbance::occluded, 5), 0.012);
+}
+
 }  // namespace zerodrift::vision
