@@ -93,7 +93,7 @@ constexpr std::array<const char*, 324> machines = {{
     QT_TRANSLATE_NOOP("core", "not below from_mm"),
     QT_TRANSLATE_NOOP("core", "%1 numbers"),
     QT_TRANSLATE_NOOP("core", "one for each of the %1 terms, or none"),
-    QT_TRANSLATE_NOOP("core", "%1: the check sum crc32 does not fit the content; the table was edited by hand"),
+    QT_TRANSLATE_NOOP("core", "the check sum of this content: it was changed after it was made (make the table anew)"),
     QT_TRANSLATE_NOOP("core", "the host offset"),
     QT_TRANSLATE_NOOP("core", "one to write to"),
     QT_TRANSLATE_NOOP("core", "the controller's own table"),

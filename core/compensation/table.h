@@ -98,7 +98,7 @@ Status check(const Table& table);
 /// Format "zerodrift-table/1". The CRC-32 is over the canonical text of everything else in it.
 nlohmann::json to_json(const Table& table);
 std::string crc32_text(const Table& table);
-/// A CRC that does not fit is a warning: the file was edited by hand.
+/// A CRC that does not fit is refused: whoever changed the content, nothing shows that all of it is meant.
 Result<Table> table_from_json(const nlohmann::json& document, const std::string& file,
                               std::vector<std::string>* warnings = nullptr);
 Result<Table> read_table_file(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);

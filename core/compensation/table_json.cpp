@@ -150,8 +150,18 @@ Result<Table> table_from_json(const json& document, const std::string& file, std
   ZD_TRY(Table table, from_json<Table>(document, file, warnings, read_body));
   ZD_CHECK(check(table));
   const auto stated = document.find("crc32");
-  if (warnings != nullptr && stated != document.end() && stated->is_string() && *stated != crc32_text(table)) {
-    warnings->push_back(file + ": the check sum crc32 does not fit the content; the table was edited by hand");
+  if (stated == document.end()) return table;
+  // Of what was read, or of the document as it stands: one of an older version has fewer keys.
+  json rest = document;
+  rest.erase("crc32");
+  const std::string of_document = fmt::format("{:08x}", crc32_of(json_text(rest)));
+  if (!stated->is_string() || (*stated != crc32_text(table) && *stated != of_document)) {
+    return fail(ErrorCode::json_bad_value, {{"file", file},
+                                            {"key", "crc32"},
+                                            {"found", stated->dump()},
+                                            {"expected",
+                                             "the check sum of this content: it was changed after it was "
+                                             "made (make the table anew)"}});
   }
   return table;
 }

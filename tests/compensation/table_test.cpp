@@ -1,9 +1,11 @@
 #include "core/compensation/table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/hash.h"
 #include "core/base/json.h"
 #include "core/compensation/interlock.h"
 #include "core/compensation/sign.h"
@@ -83,8 +85,20 @@ TEST(Table, JsonRoundTripAndCheckSum) {
   EXPECT_EQ(to_json(*back), document);
   auto edited = document;
   edited["axes"]["Z"]["temperature"]["offset_um"] = 2.0;
-  ASSERT_TRUE(table_from_json(edited, "t.json", &warnings));
-  EXPECT_EQ(warnings.size(), 1U);
+  const auto refused = table_from_json(edited, "t.json", &warnings);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::json_bad_value);
+  EXPECT_EQ(refused.error().context.at("key"), "crc32");
+  edited["crc32"] = 17;
+  EXPECT_FALSE(table_from_json(edited, "t.json", &warnings));
+  edited.erase("crc32");  // made by hand
+  EXPECT_TRUE(table_from_json(edited, "t.json", &warnings));
+  // Of a version that knew fewer keys.
+  auto older = document;
+  older["axes"]["Z"]["limits"].erase("max_um_per_K");
+  older.erase("crc32");
+  older["crc32"] = fmt::format("{:08x}", crc32_of(json_text(older)));
+  EXPECT_TRUE(table_from_json(older, "t.json", &warnings));
 }
 
 // Names in files for controllers may hold any bytes; found by fuzzing.
