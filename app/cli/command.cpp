@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <set>
 
+#include "core/analysis/checked.h"
+
 namespace zerodrift::cli {
 namespace {
 
@@ -100,6 +102,13 @@ CLI::Validator names_with_commas() {
     return split(text).size() == commas + 1 ? std::string() : "a name is missing in \"" + text + "\"";
   };
   return {look, "", "names"};
+}
+
+recording::Recording sound(const recording::Recording& recording, const std::set<std::string>& may_stand_still,
+                           std::vector<std::string>& warnings) {
+  analysis::Checked checked = analysis::checked(recording, may_stand_still);
+  for (const auto& finding : checked.findings) warnings.push_back(recording.name + ": " + analysis::describe(finding));
+  return std::move(checked.recording);
 }
 
 }  // namespace zerodrift::cli

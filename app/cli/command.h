@@ -6,11 +6,13 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/base/task_context.h"
+#include "core/recording/recording.h"
 
 namespace zerodrift::cli {
 
@@ -45,6 +47,10 @@ Result<std::vector<double>> numbers_from(const std::string& text, const std::str
 std::vector<std::string> names_from(const std::string& text);
 /// For options that names_from reads: a list in which a name is missing is wrong usage.
 CLI::Validator names_with_commas();
+
+/// The recording as checked() leaves it; what was wrong goes into the warnings.
+recording::Recording sound(const recording::Recording& recording, const std::set<std::string>& may_stand_still,
+                           std::vector<std::string>& warnings);
 
 // One line a command; each is defined in commands/<command>.cpp.
 void add_all_commands(Cli& cli);

@@ -8,7 +8,29 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 304> models = {{
+constexpr std::array<const char*, 323> models = {{
+    QT_TRANSLATE_NOOP("core",
+                      "Nothing can be named: the simulation follows the recording only with numbers far from those "
+                      "described. Check the units of the recording and the sizes and powers of the description first."),
+    QT_TRANSLATE_NOOP("core", "Recording {@what}."),
+    QT_TRANSLATE_NOOP("core", "Recording {recording}: {@what}."),
+    QT_TRANSLATE_NOOP("core",
+                      "Recording {recording}: the temperatures look like degrees Fahrenheit and were converted."),
+    QT_TRANSLATE_NOOP("core", "Recording {recording}: the temperatures look like kelvin and were converted."),
+    QT_TRANSLATE_NOOP("core", "may not be in seconds: no machine tool warms so fast"),
+    QT_TRANSLATE_NOOP("core", "%1 may not be in seconds: no machine tool warms so fast"),
+    QT_TRANSLATE_NOOP("core", "%1 may not be in seconds: no machine tool warms so fast (%2)"),
+    QT_TRANSLATE_NOOP("core", "%1 K in %2 s"),
+    QT_TRANSLATE_NOOP("core", "frozen from %1 to %2 s"),
+    QT_TRANSLATE_NOOP("core", "a movement of %1 um beside %2 K"),
+    QT_TRANSLATE_NOOP("core", "errors in um (are they in mm?)"),
+    QT_TRANSLATE_NOOP("core", "errors in um (are they in nm?)"),
+    QT_TRANSLATE_NOOP("core", "%1 s in all"),
+    QT_TRANSLATE_NOOP("core", "seconds (by %1 they are %2)"),
+    QT_TRANSLATE_NOOP("core", "minutes"),
+    QT_TRANSLATE_NOOP("core", "hours"),
+    QT_TRANSLATE_NOOP("core", "milliseconds"),
+    QT_TRANSLATE_NOOP("core", "a temperature that the simulation can follow"),
     QT_TRANSLATE_NOOP(
         "core",
         "%1: %2 of %3 samples were used, from %4 to %5 min, for nothing was measured for %6 min before or after them"),

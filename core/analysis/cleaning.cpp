@@ -30,34 +30,53 @@ double start_value(const std::vector<double>& values) {
   return median_of(std::move(first));
 }
 
-/// First row of the stretch of equal or missing samples that the series ends with.
-std::size_t frozen_from(const std::vector<double>& values) {
-  std::size_t from = values.size();
+struct Stretch {
+  std::size_t first = 0;
+  std::size_t last = 0;  // one past its last sample
+  int samples = 0;
+};
+
+/// The longest stretch, by time, in which no sample differs from the one before.
+Stretch longest_still(const std::vector<double>& time_s, const std::vector<double>& values) {
+  Stretch longest;
+  Stretch now;
+  double longest_s = 0.0;
   double last = missing_sample;
-  for (std::size_t i = values.size(); i-- > 0;) {
-    if (std::isfinite(values[i])) {
-      if (std::isfinite(last) && values[i] != last) break;
-      last = values[i];
-    }
-    from = i;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    if (values[i] != last) now = {i, i, 0};
+    last = values[i];
+    now.last = i + 1;
+    ++now.samples;
+    if (time_s[i] - time_s[now.first] <= longest_s) continue;
+    longest_s = time_s[i] - time_s[now.first];
+    longest = now;
   }
-  return from;
+  return longest;
 }
 
-/// True when more than half of the steps before `end` change the value: a noisy sensor, so that standing still is odd.
-bool is_noisy(const std::vector<double>& values, std::size_t end) {
+/// True when, outside these rows, more than half of the steps change the value and some of them go back: a noisy
+/// sensor, so that standing still is odd. What only creeps from one step of a coarse reading to the next is not.
+bool is_noisy(const std::vector<double>& values, const Stretch& outside) {
   int moves = 0;
+  int turns = 0;
   int steps = 0;
   double last = missing_sample;
-  for (std::size_t i = 0; i < end; ++i) {
-    if (!std::isfinite(values[i])) continue;
+  double direction = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i == outside.first) last = missing_sample;
+    if (!std::isfinite(values[i]) || (i >= outside.first && i < outside.last)) continue;
     if (std::isfinite(last)) {
       ++steps;
-      if (values[i] != last) ++moves;
+      if (values[i] != last) {
+        ++moves;
+        if ((values[i] - last) * direction < 0.0) ++turns;
+        direction = values[i] - last;
+      }
     }
     last = values[i];
   }
-  return steps >= 20 && 2 * moves > steps;
+  return steps >= 20 && 2 * moves > steps && 10 * turns > moves;
 }
 
 }  // namespace
@@ -147,12 +166,26 @@ std::optional<Finding> fatal_fault(const std::string& channel, const std::vector
     return Finding{FindingKind::sensor_died, FindingAction::dropped, channel,
                    fmt::format("no samples from {:.0f} s", time_s[last - 1])};
   }
-  const std::size_t frozen = frozen_from(values);
-  if (values.size() - frozen >= 50 && time_s.back() - time_s[frozen] > 0.1 * duration_s && is_noisy(values, frozen)) {
-    return Finding{FindingKind::sensor_died, FindingAction::dropped, channel,
-                   fmt::format("frozen from {:.0f} s", time_s[frozen])};
+  if (const auto frozen = frozen_stretch(time_s, values)) {
+    const bool for_good = std::none_of(values.begin() + static_cast<std::ptrdiff_t>(frozen->second), values.end(),
+                                       [](double v) { return std::isfinite(v); });
+    return Finding{
+        FindingKind::sensor_died, FindingAction::dropped, channel,
+        for_good ? fmt::format("frozen from {:.0f} s", time_s[frozen->first])
+                 : fmt::format("frozen from {:.0f} to {:.0f} s", time_s[frozen->first], time_s[frozen->second - 1])};
   }
   return std::nullopt;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> frozen_stretch(const std::vector<double>& time_s,
+                                                                  const std::vector<double>& values) {
+  constexpr int fewest = 50;
+  if (time_s.empty()) return std::nullopt;
+  const Stretch still = longest_still(time_s, values);
+  if (still.samples < fewest) return std::nullopt;
+  const double still_s = time_s[still.last - 1] - time_s[still.first];
+  if (still_s <= 0.1 * (time_s.back() - time_s.front()) || !is_noisy(values, still)) return std::nullopt;
+  return std::pair{still.first, still.last};
 }
 
 double bridge_gaps(const std::vector<double>& time_s, std::vector<double>& values) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/analysis/findings.h"
@@ -24,6 +25,11 @@ int remove_wild_errors(std::vector<double>& values);
 /// A fault that makes the whole series useless, if there is one: dead, died half-way, constant.
 std::optional<Finding> fatal_fault(const std::string& channel, const std::vector<double>& time_s,
                                    const std::vector<double>& values);
+
+/// The rows [first, last) in which a sensor that is noisy otherwise repeats one value for more than a tenth of the run:
+/// its reading was not renewed, whether or not it came back.
+std::optional<std::pair<std::size_t, std::size_t>> frozen_stretch(const std::vector<double>& time_s,
+                                                                  const std::vector<double>& values);
 
 /// Missing samples: straight line between neighbours, held at the ends. Returns the longest gap bridged in s.
 double bridge_gaps(const std::vector<double>& time_s, std::vector<double>& values);

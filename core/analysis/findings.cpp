@@ -41,6 +41,8 @@ std::string_view sentence_of(FindingKind kind) {
       return "is outside what the training saw";
     case FindingKind::not_in_every_run:
       return "is not in every recording";
+    case FindingKind::doubtful_times:
+      return "may not be in seconds: no machine tool warms so fast";
     case FindingKind::not_guaranteed:
       return "cannot be guaranteed from this recording";
   }
@@ -83,6 +85,8 @@ std::string_view name_of(FindingKind kind) {
       return "extrapolation";
     case FindingKind::not_in_every_run:
       return "not_in_every_run";
+    case FindingKind::doubtful_times:
+      return "doubtful_times";
     case FindingKind::not_guaranteed:
       return "not_guaranteed";
   }

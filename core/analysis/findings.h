@@ -26,6 +26,7 @@ enum class FindingKind {
   few_rows,           // hardly more measurements than parameters
   extrapolation,      // states that the training never saw
   not_in_every_run,   // one of several recordings lacks it
+  doubtful_times,     // warmer in less time than a machine can
   not_guaranteed,     // a figure that this recording is too short to guarantee
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/analysis/budget.h"
+#include "core/analysis/checked.h"
 #include "core/analysis/clustering.h"
 #include "core/analysis/evaluate.h"
 #include "core/analysis/sensor_choice.h"
@@ -356,7 +357,11 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
   PrepareOptions prepare_options;
   prepare_options.sensors = options.sensors;
   prepare_options.errors = options.errors;
-  ZD_TRY(const TrainingSet set, make_training(recordings, prepare_options));
+  for (const auto& recording : recordings) ZD_CHECK(check_error_unit(recording));
+  ZD_TRY(TrainingSet set, make_training(recordings, prepare_options));
+  for (const auto& recording : recordings) {
+    if (auto doubt = doubtful_times(recording)) set.findings.push_back(std::move(*doubt));
+  }
   if (options.method == Method::physics && !has_simulation(set.runs.front())) {
     return fail(ErrorCode::bad_argument, {{"what", "the method"},
                                           {"found", "physics without a machine description"},

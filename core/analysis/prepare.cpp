@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/analysis/checked.h"
 #include "core/analysis/cleaning.h"
 
 namespace zerodrift::analysis {
@@ -54,26 +55,18 @@ Status take_sensors(const Recording& recording, const PrepareOptions& options, P
   for (const auto& name : names) {
     ZD_TRY(const Channel* channel, recording.require(name));
     series.push_back(channel->values);
-    for (double& v : series.back()) {
-      if (!std::isfinite(v)) v = missing_sample;
-    }
   }
-  convert_units(names, series, out.findings);
+  const auto faults = check_temperatures(names, recording.time_s, series, out.findings);
   const double step_s = typical_step_s(recording.time_s);
   std::vector<std::vector<double>> kept;
   for (std::size_t c = 0; c < names.size(); ++c) {
-    const int spikes = remove_spikes(series[c]);
-    if (auto fault = fatal_fault(names[c], recording.time_s, series[c])) {
+    if (const auto& fault = faults[c]) {
       if (by_name) {
         return fail(fault->kind == FindingKind::constant_sensor ? ErrorCode::no_variation : ErrorCode::sensor_dead,
                     {{"what", names[c]}, {"sensor", names[c]}, {"detail", describe(*fault)}});
       }
       out.findings.push_back(*fault);
       continue;
-    }
-    if (spikes > 0) {
-      out.findings.push_back(
-          {FindingKind::spikes, FindingAction::repaired, names[c], fmt::format("{} samples", spikes)});
     }
     const double gap_s = bridge_gaps(recording.time_s, series[c]);
     if (gap_s > std::max(10.0 * step_s, 300.0)) {

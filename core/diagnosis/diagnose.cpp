@@ -8,15 +8,14 @@
 
 #include "core/diagnosis/apart.h"
 #include "core/diagnosis/bodies.h"
+#include "core/diagnosis/checked_runs.h"
 #include "core/diagnosis/contradiction.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/explain.h"
-#include "core/diagnosis/long_gaps.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/thinning.h"
-#include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -225,6 +224,12 @@ void Diagnoser::decide() {
     const bool helps = !wrong && after.mean < 0.7 * before.mean;
     m_used = poor && !helps ? m_selection.base : m_selection.best;
   }
+  m_far = far_from_description(*m_used);
+  if (found && is_doubtful(m_far)) {
+    m_out.verdict = Verdict::unexplained;
+    m_out.doubtful = true;
+    m_used = m_selection.base;
+  }
   if (m_used == m_selection.base) {
     for (auto& other : m_out.held_out) other.explained = other.refitted;
   }
@@ -409,24 +414,17 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
                            const TaskContext& context) {
   if (given.empty())
     return fail(ErrorCode::bad_argument, {{"what", "recordings"}, {"found", "none"}, {"expected", "at least one"}});
-  std::vector<std::string> warnings;
-  std::vector<Recording> recordings = given;
-  for (Recording& recording : recordings) {
-    std::optional<LongestPart> part = longest_part(recording);
-    if (!part) continue;
-    warnings.push_back(std::move(part->note));
-    recording = std::move(part->recording);
-  }
-  for (const auto& recording : recordings) {
-    ZD_TRY(auto more, physics::check_recording(machine, recording));
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  }
-  Result<Diagnosis> result = falls_apart(machine) ? diagnose_apart(machine, recordings, options, context)
-                                                  : Diagnoser(machine, recordings, options, context).run();
-  if (result && !falls_apart(machine)) {
-    result = settled(std::move(*result), machine, recordings, options, context);
-  }
-  if (result) result->notes.insert(result->notes.end(), warnings.begin(), warnings.end());
+  ZD_TRY(const CheckedRuns runs, checked_runs(machine, given));
+  const bool apart = falls_apart(machine);
+  Result<Diagnosis> result = apart ? diagnose_apart(machine, runs.recordings, options, context)
+                                   : Diagnoser(machine, runs.recordings, options, context).run();
+  if (result && !apart) result = settled(std::move(*result), machine, runs.recordings, options, context);
+  if (!result) return result;
+  const std::vector<Sentence> told = told_of(runs);
+  result->sentences.insert(result->sentences.end(), told.begin(), told.end());
+  result->notes.insert(result->notes.end(), runs.left_out.begin(), runs.left_out.end());
+  result->notes.insert(result->notes.end(), runs.warnings.begin(), runs.warnings.end());
+  result->findings = runs.findings;
   return result;
 }
 

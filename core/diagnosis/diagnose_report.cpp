@@ -296,7 +296,7 @@ void Diagnoser::details() {
 std::vector<Sentence> Diagnoser::far_parameters() {
   constexpr std::size_t most_told = 3;
   std::vector<Sentence> told;
-  for (const FarParameter& one : far_from_description(*m_used)) {
+  for (const FarParameter& one : m_far) {
     m_out.notes.push_back(fmt::format("far_from_description:{}:{}:{:.3g}", one.quantity.substr(9), one.of, one.factor));
     if (told.size() == most_told) continue;
     std::string part = one.of;

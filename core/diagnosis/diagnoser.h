@@ -2,6 +2,7 @@
 // One diagnosis in the making: what select_effects finds is judged (diagnose.cpp) and told (diagnose_report.cpp).
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/plausible.h"
 #include "core/diagnosis/selection.h"
 
 namespace zerodrift::diagnosis {
@@ -67,6 +68,7 @@ class Diagnoser {
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;
+  std::vector<FarParameter> m_far;  // of what explains best
   std::shared_ptr<Model> m_of_all;  // the best with what every recording has shown of the machine; null: not asked
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;

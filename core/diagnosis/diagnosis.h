@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/findings.h"
 #include "core/base/task_context.h"
 #include "core/physics/machine.h"
 #include "core/recording/recording.h"
@@ -100,6 +101,12 @@ struct SuggestedExperiment {
   std::string plan_json;  // a warm-up plan
 };
 
+/// What was wrong with a recording, and what was done about it.
+struct RunFinding {
+  std::string recording;
+  analysis::Finding finding;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::consistent;
   Mismatch mismatch;
@@ -109,6 +116,7 @@ struct Diagnosis {
   std::vector<double> sizes;       // of the same: first amplitude, in its own unit
   double unusual_start = 0.0;      // the largest start that one of them needs, over how far it usually is off
   bool refuted = false;            // unexplained because it makes a held-out recording worse
+  bool doubtful = false;  // unexplained because it bends the description beyond what units and sizes can be off
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;
   std::vector<ChannelReport> channels;
@@ -118,6 +126,7 @@ struct Diagnosis {
   std::optional<HeatMap> heat;
   std::vector<Sentence> sentences;
   std::vector<std::string> notes;
+  std::vector<RunFinding> findings;
   double drift_factor = 1.0;  // slow discrepancy chosen by evidence, relative to the default
   double excess_before = 0.0, excess_after = 0.0;
   double seconds = 0.0;

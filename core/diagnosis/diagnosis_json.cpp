@@ -54,6 +54,7 @@ json to_json(const Diagnosis& diagnosis) {
               {"suggested_experiment", json()},
               {"notes", diagnosis.notes},
               {"excess", {{"before", diagnosis.excess_before}, {"after", diagnosis.excess_after}}},
+              {"doubtful", diagnosis.doubtful},
               {"drift_factor", diagnosis.drift_factor},
               {"seconds", diagnosis.seconds}};
   for (const auto& effect : diagnosis.effects) out["effects"].push_back(json_of(effect));
@@ -106,6 +107,12 @@ json to_json(const Diagnosis& diagnosis) {
   }
   for (const auto& one : diagnosis.detectable)
     out["could_have_detected"][one.id] = {{"key", one.key}, {"value", one.value}};
+  out["findings"] = json::array();
+  for (const auto& [recording, finding] : diagnosis.findings) {
+    json one = analysis::to_json({finding}).front();
+    one["recording"] = recording;
+    out["findings"].push_back(std::move(one));
+  }
   out["said"] = json::array();
   for (const auto& sentence : diagnosis.sentences) {
     out["sentences"].push_back(sentence.english);

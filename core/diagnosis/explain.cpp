@@ -154,7 +154,9 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
   const bool bent = std::any_of(diagnosis.notes.begin(), diagnosis.notes.end(),
                                 [](const auto& note) { return note.starts_with("far_from_description:"); });
   if (diagnosis.verdict == Verdict::consistent && bent) s.id += "_bent";
-  if (diagnosis.verdict == Verdict::unexplained) {
+  if (diagnosis.doubtful) {
+    s.id += "_doubtful";
+  } else if (diagnosis.verdict == Verdict::unexplained) {
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
     s.facts = {{"channel", channel}, {"regime", regime_or_always(diagnosis.mismatch.regime)}};
     for (const auto& report : diagnosis.channels) {

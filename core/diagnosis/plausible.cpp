@@ -33,6 +33,44 @@ Movement movement(const MeasuredChannel& channel, const std::vector<double>& sim
   return {spread(std::move(measured)), spread(std::move(predicted))};
 }
 
+bool has_unknown_heat(const physics::Machine& machine) {
+  return std::any_of(machine.components.begin(), machine.components.end(), [](const auto& component) {
+    return std::any_of(component.sources.begin(), component.sources.end(),
+                       [](const auto& source) { return source.power_unknown; });
+  });
+}
+
+/// Of all temperatures' movement, rms, what the rise of the machine as described, times one number, does not follow:
+/// its shape, not its size.
+double shape_missed(const physics::Machine& machine, const recording::Recording& recording) {
+  const physics::Network network = physics::build_network(machine, recording);
+  const Dataset data = make_dataset(recording, network);
+  const physics::Prediction nominal =
+      physics::predict(network, physics::make_inputs(network, recording), network.start_values());
+  double spread = 0.0, measured2 = 0.0, product = 0.0, nominal2 = 0.0;
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    const MeasuredChannel& channel = data.channels[c];
+    if (channel.samples == 0 || !channel.temperature) continue;
+    const std::vector<double>& simulated = nominal.channels[c].values;
+    const auto first = static_cast<std::size_t>(std::find(channel.present.begin(), channel.present.end(), true) -
+                                                channel.present.begin());
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t k = first; k < data.rows(); ++k) {
+      if (!channel.present[k]) continue;
+      const double x = simulated[k] - simulated[first];
+      const double y = channel.values[k] - channel.values[first];
+      sum += y;
+      squares += y * y;
+      product += x * y / channel.samples;
+      nominal2 += x * x / channel.samples;
+    }
+    measured2 += squares / channel.samples;
+    spread += squares / channel.samples - std::pow(sum / channel.samples, 2);
+  }
+  const double followed = nominal2 > 0.0 ? product * product / nominal2 : 0.0;
+  return spread > 0.0 ? std::sqrt(std::max(0.0, measured2 - followed) / spread) : 0.0;
+}
+
 /// What the description itself says, and its name in the catalogue; empty: a nuisance.
 std::string quantity_of(const std::string& key) {
   if (key.starts_with("scale:")) return "quantity_heat";
@@ -64,6 +102,12 @@ std::vector<FarParameter> far_from_description(const Model& model) {
   return list;
 }
 
+bool is_doubtful(const std::vector<FarParameter>& far) {
+  constexpr double doubtful = 2.0;
+  return std::any_of(far.begin(), far.end(),
+                     [](const FarParameter& one) { return one.factor > doubtful || one.factor < 1.0 / doubtful; });
+}
+
 bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nominal) {
   double count = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t k = 0; k < nominal.size(); ++k) {
@@ -87,12 +131,35 @@ bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nomi
   return slope < -0.5 && slope > -2.0 && xy * xy > like * xx * yy;
 }
 
-Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal) {
-  for (const auto& component : machine.components) {
-    for (const auto& source : component.sources) {
-      if (source.power_unknown) return {};  // nothing to compare with
-    }
+Status check_times(const physics::Machine& machine, const recording::Recording& recording) {
+  // A right description whose machine misses its main cooling leaves 0.8, times off by 60 leave more than 1.
+  constexpr double nothing_like = 0.9;  // of the movement, rms
+  constexpr double like = 0.75;         // of what is left with the times as they are
+  struct Unit {
+    double seconds;
+    const char* plural;
+  };
+  constexpr Unit units[] = {{60.0, "minutes"}, {3600.0, "hours"}, {1e-3, "milliseconds"}};
+  constexpr double longest_row_s = 3600.0;
+  if (has_unknown_heat(machine)) return {};
+  const double as_it_is = shape_missed(machine, recording);
+  if (!(as_it_is > nothing_like)) return {};
+  const double whole_s = recording.time_s.back() - recording.time_s.front();
+  for (const Unit& unit : units) {
+    if (unit.seconds * whole_s > longest_row_s * static_cast<double>(recording.rows())) continue;
+    recording::Recording other = recording;
+    for (double& t : other.time_s) t *= unit.seconds;
+    if (shape_missed(machine, other) > like * as_it_is) continue;
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", recording.name + ", column time_s"},
+                 {"found", fmt::format("{:.4g} s in all", whole_s)},
+                 {"expected", fmt::format("seconds (by {} they are {})", machine.file, unit.plural)}});
   }
+  return {};
+}
+
+Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal) {
+  if (has_unknown_heat(machine)) return {};  // nothing to compare with
   for (const bool temperature : {true, false}) {
     Movement largest;
     std::string name;

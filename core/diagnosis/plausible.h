@@ -12,6 +12,10 @@ namespace zerodrift::diagnosis {
 /// An error naming the channel whose movement differs from the simulated one by more than any missing effect could.
 Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal);
 
+/// An error where the times only make sense in minutes, hours or milliseconds: the machine as described is nothing like
+/// the recording, but is like it with other times.
+Status check_times(const physics::Machine& machine, const recording::Recording& recording);
+
 /// What a fit has made of a number of the description.
 struct FarParameter {
   std::string quantity;  // id in the catalogue of sentences: "quantity_heat" ...
@@ -21,6 +25,8 @@ struct FarParameter {
 };
 /// Numbers of the description that a fit has moved out of all tolerance (more than four widths), farthest first.
 std::vector<FarParameter> far_from_description(const Model& model);
+/// Moved by so much that a unit or a size must be wrong, and what is named beside it stands for that.
+bool is_doubtful(const std::vector<FarParameter>& far);
 
 /// Does the measured displacement follow the described one with the sign turned?
 bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nominal);

@@ -43,6 +43,13 @@ constexpr std::array catalogue{
     Entry{"quantity_capacity", "the heat capacity"},
     Entry{"quantity_expansion", "the expansion"},
     Entry{"quantity_film", "the film to the room"},
+    Entry{"verdict_unexplained_doubtful",
+          "Nothing can be named: the simulation follows the recording only with numbers far from those described. "
+          "Check the units of the recording and the sizes and powers of the description first."},
+    Entry{"run_left_out", "Recording {@what}."},
+    Entry{"run_finding", "Recording {recording}: {@what}."},
+    Entry{"run_fahrenheit", "Recording {recording}: the temperatures look like degrees Fahrenheit and were converted."},
+    Entry{"run_kelvin", "Recording {recording}: the temperatures look like kelvin and were converted."},
     Entry{"no_excitation", "Nothing drives the machine in this recording: little can be learned from it."},
     Entry{"sign_turned", "With its sign turned, {channel} is as described: check which way it counts as positive."},
     Entry{"experiment_show", "To see whether there is {@rival}, {minutes} min in all: {@run}."},

@@ -50,6 +50,16 @@ const Sensor* Machine::sensor(const std::string& channel) const {
   return nullptr;
 }
 
+std::set<std::string> measured_boundaries(const Machine& machine) {
+  std::set<std::string> channels{machine.room.channel};
+  for (const auto& fluid : machine.fluids) channels.insert(fluid.temperature_channel);
+  for (const auto& sensor : machine.sensors) {
+    const Component* component = machine.find(sensor.component);
+    if (component != nullptr && component->prescribed) channels.insert(sensor.channel);
+  }
+  return channels;
+}
+
 const EffectSpec* Machine::effect(const std::string& id) const {
   for (const auto& one : effects) {
     if (one.id == id) return &one;

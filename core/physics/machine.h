@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,9 @@ struct Machine {
   /// The speed that stands for "full": the largest rated speed, 0 if none is named.
   double rated_speed_rpm() const;
 };
+
+/// Channels of measured temperatures that drive the simulation: the room, fluids, prescribed parts.
+std::set<std::string> measured_boundaries(const Machine& machine);
 
 Result<Machine> read_machine(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 Result<Machine> machine_from_json(const nlohmann::json& document, const std::string& file,

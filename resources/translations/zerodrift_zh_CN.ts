@@ -718,10 +718,6 @@
         <translation>%1 个项各一个，或都没有</translation>
     </message>
     <message>
-        <source>%1: the check sum crc32 does not fit the content; the table was edited by hand</source>
-        <translation>%1：校验和 crc32 与内容不符；该表被手工修改过</translation>
-    </message>
-    <message>
         <source>the host offset</source>
         <translation>上位机偏置</translation>
     </message>
@@ -3800,6 +3796,86 @@
     <message>
         <source>%1: %2 of %3 samples were used, from %4 to %5 min, for nothing was measured for %6 min before or after them</source>
         <translation>%1：%3 个采样中使用了 %2 个（%4 至 %5 min），因为其前或其后有 %6 min 未进行测量</translation>
+    </message>
+    <message>
+        <source>Nothing can be named: the simulation follows the recording only with numbers far from those described. Check the units of the recording and the sizes and powers of the description first.</source>
+        <translation>无法指明任何效应：只有在参数与描述相差很大时，仿真才与记录一致。请先检查记录的单位以及描述中的尺寸和功率。</translation>
+    </message>
+    <message>
+        <source>Recording {@what}.</source>
+        <translation>记录 {@what}。</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: {@what}.</source>
+        <translation>记录 {recording}：{@what}。</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: the temperatures look like degrees Fahrenheit and were converted.</source>
+        <translation>记录 {recording}：温度似为华氏度，已换算。</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: the temperatures look like kelvin and were converted.</source>
+        <translation>记录 {recording}：温度似为开尔文，已换算。</translation>
+    </message>
+    <message>
+        <source>may not be in seconds: no machine tool warms so fast</source>
+        <translation>可能不是以秒为单位：没有机床升温如此之快</translation>
+    </message>
+    <message>
+        <source>%1 may not be in seconds: no machine tool warms so fast</source>
+        <translation>%1 可能不是以秒为单位：没有机床升温如此之快</translation>
+    </message>
+    <message>
+        <source>%1 may not be in seconds: no machine tool warms so fast (%2)</source>
+        <translation>%1 可能不是以秒为单位：没有机床升温如此之快（%2）</translation>
+    </message>
+    <message>
+        <source>%1 K in %2 s</source>
+        <translation>%2 s 内 %1 K</translation>
+    </message>
+    <message>
+        <source>frozen from %1 to %2 s</source>
+        <translation>自 %1 至 %2 s 停滞</translation>
+    </message>
+    <message>
+        <source>a movement of %1 um beside %2 K</source>
+        <translation>变化 %1 um，而温度变化 %2 K</translation>
+    </message>
+    <message>
+        <source>errors in um (are they in mm?)</source>
+        <translation>以 um 为单位的误差（是否为 mm？）</translation>
+    </message>
+    <message>
+        <source>errors in um (are they in nm?)</source>
+        <translation>以 um 为单位的误差（是否为 nm？）</translation>
+    </message>
+    <message>
+        <source>%1 s in all</source>
+        <translation>共 %1 s</translation>
+    </message>
+    <message>
+        <source>seconds (by %1 they are %2)</source>
+        <translation>秒（按 %1 则为%2）</translation>
+    </message>
+    <message>
+        <source>minutes</source>
+        <translation>分钟</translation>
+    </message>
+    <message>
+        <source>hours</source>
+        <translation>小时</translation>
+    </message>
+    <message>
+        <source>milliseconds</source>
+        <translation>毫秒</translation>
+    </message>
+    <message>
+        <source>a temperature that the simulation can follow</source>
+        <translation>仿真可以跟随的温度</translation>
+    </message>
+    <message>
+        <source>the check sum of this content: it was changed after it was made (make the table anew)</source>
+        <translation>与此内容相符的校验和：内容在生成之后被更改（请重新生成该表）</translation>
     </message>
 </context>
 <context>

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/analysis/checked.h"
+#include "core/analysis/fit.h"
 #include "core/analysis/prepare.h"
 #include "tests/analysis/support.h"
 
@@ -68,6 +70,43 @@ TEST(Cleaning, EveryFaultIsNamedAndTheRestIsFinite) {
   EXPECT_TRUE(data->temperature_C.allFinite());
   EXPECT_LT(data->temperature_C.maxCoeff(), 40.0);
   EXPECT_THAT(data->sensors, Not(Contains("T4_C")));
+}
+
+TEST(Cleaning, AReadingThatIsNotRenewedForAWhileIsNamed) {
+  auto r = machine_run({});
+  auto& frozen = values(r, "T4_C");
+  std::fill(frozen.begin() + 300, frozen.begin() + 600, frozen[300]);
+  const auto data = prepare(r);
+  ASSERT_TRUE(data) << describe(data.error());
+  EXPECT_TRUE(names(*data, FindingKind::sensor_died, "T4_C", FindingAction::dropped));
+  EXPECT_EQ(data->findings.size(), 1U);
+}
+
+TEST(Cleaning, ACoarseSensorThatRestsIsSound) {
+  auto r = machine_run({});
+  auto& coarse = values(r, "T4_C");
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    coarse[i] = i < 400 ? 20.0 : 20.0 + 0.5 * static_cast<double>(i - 400);
+  }
+  const auto data = prepare(r);
+  ASSERT_TRUE(data) << describe(data.error());
+  EXPECT_FALSE(names(*data, FindingKind::sensor_died, "T4_C", FindingAction::dropped));
+}
+
+TEST(Cleaning, ErrorsInMillimetresAreRefusedAndHoursNamed) {
+  auto r = machine_run({});
+  for (const char* e : {"dX_um", "dY_um", "dZ_um"}) {
+    for (double& v : values(r, e)) v /= 1000.0;
+  }
+  const auto refused = fit({r}, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::data_does_not_fit);
+  EXPECT_NE(refused.error().context.at("expected").find("mm"), std::string::npos);
+  EXPECT_TRUE(check_error_unit(machine_run({})));
+  auto hasty = machine_run({});
+  EXPECT_FALSE(doubtful_times(hasty));
+  for (double& t : hasty.time_s) t /= 3600.0;
+  EXPECT_TRUE(doubtful_times(hasty));
 }
 
 TEST(Cleaning, WholeRecordingInFahrenheitIsConverted) {

@@ -171,8 +171,7 @@ TEST(BadInput, NothingIsNamedAgainstItsOwnEvidence) {
   }
 }
 
-/// Fahrenheit looks like sources of nearly twice their power: no effect, but no agreement either.
-TEST(BadInput, NumbersFarFromTheDescriptionAreNamed) {
+TEST(BadInput, FahrenheitIsConvertedAsForAFit) {
   proof::Case one = proof::make_case(110, "none");
   for (auto& channel : one.recordings[0].channels) {
     if (!channel.name.ends_with("_C")) continue;
@@ -182,12 +181,77 @@ TEST(BadInput, NumbersFarFromTheDescriptionAreNamed) {
   one.recordings.resize(1);
   const auto answer = answer_for(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::consistent);
+  ASSERT_FALSE(answer->findings.empty());
+  EXPECT_EQ(answer->findings.front().finding.kind, analysis::FindingKind::fahrenheit);
+  EXPECT_TRUE(std::any_of(answer->sentences.begin(), answer->sentences.end(),
+                          [](const Sentence& sentence) { return sentence.id == "run_fahrenheit"; }));
+}
+
+TEST(BadInput, NumbersFarFromTheDescriptionAreNamed) {
+  proof::Case one = proof::make_case(110, "none");
+  for (auto& source : one.machine["components"][0]["heat_sources"]) {
+    if (source["kind"] == "motor") source["rated_power_W"] = source["rated_power_W"].get<double>() / 2.5;
+    if (source["kind"] == "bearing") {
+      for (const char* key : {"f0", "f1"}) source[key] = source[key].get<double>() / 2.5;
+    }
+  }
+  one.recordings.resize(1);
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   EXPECT_TRUE(has_note(*answer, "far_from_description:heat:"));
   ASSERT_FALSE(answer->sentences.empty());
   EXPECT_NE(answer->sentences.front().id, "verdict_consistent");
   const auto sound = answer_for(proof::make_case(110, "none"));
   ASSERT_TRUE(sound.has_value());
   EXPECT_FALSE(has_note(*sound, "far_from_description"));
+}
+
+/// Speed in revolutions a second is heat a tenth to a hundredth of what there is: whatever seems to be missing beside
+/// that stands for the unit.
+TEST(BadInput, NothingIsNamedBesideAUnitThatIsWrong) {
+  proof::Case one = proof::make_case(114, "coolant");
+  for (auto& recording : one.recordings) {
+    for (double& rpm : recording.find("spindle_rpm")->values) rpm /= 60.0;
+  }
+  const auto answer = answer_for(one);
+  if (!answer) {
+    EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+    return;
+  }
+  EXPECT_NE(answer->verdict, Verdict::missing_effect);
+  EXPECT_TRUE(answer->effects.empty());
+}
+
+TEST(BadInput, MinutesForSecondsAreRefused) {
+  for (const char* hidden : {"none", "coolant", "convection"}) {
+    proof::Case one = proof::make_case(115, hidden);
+    for (double& t : one.recordings[0].time_s) t /= 60.0;
+    one.recordings.resize(1);
+    const auto answer = answer_for(one);
+    ASSERT_FALSE(answer.has_value()) << hidden;
+    EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit) << hidden;
+    EXPECT_NE(describe(answer.error()).find("minutes"), std::string::npos) << describe(answer.error());
+  }
+}
+
+/// A reading that is not renewed is no physics, for good or for an hour.
+TEST(BadInput, AFrozenSensorIsLeftOutAndSaid) {
+  for (const bool for_good : {true, false}) {
+    proof::Case one = proof::make_case(116, "none");
+    one.recordings.resize(1);
+    auto& values = one.recordings[0].find("T3_C")->values;
+    const std::size_t from = values.size() / 3;
+    const std::size_t to = for_good ? values.size() : values.size() * 2 / 3;
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(from), values.begin() + static_cast<std::ptrdiff_t>(to),
+              values[from]);
+    const auto answer = answer_for(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(answer->effects.empty()) << for_good;
+    ASSERT_EQ(answer->findings.size(), 1U) << for_good;
+    EXPECT_EQ(answer->findings[0].finding.channel, "T3_C");
+    EXPECT_EQ(answer->findings[0].finding.kind, analysis::FindingKind::sensor_died);
+  }
 }
 
 TEST(BadInput, AMachineThatIsNeverDrivenIsNamed) {

@@ -21,9 +21,16 @@ struct DiagnoseArguments {
   std::string report;
 };
 
+/// Said as a warning.
+bool is_of_a_run(const diagnosis::Sentence& sentence) {
+  return sentence.id.starts_with("run_");
+}
+
 std::string text_of(const diagnosis::Diagnosis& d) {
   std::string text;
-  for (const auto& sentence : d.sentences) text += sentence.english + "\n";
+  for (const auto& sentence : d.sentences) {
+    if (!is_of_a_run(sentence)) text += sentence.english + "\n";
+  }
   for (const auto& effect : d.effects) {
     text += fmt::format("- {} (confidence {:.2f}): {}\n", effect.id, effect.confidence, effect.explanation.english);
   }
@@ -51,6 +58,9 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
   if (!arguments.refined.empty()) ZD_CHECK(write_json_file(arguments.refined, physics::to_json(result.refined)));
   if (!arguments.report.empty()) ZD_CHECK(write_file(arguments.report, diagnosis::proof_html(machine, result)));
   output.text = text_of(result);
+  for (const auto& sentence : result.sentences) {
+    if (is_of_a_run(sentence)) output.warnings.push_back(sentence.english);
+  }
   for (const auto& note : result.notes) {
     if (note == "no_excitation")
       output.warnings.emplace_back("nothing drives the machine in this recording: little can be learned from it");

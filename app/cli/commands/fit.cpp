@@ -75,7 +75,8 @@ Result<std::vector<recording::Recording>> simulated(const Options& options,
   machine = json_text(physics::to_json(description));
   std::vector<recording::Recording> out;
   for (const auto& recording : analysis::join_continuing(recordings)) {
-    ZD_TRY(recording::Recording more, physics::with_simulation(description, recording, context));
+    const recording::Recording run = sound(recording, physics::measured_boundaries(description), warnings);
+    ZD_TRY(recording::Recording more, physics::with_simulation(description, run, context));
     out.push_back(std::move(more));
   }
   return out;

@@ -51,7 +51,8 @@ nlohmann::json json_of(const physics::Placement& placement) {
 Result<CommandOutput> run_place(const PlaceArguments& arguments, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const physics::Machine machine, physics::read_machine(arguments.machine, &output.warnings));
-  ZD_TRY(const recording::Recording inputs, recording::read_recording(arguments.inputs));
+  ZD_TRY(const recording::Recording read, recording::read_recording(arguments.inputs));
+  const recording::Recording inputs = sound(read, physics::measured_boundaries(machine), output.warnings);
   physics::PlacementOptions options;
   options.error = arguments.error;
   ZD_TRY(const physics::Placement placement, physics::place_sensor(machine, inputs, options, context));

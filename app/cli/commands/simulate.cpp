@@ -19,7 +19,8 @@ struct SimulateArguments {
 Result<CommandOutput> run_simulate(const SimulateArguments& arguments, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const physics::Machine machine, physics::read_machine(arguments.machine, &output.warnings));
-  ZD_TRY(const recording::Recording inputs, recording::read_recording(arguments.inputs));
+  ZD_TRY(const recording::Recording read, recording::read_recording(arguments.inputs));
+  const recording::Recording inputs = sound(read, physics::measured_boundaries(machine), output.warnings);
   ZD_TRY(const physics::Simulation simulation, physics::simulate(machine, inputs, context));
   ZD_CHECK(recording::write_recording(arguments.out, simulation.prediction));
   nlohmann::json channels = nlohmann::json::object();

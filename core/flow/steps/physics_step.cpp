@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/analysis/checked.h"
 #include "core/diagnosis/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/physics/placement.h"
@@ -75,7 +76,7 @@ void add_sentence(json& body, const diagnosis::Sentence& sentence) {
 Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context) {
   ZD_TRY(const Input machine_artefact, need(job, "physics", "machine"));
   ZD_TRY(const Input warmup, need(job, "physics", "warmup"));
-  ZD_TRY(const auto run, run_of(job, warmup));
+  ZD_TRY(const auto recorded, run_of(job, warmup));
   ZD_TRY(const auto profile, profile_of(job, "physics"));
   json body = {{"rmse", {{"before", json::object()}}},
                {"largest", json::object()},
@@ -89,6 +90,7 @@ Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job
     return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id});
   }
   ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
+  const recording::Recording run = analysis::checked(recorded, physics::measured_boundaries(machine)).recording;
   ZD_TRY(const auto simulation, physics::simulate(machine, run, context));
   const auto differences = physics::compare(simulation.prediction, run);
   const physics::ChannelDifference* worst = nullptr;

@@ -53,6 +53,18 @@ std::vector<TextEntry> texts_of_physics() {
       {"To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: "
        "check units, sizes and powers.",
        "为了拟合，{part}的{@quantity}须为所述值的 {factor} 倍，偏差为其容差的 {widths} 倍：请检查单位、尺寸和功率。"},
+      {"Nothing can be named: the simulation follows the recording only with numbers far from those described. Check "
+       "the "
+       "units of the recording and the sizes and powers of the description first.",
+       "无法指明任何效应：只有在参数与描述相差很大时，仿真才与记录一致。请先检查记录的单位以及描述中的尺寸和功率。"},
+      {"Recording {@what}.", "记录 {@what}。"},
+      {"Recording {recording}: {@what}.", "记录 {recording}：{@what}。"},
+      {"Recording {recording}: the temperatures look like degrees Fahrenheit and were converted.",
+       "记录 {recording}：温度似为华氏度，已换算。"},
+      {"Recording {recording}: the temperatures look like kelvin and were converted.",
+       "记录 {recording}：温度似为开尔文，已换算。"},
+      {"{}: {} of {} samples were used, from {} to {} min, for nothing was measured for {} min before or after them",
+       "{0}：{2} 个采样中使用了 {1} 个（{3} 至 {4} min），因为其前或其后有 {5} min 未进行测量"},
       {"the heat", "发热量"},
       {"the conductivity", "导热系数"},
       {"the heat capacity", "热容"},

@@ -1,0 +1,23 @@
+#pragma once
+// The recordings as a diagnosis uses them: checked (core/analysis/checked.h), without what a long gap hides, and
+// comparable with the machine's description. What cannot be compared is an error that says what to look at.
+
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/diagnosis.h"
+
+namespace zerodrift::diagnosis {
+
+struct CheckedRuns {
+  std::vector<recording::Recording> recordings;
+  std::vector<RunFinding> findings;
+  std::vector<std::string> left_out;  // what a long gap hides, in English
+  std::vector<std::string> warnings;
+};
+
+Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vector<recording::Recording>& given);
+/// What the check found, for whoever reads the answer.
+std::vector<Sentence> told_of(const CheckedRuns& runs);
+
+}  // namespace zerodrift::diagnosis
