@@ -399,7 +399,10 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     card.confidence = effect.value("confidence", 0.0);
     card.adopted = listed("adopted", id);
     card.rejected = listed("rejected", id);
-    const std::string channel = most_telling(effect, rmse.value("noise", json::object()));
+    const auto facts = diagnosis::sentence_from_json(effect.value("said", json())).facts;  // what the sentence is about
+    const auto told = facts.find("channel");
+    const std::string channel =
+        told != facts.end() ? told->second : most_telling(effect, rmse.value("noise", json::object()));
     card.unit =
         recording::kind_of(channel) == recording::ChannelKind::temperature ? QStringLiteral("K") : QStringLiteral("µm");
     card.before = residual_of(runs.recorded, runs.simulated, channel);
@@ -410,7 +413,8 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     card.rivals = rivals_of(diagnosis);
     if (detectable.contains(id)) {
       const std::string least =
-          diagnosis::parameter_in_words(detectable[id].value("key", ""), number_of(detectable[id], "value"), 0.0);
+          diagnosis::parameter_in_words(detectable[id].value("key", ""), number_of(detectable[id], "value"), 0.0,
+                                        detectable[id].value("at_rpm", 0.0));
       if (!least.empty()) card.couldDetect = PhysicsView::tr("Would have shown from %1 on").arg(coreText(least));
     }
     state.explanations.append(card);

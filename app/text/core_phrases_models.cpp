@@ -8,7 +8,22 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 323> models = {{
+constexpr std::array<const char*, 331> models = {{
+    QT_TRANSLATE_NOOP("core",
+                      "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
+                      "{channel} is {after} {unit} (rms) off, not {before}."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
+        "{after} {unit} (rms) off, not {before}. What happened once need not have happened there."),
+    QT_TRANSLATE_NOOP("core", "Recording {recording} has no column {column}, which {other} has: it was left out."),
+    QT_TRANSLATE_NOOP("core",
+                      "Recording {recording} has no column {column}, which {other} has: what that switches is not "
+                      "simulated, and {other} may be missed for it."),
+    QT_TRANSLATE_NOOP("core", "the same run as %1"),
+    QT_TRANSLATE_NOOP("core", "another run, or each run once"),
+    QT_TRANSLATE_NOOP("core", "from %1 min on"),
+    QT_TRANSLATE_NOOP("core", "from %1 to %2 min"),
     QT_TRANSLATE_NOOP("core",
                       "Nothing can be named: the simulation follows the recording only with numbers far from those "
                       "described. Check the units of the recording and the sizes and powers of the description first."),

@@ -102,6 +102,29 @@ Checked checked(const Recording& recording, const std::set<std::string>& may_sta
   return out;
 }
 
+Status check_distinct(const std::vector<Recording>& recordings) {
+  const auto same = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](double x, double y) { return x == y || (!std::isfinite(x) && !std::isfinite(y)); });
+  };
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      int measured = 0, equal = 0;
+      for (const Channel& channel : recordings[i].channels) {
+        if (recording::is_input(channel.kind())) continue;
+        const Channel* twin = recordings[j].find(channel.name);
+        ++measured;
+        if (twin != nullptr && same(channel.values, twin->values)) ++equal;
+      }
+      if (measured == 0 || equal < measured) continue;
+      return fail(ErrorCode::bad_argument, {{"what", "the recording " + recordings[i].name},
+                                            {"found", "the same run as " + recordings[j].name},
+                                            {"expected", "another run, or each run once"}});
+    }
+  }
+  return {};
+}
+
 Status check_error_unit(const Recording& recording) {
   // Nobody compensates what half a micrometre holds, and 40 m of steel move by 500 um/K.
   constexpr double warm_K = 5.0;

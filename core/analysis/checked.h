@@ -30,6 +30,8 @@ struct Checked {
 /// thermostat may hold for hours, a chiller say.
 Checked checked(const recording::Recording& recording, const std::set<std::string>& may_stand_still = {});
 
+/// One run given twice is neither trained on twice nor held out.
+Status check_distinct(const std::vector<recording::Recording>& recordings);
 /// Errors that cannot be in micrometres for how far the temperatures move: the whole recording is refused.
 Status check_error_unit(const recording::Recording& recording);
 /// Times that cannot be in seconds for how fast all gets warm.

@@ -357,6 +357,7 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
   PrepareOptions prepare_options;
   prepare_options.sensors = options.sensors;
   prepare_options.errors = options.errors;
+  ZD_CHECK(check_distinct(recordings));
   for (const auto& recording : recordings) ZD_CHECK(check_error_unit(recording));
   ZD_TRY(TrainingSet set, make_training(recordings, prepare_options));
   for (const auto& recording : recordings) {

@@ -1,5 +1,7 @@
 #include "core/diagnosis/checked_runs.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/analysis/checked.h"
@@ -9,8 +11,60 @@
 #include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis {
+namespace {
+
+void tell_findings(CheckedRuns& runs) {
+  const std::vector<RunFinding>& findings = runs.findings;
+  std::set<std::string> units_told;
+  for (const auto& [recording, finding] : findings) {
+    const std::string kind(analysis::name_of(finding.kind));
+    const bool unit =
+        finding.kind == analysis::FindingKind::fahrenheit || finding.kind == analysis::FindingKind::kelvin;
+    const auto alike = std::count_if(findings.begin(), findings.end(), [&](const RunFinding& other) {
+      return other.recording == recording && other.finding.kind == finding.kind;
+    });
+    if (!unit || alike == 1) {
+      runs.told.push_back(
+          explain_note("run_finding", {{"recording", recording}, {"what", analysis::describe(finding)}}));
+    } else if (units_told.insert(recording + kind).second) {
+      runs.told.push_back(explain_note("run_" + kind, {{"recording", recording}}));
+    }
+  }
+}
+
+/// The first input that `one` logs and uses and `other` has no column for.
+std::string column_lacking(const recording::Recording& other, const recording::Recording& one) {
+  for (const auto& channel : one.channels) {
+    if (!recording::is_input(channel.kind()) || other.find(channel.name) != nullptr) continue;
+    if (std::any_of(channel.values.begin(), channel.values.end(), [](double v) { return std::abs(v) > 0.0; })) {
+      return channel.name;
+    }
+  }
+  return {};
+}
+
+/// What is not logged is simulated as if it were off: a recording without such a column bears nothing out.
+void leave_out_what_lacks_inputs(CheckedRuns& runs) {
+  for (std::size_t i = runs.recordings.size(); i-- > 1;) {
+    const recording::Recording& first = runs.recordings.front();
+    const recording::Recording& other = runs.recordings[i];
+    const std::string lacking = column_lacking(other, first);
+    const std::string fitted_lacks = column_lacking(first, other);
+    if (!fitted_lacks.empty()) {
+      runs.told.push_back(explain_note("run_lacks_what_other_has",
+                                       {{"recording", first.name}, {"column", fitted_lacks}, {"other", other.name}}));
+    }
+    if (lacking.empty()) continue;
+    runs.told.push_back(
+        explain_note("run_lacks_column", {{"recording", other.name}, {"column", lacking}, {"other", first.name}}));
+    runs.recordings.erase(runs.recordings.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+}  // namespace
 Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vector<recording::Recording>& given) {
   CheckedRuns out;
+  ZD_CHECK(analysis::check_distinct(given));
   const std::set<std::string> boundaries = physics::measured_boundaries(machine);
   for (const auto& one : given) {
     analysis::Checked sound = analysis::checked(one, boundaries);
@@ -24,7 +78,8 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       out.findings.push_back({one.name, std::move(finding)});
     }
     if (auto part = longest_part(sound.recording)) {
-      out.left_out.push_back(std::move(part->note));
+      out.warnings.push_back(part->note);
+      out.told.push_back(explain_note("run_left_out", {{"what", std::move(part->note)}}));
       sound.recording = std::move(part->recording);
     }
     ZD_TRY(auto more, physics::check_recording(machine, sound.recording));
@@ -32,27 +87,9 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
     ZD_CHECK(check_times(machine, sound.recording));
     out.recordings.push_back(std::move(sound.recording));
   }
+  tell_findings(out);
+  leave_out_what_lacks_inputs(out);
   return out;
-}
-
-std::vector<Sentence> told_of(const CheckedRuns& runs) {
-  const std::vector<RunFinding>& findings = runs.findings;
-  std::vector<Sentence> told;
-  for (const std::string& note : runs.left_out) told.push_back(explain_note("run_left_out", {{"what", note}}));
-  std::set<std::string> units_told;
-  for (const auto& [recording, finding] : findings) {
-    const bool unit =
-        finding.kind == analysis::FindingKind::fahrenheit || finding.kind == analysis::FindingKind::kelvin;
-    const auto alike = std::count_if(findings.begin(), findings.end(), [&](const RunFinding& other) {
-      return other.recording == recording && other.finding.kind == finding.kind;
-    });
-    if (!unit || alike == 1) {
-      told.push_back(explain_note("run_finding", {{"recording", recording}, {"what", analysis::describe(finding)}}));
-    } else if (units_told.insert(recording + std::string(analysis::name_of(finding.kind))).second) {
-      told.push_back(explain_note("run_" + std::string(analysis::name_of(finding.kind)), {{"recording", recording}}));
-    }
-  }
-  return told;
 }
 
 }  // namespace zerodrift::diagnosis

@@ -12,12 +12,9 @@ namespace zerodrift::diagnosis {
 struct CheckedRuns {
   std::vector<recording::Recording> recordings;
   std::vector<RunFinding> findings;
-  std::vector<std::string> left_out;  // what a long gap hides, in English
+  std::vector<Sentence> told;  // what of them is not used and why, for whoever reads the answer
   std::vector<std::string> warnings;
 };
 
 Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vector<recording::Recording>& given);
-/// What the check found, for whoever reads the answer.
-std::vector<Sentence> told_of(const CheckedRuns& runs);
-
 }  // namespace zerodrift::diagnosis

@@ -261,6 +261,7 @@ void Diagnoser::effects() {
     found.channel = spec.word_or("channel", "");
     found.words = spec.words;
     found.parameters = spec.numbers;
+    found.at_rpm = speeds_of_figures(spec.numbers, spec.words, best.network().full_speed_rpm);
     if (spec.numbers.count("position_mm") != 0) {
       found.position_mm = spec.numbers.at("position_mm");
       found.position_sigma_mm = found.sigma["position_mm"];
@@ -274,29 +275,46 @@ void Diagnoser::effects() {
     found.bounds_reached = best.bounds_reached();
     found.log_evidence_gain = best.log_evidence() - without->log_evidence();
     if (index + 1 == best.machine().effects.size()) found.log_evidence_gain += best.elsewhere;
-    std::string worst;
-    double before = 0.0, after = 0.0, size = 0.0;
-    const physics::Prediction other = without->prediction();
-    for (std::size_t c = 0; c < m_data->channels.size(); ++c) {
-      const MeasuredChannel& channel = m_data->channels[c];
-      if (channel.samples == 0) continue;
-      const double left = rms_between(recording(), channel.name, other.channels[c].values);
-      const double now = rms_between(recording(), channel.name, m_explained.channels[c].values);
-      found.contribution[channel.name] = std::sqrt(std::max(0.0, left * left - now * now));
-      const double noise_widths = found.contribution[channel.name] / std::hypot(channel.white, channel.drift);
-      if (noise_widths < size && !worst.empty()) continue;
-      worst = channel.name;
-      size = noise_widths;
-      before = left;
-      after = now;
-    }
+    // One effect alone: what the table of the channels calls re-fitted is the simulation without it.
+    const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
+    const Shown shown = show_best(found, other);
     found.confidence = confidence_of(found);
-    found.explanation = explain_effect(found, m_out.mismatch, 1.0 - after / std::max(before, 1e-12), before, worst);
+    end_within_the_run(found);
+    found.explanation = explain_effect(found, m_out.time_s.back(), shown.before, shown.after, shown.channel);
     m_out.effects.push_back(std::move(found));
   }
   std::stable_sort(m_out.effects.begin(), m_out.effects.end(),
                    [](const auto& a, const auto& b) { return a.log_evidence_gain > b.log_evidence_gain; });
   place_from_effect();
+  if (!m_out.effects.empty()) m_out.mismatch.regime = regime_of_effect(m_out.effects.front(), m_out.time_s.back());
+}
+
+/// Where an effect shows: the channel with the largest mismatch if it is the only one, else the one that it changes
+/// most in widths of noise.
+Diagnoser::Shown Diagnoser::show_best(FoundEffect& found, const physics::Prediction& without) const {
+  Shown best;
+  double largest = 0.0;
+  for (std::size_t c = 0; c < m_data->channels.size(); ++c) {
+    const MeasuredChannel& channel = m_data->channels[c];
+    if (channel.samples == 0) continue;
+    const double before = rms_between(recording(), channel.name, without.channels[c].values);
+    const double after = rms_between(recording(), channel.name, m_explained.channels[c].values);
+    found.contribution[channel.name] = std::sqrt(std::max(0.0, before * before - after * after));
+    const double widths = found.contribution[channel.name] / std::hypot(channel.white, channel.drift);
+    const bool named = m_selection.effects().size() == 1 && m_out.mismatch.channels.front() == channel.name;
+    if (widths < largest && !best.channel.empty() && !(named && widths > 1.0)) continue;
+    best = {channel.name, before, after};
+    largest = named && widths > 1.0 ? 1e300 : widths;
+  }
+  return best;
+}
+
+/// What was still going on when the recording ended has no end that it knows.
+void Diagnoser::end_within_the_run(FoundEffect& found) const {
+  const auto end = found.parameters.find("to_s");
+  if (end == found.parameters.end() || end->second < m_out.time_s.back()) return;
+  end->second = m_out.time_s.back();
+  found.sigma.erase("to_s");
 }
 
 /// Evidence of the best family of the last level against the other families, tempered (see the proof's reliability).
@@ -420,9 +438,7 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
                                    : Diagnoser(machine, runs.recordings, options, context).run();
   if (result && !apart) result = settled(std::move(*result), machine, runs.recordings, options, context);
   if (!result) return result;
-  const std::vector<Sentence> told = told_of(runs);
-  result->sentences.insert(result->sentences.end(), told.begin(), told.end());
-  result->notes.insert(result->notes.end(), runs.left_out.begin(), runs.left_out.end());
+  result->sentences.insert(result->sentences.end(), runs.told.begin(), runs.told.end());
   result->notes.insert(result->notes.end(), runs.warnings.begin(), runs.warnings.end());
   result->findings = runs.findings;
   return result;

@@ -59,10 +59,10 @@ void Diagnoser::series() {
   const physics::Prediction nominal =
       physics::predict(network, physics::make_inputs(network, recording()), network.start_values());
   const physics::Prediction base = m_selection.base->prediction();
-  m_explained = m_selection.best->prediction();
+  m_explained = m_used->prediction();
   const Excess before = excess_of(*m_selection.base);
-  const Excess after = excess_of(*m_selection.best);
-  without_effects();
+  const Excess after = excess_of(*m_used);
+  if (m_used == m_selection.best) without_effects();
   for (std::size_t c = 0; c < m_data->channels.size(); ++c) {
     const MeasuredChannel& channel = m_data->channels[c];
     if (channel.samples == 0) continue;
@@ -80,8 +80,10 @@ void Diagnoser::series() {
     report.excess_refitted = before.per_channel[c];
     report.excess_explained = after.per_channel[c];
     // The channel's mismatch is what the effects change in it, in noise widths; without an effect, what is left over.
-    report.score = m_contribution.empty() ? std::sqrt(std::max(0.0, report.excess_refitted))
-                                          : m_contribution[c] / usual_noise(channel.temperature);
+    const bool nothing_told = m_used != m_selection.best;
+    report.score = nothing_told             ? report.rms_refitted / usual_noise(channel.temperature)
+                   : m_contribution.empty() ? std::sqrt(std::max(0.0, report.excess_refitted))
+                                            : m_contribution[c] / usual_noise(channel.temperature);
     m_out.channels.push_back(std::move(report));
   }
 }
@@ -283,7 +285,12 @@ void Diagnoser::details() {
       if (p.amplitude && candidate.spec.numbers.count(std::string(p.key)) != 0 && key.empty()) key = p.key;
     }
     auto& kept = least[candidate.spec.id];
-    if (kept.id.empty() || candidate.detectable < kept.value) kept = {candidate.spec.id, key, candidate.detectable};
+    if (kept.id.empty() || candidate.detectable < kept.value) {
+      kept = {candidate.spec.id, key, candidate.detectable};
+      const auto at =
+          speeds_of_figures(candidate.spec.numbers, candidate.spec.words, m_selection.base->network().full_speed_rpm);
+      if (at.count(key) != 0) kept.at_rpm = at.at(key);
+    }
   }
   for (auto& [id, detectable] : least) m_out.detectable.push_back(detectable);
   if (m_rivals.empty()) return;
@@ -321,7 +328,44 @@ void Diagnoser::cannot_show() {
   if (!unseen.empty()) m_out.sentences.push_back(explain_unseen(unseen));
 }
 
+/// Whether a held-out recording is met worse with what is named than without it, and where most.
+void Diagnoser::worse_elsewhere() {
+  constexpr double clearly = 1.05;  // of all squares, in widths of noise
+  constexpr double in_one = 1.5;    // of one channel's rms
+  constexpr double noticed = 2.0;   // widths of noise
+  if (m_out.effects.empty()) return;
+  const bool once = std::any_of(m_out.effects.begin(), m_out.effects.end(),
+                                [](const FoundEffect& found) { return physics::happens_once(found.id); });
+  for (const HeldOut& other : m_out.held_out) {
+    double without = 0.0, with = 0.0, largest = 0.0;
+    const ChannelReport* worst = nullptr;
+    bool one_is_worse = false;
+    for (const ChannelReport& channel : m_out.channels) {
+      const auto before = other.refitted.find(channel.channel);
+      const auto after = other.explained.find(channel.channel);
+      if (before == other.refitted.end() || after == other.explained.end()) continue;
+      const double noise = std::max(channel.noise, 1e-9);
+      without += std::pow(before->second / noise, 2);
+      with += std::pow(after->second / noise, 2);
+      const double more = (after->second - before->second) / noise;
+      one_is_worse |= after->second > in_one * before->second && after->second > noticed * noise;
+      if (more <= largest) continue;
+      largest = more;
+      worst = &channel;
+    }
+    if (worst == nullptr || (with <= clearly * without && !one_is_worse)) continue;
+    m_out.notes.push_back("held_out_worse:" + other.recording + ":" + worst->channel);
+    m_out.sentences.push_back(explain_note(once ? "held_out_worse_once" : "held_out_worse",
+                                           {{"recording", other.recording},
+                                            {"channel", worst->channel},
+                                            {"before", fmt::format("{:.2g}", other.refitted.at(worst->channel))},
+                                            {"after", fmt::format("{:.2g}", other.explained.at(worst->channel))},
+                                            {"unit", worst->temperature ? "K" : "µm"}}));
+  }
+}
+
 void Diagnoser::notes() {
+  worse_elsewhere();
   const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
     double low = 1e300, high = -1e300;
     for (const double v : c.measured) {

@@ -32,7 +32,13 @@ class Diagnoser {
   void tell_tried();
   void decide();
   void place_from_others(FoundEffect& found, std::size_t index);
+  struct Shown {
+    std::string channel;
+    double before = 0.0, after = 0.0;  // rms, K or um
+  };
   void effects();
+  Shown show_best(FoundEffect& found, const physics::Prediction& without) const;
+  void end_within_the_run(FoundEffect& found) const;
   double confidence_of(const FoundEffect& found) const;
   void rivals();
   bool steady_inputs() const;
@@ -52,6 +58,7 @@ class Diagnoser {
   void details();
   void cannot_show();
   std::vector<Sentence> far_parameters();
+  void worse_elsewhere();
   void notes();
 
   const physics::Machine& m_machine;  // as described

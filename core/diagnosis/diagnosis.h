@@ -36,6 +36,7 @@ struct FoundEffect {
   std::string channel;
   std::map<std::string, double> parameters;
   std::map<std::string, double> sigma;
+  std::map<std::string, double> at_rpm;      // the speed at which a figure holds that grows with it
   std::map<std::string, std::string> words;  // law, region, driver ...
   double confidence = 0.0;
   double log_evidence_gain = 0.0;
@@ -92,6 +93,7 @@ struct Detectable {
   std::string id;
   std::string key;
   double value = 0.0;
+  double at_rpm = 0.0;  // where it grows with the speed: at this one
 };
 
 struct SuggestedExperiment {

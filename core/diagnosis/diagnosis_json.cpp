@@ -20,6 +20,7 @@ json json_of(const FoundEffect& effect) {
               {"channel", text_or_null(effect.channel)},
               {"parameters", effect.parameters},
               {"sigma", effect.sigma},
+              {"at_rpm", effect.at_rpm},
               {"confidence", effect.confidence},
               {"explanation", effect.explanation.english},
               {"said", to_json(effect.explanation)},
@@ -105,8 +106,10 @@ json to_json(const Diagnosis& diagnosis) {
                                {"refitted", other.refitted},
                                {"after", other.explained}});
   }
-  for (const auto& one : diagnosis.detectable)
-    out["could_have_detected"][one.id] = {{"key", one.key}, {"value", one.value}};
+  for (const auto& one : diagnosis.detectable) {
+    json& least = out["could_have_detected"][one.id] = {{"key", one.key}, {"value", one.value}};
+    if (one.at_rpm > 0.0) least["at_rpm"] = one.at_rpm;
+  }
   out["findings"] = json::array();
   for (const auto& [recording, finding] : diagnosis.findings) {
     json one = analysis::to_json({finding}).front();

@@ -66,6 +66,11 @@ std::string number_of(double value, double sigma) {
   return fmt::format("{:.{}f}", value, std::min(digits, 6));
 }
 
+double rpm_of(const std::map<std::string, double>& at_rpm, const std::string& key) {
+  const auto at = at_rpm.find(key);
+  return at == at_rpm.end() ? 0.0 : at->second;
+}
+
 /// All parameters in the order of the table: amplitudes before times.
 std::string parameters_in_words(const FoundEffect& effect) {
   std::string text;
@@ -73,8 +78,10 @@ std::string parameters_in_words(const FoundEffect& effect) {
     const auto at = effect.parameters.find(std::string(shown.key));
     if (at == effect.parameters.end()) continue;
     const auto sigma = effect.sigma.find(at->first);
+    if (at->first == "to_s" && sigma == effect.sigma.end()) continue;  // not before the recording ended
     if (!text.empty()) text += ", ";
-    text += parameter_in_words(at->first, at->second, sigma == effect.sigma.end() ? 0.0 : sigma->second);
+    text += parameter_in_words(at->first, at->second, sigma == effect.sigma.end() ? 0.0 : sigma->second,
+                               rpm_of(effect.at_rpm, at->first));
   }
   return text;
 }
@@ -106,18 +113,66 @@ Sentence finished(Sentence s) {
 
 }  // namespace
 
-std::string parameter_in_words(const std::string& key, double value, double sigma) {
+std::map<std::string, double> speeds_of_figures(const std::map<std::string, double>& numbers,
+                                                const std::map<std::string, std::string>& words, double full_rpm) {
+  std::map<std::string, double> at_rpm;
+  const auto law = words.find("law");
+  const bool by_speed = law != words.end() && (law->second == "n" || law->second == "n2");
+  for (const auto& [key, value] : numbers) {
+    if (key == "a_W_m2K" || key == "speed_share" || (key == "power_W" && by_speed)) at_rpm[key] = full_rpm;
+  }
+  return at_rpm;
+}
+
+std::string parameter_in_words(const std::string& key, double value, double sigma, double at_rpm) {
   for (const Shown& shown : shown_parameters) {
     if (shown.key != key) continue;
     const double width = sigma * shown.factor;
-    std::string text = fmt::format("{} = {}", shown.sign, number_of(value * shown.factor, width));
+    const std::string sign = at_rpm > 0.0 ? fmt::format("{}({:.0f} rpm)", shown.sign, at_rpm) : std::string(shown.sign);
+    std::string text = fmt::format("{} = {}", sign, number_of(value * shown.factor, width));
     if (width > 0.0) text += " ± " + number_of(width, width);
     return shown.unit.empty() ? text : fmt::format("{} {}", text, shown.unit);
   }
   return {};
 }
 
-Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, double share_removed, double before,
+std::string regime_of_effect(const FoundEffect& effect, double end_s) {
+  struct Regime {
+    std::string_view effect;
+    const char* words;
+  };
+  static constexpr Regime regimes[] = {
+      {"coolant", "while the coolant runs"},           {"cutting_heat", "while the machine cuts"},
+      {"speed_convection", "while the spindle turns"}, {"bearing_viscosity", "while the spindle turns"},
+      {"bearing_preload", "while the spindle turns"},  {"bearing_run_in", "while the spindle turns"},
+      {"speed_heat_curve", "while the spindle turns"}, {"structure_ambient", "as the room changes"},
+      {"room_sensor_fault", "as the room changes"}};
+  static constexpr Regime laws[] = {{"on", "while the spindle turns"},
+                                    {"n", "in step with the spindle speed"},
+                                    {"n2", "with the square of the spindle speed"}};
+  const auto number = [&](const char* key) {
+    const auto at = effect.parameters.find(key);
+    return at == effect.parameters.end() ? std::nan("") : at->second;
+  };
+  const auto word = [&](const char* key) {
+    const auto at = effect.words.find(key);
+    return at == effect.words.end() ? std::string() : at->second;
+  };
+  const double from_s = std::isfinite(number("from_s")) ? number("from_s") : number("time_s");
+  if (std::isfinite(from_s)) {
+    if (!(number("to_s") < end_s)) return fmt::format("from {:.0f} min on", from_s / 60.0);
+    return fmt::format("from {:.0f} to {:.0f} min", from_s / 60.0, number("to_s") / 60.0);
+  }
+  for (const Regime& law : laws) {
+    if (law.effect == word("law")) return law.words;
+  }
+  for (const Regime& regime : regimes) {
+    if (regime.effect == effect.id && word("fluid").empty()) return regime.words;
+  }
+  return "all the time";
+}
+
+Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
                         const std::string& worst_channel) {
   Sentence s;
   s.id = "effect_found";
@@ -126,9 +181,9 @@ Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, dou
              {"channel", worst_channel},
              {"before", fmt::format("{:.2g}", before)},
              {"unit", unit_of(worst_channel)},
-             {"removed_percent", fmt::format("{:.0f}", 100.0 * share_removed)},
+             {"removed_percent", fmt::format("{:.0f}", 100.0 * (1.0 - after / std::max(before, 1e-12)))},
              {"fingerprint", std::string(physics::find_effect(effect.id)->fingerprint)},
-             {"regime", regime_or_always(mismatch.regime)}};
+             {"regime", regime_of_effect(effect, end_s)}};
   put_place(s, effect.channel, effect.position_mm, effect.component);
   const auto from = effect.parameters.find("from_mm");
   const auto to = effect.parameters.find("to_mm");

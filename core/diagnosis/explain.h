@@ -5,13 +5,19 @@
 
 namespace zerodrift::diagnosis {
 
-Sentence explain_effect(const FoundEffect& effect, const Mismatch& mismatch, double share_removed, double before,
-                        const std::string& worst_channel);
+/// `before`, `after`: rms that the simulation without and with it is off in that channel; `end_s`: of the recording.
+Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
+                        const std::string& channel);
+/// When an effect acts, in English: "while the coolant runs", "from 155 min on".
+std::string regime_of_effect(const FoundEffect& effect, double end_s);
 Sentence explain_rival(const Rival& rival);
 Sentence explain_verdict(const Diagnosis& diagnosis);
 /// "h = 12.7 ± 0.7 W/m²K": a parameter of an effect with a sign that is the same in every language; sigma 0: unknown.
-/// Empty for what is not shown (cosines, logarithms).
-std::string parameter_in_words(const std::string& key, double value, double sigma);
+/// Empty for what is not shown (cosines, logarithms). A figure that holds at one speed says so: "P(8000 rpm) = 26 W".
+std::string parameter_in_words(const std::string& key, double value, double sigma, double at_rpm = 0.0);
+/// Figures of an effect that grow with the speed, and the full speed at which they hold.
+std::map<std::string, double> speeds_of_figures(const std::map<std::string, double>& numbers,
+                                                const std::map<std::string, std::string>& words, double full_rpm);
 /// Of effects that this recording would have shown only at an impossible size.
 /// A sentence of the catalogue with its facts.
 Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts = {});

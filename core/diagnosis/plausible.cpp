@@ -141,7 +141,9 @@ Status check_times(const physics::Machine& machine, const recording::Recording& 
   };
   constexpr Unit units[] = {{60.0, "minutes"}, {3600.0, "hours"}, {1e-3, "milliseconds"}};
   constexpr double longest_row_s = 3600.0;
-  if (has_unknown_heat(machine)) return {};
+  const bool has_driven_rod = std::any_of(machine.components.begin(), machine.components.end(),
+                                          [](const auto& one) { return !one.lump && !one.sources.empty(); });
+  if (has_unknown_heat(machine) || !has_driven_rod) return {};  // nothing says how fast it warms
   const double as_it_is = shape_missed(machine, recording);
   if (!(as_it_is > nothing_like)) return {};
   const double whole_s = recording.time_s.back() - recording.time_s.front();

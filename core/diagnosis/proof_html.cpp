@@ -141,7 +141,7 @@ std::string proof_html(const physics::Machine& machine, const Diagnosis& d) {
         "<h2>Could have detected</h2><p>The smallest size of each effect that this recording would have shown:</p><ul>";
     for (const auto& one : d.detectable)
       body += fmt::format("<li>{}: {}</li>", escaped(plain_name(one.id)),
-                          escaped(parameter_in_words(one.key, one.value, 0.0)));
+                          escaped(parameter_in_words(one.key, one.value, 0.0, one.at_rpm)));
     body += "</ul>";
   }
   return "<!doctype html><html><head><meta charset='utf-8'><title>Zerodrift diagnosis</title><style>"

@@ -46,6 +46,16 @@ constexpr std::array catalogue{
     Entry{"verdict_unexplained_doubtful",
           "Nothing can be named: the simulation follows the recording only with numbers far from those described. "
           "Check the units of the recording and the sizes and powers of the description first."},
+    Entry{"held_out_worse",
+          "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
+          "{after} {unit} (rms) off, not {before}."},
+    Entry{"held_out_worse_once",
+          "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
+          "{after} {unit} (rms) off, not {before}. What happened once need not have happened there."},
+    Entry{"run_lacks_column", "Recording {recording} has no column {column}, which {other} has: it was left out."},
+    Entry{"run_lacks_what_other_has",
+          "Recording {recording} has no column {column}, which {other} has: what that switches is not simulated, and "
+          "{other} may be missed for it."},
     Entry{"run_left_out", "Recording {@what}."},
     Entry{"run_finding", "Recording {recording}: {@what}."},
     Entry{"run_fahrenheit", "Recording {recording}: the temperatures look like degrees Fahrenheit and were converted."},

@@ -3877,6 +3877,38 @@
         <source>the check sum of this content: it was changed after it was made (make the table anew)</source>
         <translation>与此内容相符的校验和：内容在生成之后被更改（请重新生成该表）</translation>
     </message>
+    <message>
+        <source>On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is {after} {unit} (rms) off, not {before}.</source>
+        <translation>对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} {unit}（均方根），而非 {before}。</translation>
+    </message>
+    <message>
+        <source>On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is {after} {unit} (rms) off, not {before}. What happened once need not have happened there.</source>
+        <translation>对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} {unit}（均方根），而非 {before}。只发生一次的事件在那里未必发生过。</translation>
+    </message>
+    <message>
+        <source>Recording {recording} has no column {column}, which {other} has: it was left out.</source>
+        <translation>记录 {recording} 没有 {other} 所含的列 {column}：未予采用。</translation>
+    </message>
+    <message>
+        <source>Recording {recording} has no column {column}, which {other} has: what that switches is not simulated, and {other} may be missed for it.</source>
+        <translation>记录 {recording} 没有 {other} 所含的列 {column}：其所控制的部分未被仿真，{other} 可能因此不符。</translation>
+    </message>
+    <message>
+        <source>the same run as %1</source>
+        <translation>与 %1 相同的运行</translation>
+    </message>
+    <message>
+        <source>another run, or each run once</source>
+        <translation>另一次运行，或每次运行只给一次</translation>
+    </message>
+    <message>
+        <source>from %1 min on</source>
+        <translation>自 %1 min 起</translation>
+    </message>
+    <message>
+        <source>from %1 to %2 min</source>
+        <translation>自 %1 至 %2 min</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

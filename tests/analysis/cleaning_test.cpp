@@ -109,6 +109,14 @@ TEST(Cleaning, ErrorsInMillimetresAreRefusedAndHoursNamed) {
   EXPECT_TRUE(doubtful_times(hasty));
 }
 
+TEST(Cleaning, ARunIsNotTrainedOnTwice) {
+  auto copy = machine_run({});
+  copy.name = "a copy";
+  const auto refused = fit({machine_run({}), copy}, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+}
+
 TEST(Cleaning, WholeRecordingInFahrenheitIsConverted) {
   auto r = machine_run({});
   const double before = values(r, "T1_C")[0];

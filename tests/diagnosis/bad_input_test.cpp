@@ -1,4 +1,5 @@
 // Data that a diagnosis must not be fooled by: each is refused or named, and never a confident wrong effect.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -153,6 +154,77 @@ TEST(BadInput, ASecondRecordingOfAnotherMachineIsNamed) {
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   EXPECT_EQ(answer->verdict, Verdict::consistent);
   EXPECT_TRUE(has_note(*answer, "held_out_differs:other"));
+}
+
+TEST(BadInput, TheSameRunTwiceIsRefused) {
+  proof::Case one = proof::make_case(107, "none");
+  one.recordings[1] = one.recordings[0];
+  one.recordings[1].name = "a copy";
+  const auto answer = answer_for(one);
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, ErrorCode::bad_argument);
+  EXPECT_NE(describe(answer.error()).find("a copy"), std::string::npos);
+}
+
+TEST(BadInput, AColumnThatASecondRecordingLacksIsNamed) {
+  proof::Case one = proof::make_case(118, "coolant");
+  ASSERT_NE(one.recordings[1].find("coolant_on"), nullptr);
+  std::erase_if(one.recordings[1].channels, [](const auto& channel) { return channel.name == "coolant_on"; });
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(answer->held_out.empty());
+  const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
+                                 [](const Sentence& sentence) { return sentence.id == "run_lacks_column"; });
+  ASSERT_NE(told, answer->sentences.end());
+  EXPECT_EQ(told->facts.at("column"), "coolant_on");
+  EXPECT_TRUE(only_names(*answer, "coolant"));
+}
+
+/// A door that was open in one run only: the answer says that the other is met worse with it.
+TEST(BadInput, WhatMakesAnotherRunWorseIsSaid) {
+  const proof::Case one = proof::make_case(119, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  ASSERT_TRUE(machine.has_value());
+  physics::Machine open = *machine;
+  const double whole_s = one.recordings[0].time_s.back();
+  open.effects.push_back({"draught",
+                          false,
+                          {{"h_W_m2K", 25.0}, {"from_s", 0.4 * whole_s}, {"to_s", 0.7 * whole_s}, {"colder_K", 0.0}},
+                          {}});
+  const auto made = [](const physics::Machine& by, recording::Recording run) {
+    const auto predicted = physics::simulate(by, run);
+    for (auto& channel : run.channels) {
+      const auto* seen = predicted->prediction.find(channel.name);
+      if (seen == nullptr || channel.name == "ambient_C") continue;
+      const double size = channel.name.ends_with("_um") ? 0.1 : 0.02;
+      for (std::size_t k = 0; k < run.rows(); ++k) {
+        channel.values[k] = seen->values[k] + size * std::sin(12.9898 * static_cast<double>(k * k) + channel.name[1]);
+      }
+    }
+    return run;
+  };
+  const auto answer = diagnose(*machine, {made(open, one.recordings[0]), made(*machine, one.recordings[1])}, {false});
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  ASSERT_TRUE(only_names(*answer, "draught"));
+  const HeldOut& other = answer->held_out.at(0);
+  const bool worse = other.explained.at("T2_C") > 1.6 * other.refitted.at("T2_C");
+  EXPECT_EQ(worse, has_note(*answer, "held_out_worse:"))
+      << other.explained.at("T2_C") << " K, " << other.refitted.at("T2_C");
+}
+
+/// What the sentence of a lone effect says stands in the table of the channels.
+TEST(BadInput, SentenceAndTableAgree) {
+  for (const char* hidden : {"sensor_lag", "extra_heat_source", "bearing_viscosity"}) {
+    const auto answer = answer_for(proof::make_case(120, hidden));
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    if (answer->effects.size() != 1) continue;
+    const Sentence& s = answer->effects[0].explanation;
+    const auto channel = std::find_if(answer->channels.begin(), answer->channels.end(),
+                                      [&](const auto& one) { return one.channel == s.facts.at("channel"); });
+    ASSERT_NE(channel, answer->channels.end());
+    EXPECT_EQ(s.facts.at("before"), fmt::format("{:.2g}", channel->rms_refitted)) << hidden;
+    EXPECT_EQ(s.facts.at("regime"), answer->mismatch.regime) << hidden;
+  }
 }
 
 /// However wrong the description is, what is named has more evidence than the verdict asks for.

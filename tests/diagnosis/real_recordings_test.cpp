@@ -78,7 +78,7 @@ TEST(RealRecordings, GantryLosesHeatAndFollowsBedAndFrame) {
   const auto heating = part_of(*run, 0.0, 10000.0), cooling = part_of(*run, 10000.0, 1e9);
   for (const auto& recordings : {std::vector{*run}, std::vector{heating, cooling}}) {
     const auto d = diagnose(*machine, recordings, {false});
-    ASSERT_TRUE(d.has_value());
+    ASSERT_TRUE(d.has_value()) << describe(d.error());
     EXPECT_EQ(d->verdict, Verdict::missing_effect);
     EXPECT_EQ(d->tried, (std::vector<std::string>{"convection", "structure_driver", "structure_lag"}));
     for (const auto& channel : d->channels) {

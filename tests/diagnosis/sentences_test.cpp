@@ -38,15 +38,44 @@ TEST(Sentences, AnEffectIsToldWithUnitsAndUncertainty) {
   effect.id = "coolant";
   effect.parameters = {{"h_W_m2K", 78.62}, {"temperature_C", 20.36}, {"from_mm", 296.0}, {"to_mm", 379.0}};
   effect.sigma = {{"h_W_m2K", 4.1}, {"temperature_C", 0.22}};
-  Mismatch mismatch;
-  mismatch.regime = "while the coolant runs";
-  const Sentence s = explain_effect(effect, mismatch, 0.96, 3.1, "T1_C");
+  const Sentence s = explain_effect(effect, 3600.0, 3.1, 0.124, "T1_C");
   EXPECT_EQ(s.english.find("While the coolant runs, T1_C is 3.1 K (rms) off the best simulation without it. Adding "
                            "cooling by the coolant between 296 and 379 mm (h = 78.6 ± 4.1 W/m²K, T = 20.36 ± 0.22 °C) "
                            "removes 96 % of that."),
             0u)
       << s.english;
   EXPECT_EQ(s.english.find('{'), std::string::npos);
+}
+
+TEST(Sentences, AFigureThatGrowsWithTheSpeedSaysAtWhich) {
+  FoundEffect effect;
+  effect.id = "extra_heat_source";
+  effect.component = "spindle";
+  effect.position_mm = 300.0;
+  effect.words = {{"law", "n"}};
+  effect.parameters = {{"power_W", 26.0}};
+  effect.sigma = {{"power_W", 2.0}};
+  effect.at_rpm = speeds_of_figures(effect.parameters, effect.words, 8000.0);
+  const Sentence s = explain_effect(effect, 3600.0, 0.5, 0.1, "T1_C");
+  EXPECT_NE(s.english.find("(P(8000 rpm) = 26.0 ± 2.0 W)"), std::string::npos) << s.english;
+  EXPECT_EQ(s.english.find("In step with the spindle speed"), 0U) << s.english;
+  effect.words = {{"law", "constant"}};
+  EXPECT_TRUE(speeds_of_figures(effect.parameters, effect.words, 8000.0).empty());
+}
+
+TEST(Sentences, WhatHappenedOnceIsToldWithItsMoment) {
+  FoundEffect slip;
+  slip.id = "bracket_slip";
+  slip.parameters = {{"step_um", 9.0}, {"time_s", 9300.0}};
+  EXPECT_EQ(regime_of_effect(slip, 18000.0), "from 155 min on");
+  FoundEffect door;
+  door.id = "draught";
+  door.parameters = {{"h_W_m2K", 21.0}, {"from_s", 9600.0}, {"to_s", 12000.0}};
+  door.sigma = {{"to_s", 60.0}};
+  EXPECT_EQ(regime_of_effect(door, 18000.0), "from 160 to 200 min");
+  EXPECT_EQ(regime_of_effect(door, 12000.0), "from 160 min on");
+  door.sigma.clear();  // it was still open when the recording ended
+  EXPECT_EQ(explain_effect(door, 12000.0, 1.0, 0.1, "T1_C").english.find(", to ="), std::string::npos);
 }
 
 }  // namespace zerodrift::diagnosis

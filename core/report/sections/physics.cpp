@@ -156,7 +156,9 @@ Table effects_of(const json& diagnosis, const Source& source) {
     for (const auto& [key, value] : values.items()) {
       if (!value.is_number()) continue;
       const double width = number_of(sigma, key);
-      const auto one = diagnosis::parameter_in_words(key, value.get<double>(), std::isfinite(width) ? width : 0.0);
+      const double at_rpm = number_of(object_of(effect, "at_rpm"), key);
+      const auto one = diagnosis::parameter_in_words(key, value.get<double>(), std::isfinite(width) ? width : 0.0,
+                                                     std::isfinite(at_rpm) ? at_rpm : 0.0);
       if (!one.empty()) parameters += (parameters.empty() ? "" : ", ") + one;
     }
     table.rows.push_back({source.say(diagnosis::plain_name(text_of(effect, "id"))), said_parameters(source, parameters),
@@ -217,7 +219,8 @@ Table detectable(const Source& source, const json& diagnosis) {
   table.trace = source.at("physics", "/diagnosis/could_have_detected");
   const auto all = object_of(diagnosis, "could_have_detected");
   for (const auto& [effect, least] : all.items()) {
-    const auto text = diagnosis::parameter_in_words(text_of(least, "key"), number_of(least, "value"), 0.0);
+    const auto text = diagnosis::parameter_in_words(text_of(least, "key"), number_of(least, "value"), 0.0,
+                                                    least.value("at_rpm", 0.0));
     table.rows.push_back(
         {source.say(diagnosis::plain_name(effect)),
          Cell(text.empty() ? shown(number_of(least, "value"), 4) : said_parameters(source, text),

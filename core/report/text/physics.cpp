@@ -65,6 +65,21 @@ std::vector<TextEntry> texts_of_physics() {
        "记录 {recording}：温度似为开尔文，已换算。"},
       {"{}: {} of {} samples were used, from {} to {} min, for nothing was measured for {} min before or after them",
        "{0}：{2} 个采样中使用了 {1} 个（{3} 至 {4} min），因为其前或其后有 {5} min 未进行测量"},
+      {"On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
+       "{after} {unit} (rms) off, not {before}.",
+       "对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} "
+       "{unit}（均方根），而非 {before}。"},
+      {"On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
+       "{after} {unit} (rms) off, not {before}. What happened once need not have happened there.",
+       "对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} "
+       "{unit}（均方根），而非 {before}。只发生一次的事件在那里未必发生过。"},
+      {"Recording {recording} has no column {column}, which {other} has: it was left out.",
+       "记录 {recording} 没有 {other} 所含的列 {column}：未予采用。"},
+      {"Recording {recording} has no column {column}, which {other} has: what that switches is not simulated, and "
+       "{other} may be missed for it.",
+       "记录 {recording} 没有 {other} 所含的列 {column}：其所控制的部分未被仿真，{other} 可能因此不符。"},
+      {"from {} min on", "自 {} min 起"},
+      {"from {} to {} min", "自 {} 至 {} min"},
       {"the heat", "发热量"},
       {"the conductivity", "导热系数"},
       {"the heat capacity", "热容"},
