@@ -144,7 +144,7 @@ Result<Trial> run_trial(const TrialOptions& options, const TaskContext& context)
     const fs::path folder = options.folder / "cases" / sealed[i].name;
     ZD_TRY(const bool kept, open_seal(sealed[i], folder, promises));
     trial.seals_kept += kept ? 1 : 0;
-    if (i >= answers.size()) continue;
+    if (i >= answers.size() || context.cancelled()) continue;
     ZD_TRY(OpenedAnswer truth, truth_from(sealed[i].seal.answer, (folder / "answer.json").string()));
     if (answers[i] && !truth.unlisted) {
       ZD_TRY(const OracleAnswer oracle, told(folder, truth, *answers[i]));

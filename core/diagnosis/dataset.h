@@ -7,6 +7,7 @@
 // exact.
 
 #include <Eigen/Core>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct MeasuredChannel {
 struct Dataset {
   const recording::Recording* recording = nullptr;
   std::vector<double> time_s;
+  std::stop_token stop;                   // asks every fit to it to end where it is
   std::vector<MeasuredChannel> channels;  // in the order of the network's observations; no samples: not measured
 
   std::size_t rows() const { return time_s.size(); }

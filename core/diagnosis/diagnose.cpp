@@ -87,12 +87,12 @@ Result<Diagnosis> Diagnoser::run() {
     ZD_CHECK(select());
     held_out();
   }
-  decide();
-  series();
-  mismatch();
-  effects();
-  rivals();
-  if (m_options.details) details();
+  for (const auto stage : {&Diagnoser::decide, &Diagnoser::series, &Diagnoser::mismatch, &Diagnoser::effects,
+                           &Diagnoser::rivals, &Diagnoser::details}) {
+    if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+    (this->*stage)();
+  }
+  if (m_context.cancelled()) return fail(ErrorCode::cancelled);
   m_out.notes = m_selection.base->network().notes;
   std::vector<Sentence> far = far_parameters();
   m_out.sentences.push_back(explain_verdict(m_out));
@@ -114,12 +114,14 @@ Status Diagnoser::prepare() {
   const physics::Network network = physics::build_network(m_bodies, recording());
   const physics::InputSet inputs = physics::make_inputs(network, recording());
   Dataset data = make_dataset(recording(), network);
+  data.stop = m_context.stop;
   set_timing_noise(data, network, inputs);
   ZD_CHECK(check_scale(m_machine, data, physics::predict(network, inputs, network.start_values())));
   m_data = m_default_data = std::make_shared<Dataset>(std::move(data));
   for (const Recording& other : m_other_rows) {
     const physics::Network there = physics::build_network(m_bodies, other);
     auto seen = std::make_shared<Dataset>(make_dataset(other, there));
+    seen->stop = m_context.stop;
     set_timing_noise(*seen, there, physics::make_inputs(there, other));
     m_limits.others.push_back(std::move(seen));
   }

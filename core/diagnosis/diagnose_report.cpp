@@ -276,6 +276,7 @@ bool Diagnoser::refuted() const {
 }
 
 void Diagnoser::details() {
+  if (!m_options.details) return;
   std::map<std::string, Detectable> least;
   for (const auto& candidate : m_selection.screened) {
     if (candidate.detectable <= 0.0) continue;

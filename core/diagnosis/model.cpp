@@ -237,7 +237,8 @@ void Model::fit(const FitOptions& options) {
   analysis::Damping damping;
   physics::Prediction trial;
   Eigen::VectorXd trial_residual;
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+  const auto stopped = [this] { return m_data->stop.stop_requested(); };  // the rest is thrown away
+  for (int iteration = 0; iteration < options.iterations && !stopped(); ++iteration) {
     const Eigen::MatrixXd h = hessian();
     const Eigen::VectorXd g = m_jacobian.transpose() * m_residual - prior_slope();
     bool better = false;
@@ -282,8 +283,9 @@ void Model::fit(const FitOptions& options) {
       if (gained < 0.5) break;
     }
   }
-  if (stale != 0 && options.final_refresh) refresh(all);
-  m_borrowed = stale != 0 && !options.final_refresh;
+  const bool refreshed = options.final_refresh && !stopped();
+  if (stale != 0 && refreshed) refresh(all);
+  m_borrowed = stale != 0 && !refreshed;
 }
 
 double Model::log_evidence() const {

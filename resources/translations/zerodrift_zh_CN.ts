@@ -4073,10 +4073,6 @@
         <translation>{what}不匹配：实际为 {found}，应为 {expected}。</translation>
     </message>
     <message>
-        <source>Check that both belong to the same machine.</source>
-        <translation>请确认二者属于同一台机床。</translation>
-    </message>
-    <message>
         <source>The image {file} cannot be read ({detail}).</source>
         <translation>无法读取图像 {file}（{detail}）。</translation>
     </message>
@@ -4143,10 +4139,6 @@
     <message>
         <source>The calibration is refused: {reason}.</source>
         <translation>标定被拒绝：{reason}。</translation>
-    </message>
-    <message>
-        <source>Measure again with positions further apart, not on one line.</source>
-        <translation>请加大位置间距、避免各点共线，重新测量。</translation>
     </message>
     <message>
         <source>{file} is not a Zerodrift job.</source>
@@ -4439,6 +4431,14 @@
     <message>
         <source>Write it, or bring it back in the history, then verify.</source>
         <translation>请写入该表或从历史记录中恢复，然后再验证。</translation>
+    </message>
+    <message>
+        <source>Check the units, and that all of it is of one machine.</source>
+        <translation>请检查单位，以及各项数据是否属于同一台机床。</translation>
+    </message>
+    <message>
+        <source>Look at what is named; positions are in mm, apart and not on one line, each with its own picture.</source>
+        <translation>请检查所指出的问题；各位置以 mm 为单位，彼此分开且不在一条直线上，每个位置各有一幅图像。</translation>
     </message>
 </context>
 <context>

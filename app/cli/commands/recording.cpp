@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/text/error_text.h"
 #include "core/commissioning/job.h"
 #include "core/recording/csv.h"
 
@@ -33,7 +34,7 @@ Result<CommandOutput> run(const Options& options) {
   if (recording.rows() == 0 && !damaged.empty()) return fail(damaged.front());
   ZD_CHECK(recording::write_recording(options.out, recording));
   CommandOutput output;
-  for (const auto& error : damaged) output.warnings.push_back("left out: " + describe(error));
+  for (const auto& error : damaged) output.warnings.push_back("left out: " + lineOf(error).toStdString());
   output.json = {{"run", options.run}, {"rows", recording.rows()}, {"out", options.out}};
   output.text = fmt::format("{}: {} rows of {}", options.out, recording.rows(), options.run);
   return output;
