@@ -8,6 +8,8 @@
 namespace zerodrift::analysis {
 namespace {
 
+constexpr double most_steps = 1e7;  // of a grid; times further apart are no recording's
+
 /// Centred columns of unit length; a column that does not move becomes zero.
 Eigen::MatrixXd unit_columns(const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd unit = columns.rowwise() - columns.colwise().mean();
@@ -28,7 +30,9 @@ Eigen::VectorXd on_grid(const std::vector<double>& time_s, const Eigen::VectorXd
     v.push_back(value);
   }
   if (t.empty()) return {};
-  const auto count = static_cast<Eigen::Index>((time_s.back() - time_s.front()) / grid_s) + 1;
+  const double steps = (time_s.back() - time_s.front()) / grid_s;
+  if (!(steps >= 0.0 && steps < most_steps)) return {};
+  const auto count = static_cast<Eigen::Index>(steps) + 1;
   Eigen::VectorXd out(count);
   std::size_t k = 0;
   for (Eigen::Index i = 0; i < count; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace zerodrift::vision {
 namespace {
@@ -16,15 +17,17 @@ void cubic_weights(double t, float* w) {
   w[3] = static_cast<float>(t * t * t / 6.0);
 }
 
-// Four numbers in one register; the way GCC and Clang spell it.
+// Four numbers in one register; the way GCC and Clang spell it. In memory they stand anywhere.
 typedef float Four __attribute__((vector_size(16)));
-typedef float FourAnywhere __attribute__((vector_size(16), aligned(4), may_alias));
 
-FourAnywhere& four(float* at) {
-  return *reinterpret_cast<FourAnywhere*>(at);
+Four load_four(const float* at) {
+  Four out;
+  std::memcpy(&out, at, sizeof(out));
+  return out;
 }
-const FourAnywhere& four(const float* at) {
-  return *reinterpret_cast<const FourAnywhere*>(at);
+void add_four(float* at, const Four& part) {
+  const Four sum = load_four(at) + part;
+  std::memcpy(at, &sum, sizeof(sum));
 }
 
 int intervals(int side_px, double spacing_px) {
@@ -58,10 +61,10 @@ SmoothField::SmoothField(const TemplateModel& model, int width, int height, doub
 void SmoothField::subtract_from(Eigen::VectorXf& error, int count, const Eigen::VectorXf& coefficients) const {
   for (const Segment& at : m_segments) {
     Four c = {};
-    for (int j = 0; j < 4; ++j) c += at.wy[j] * four(&coefficients(at.first + j * m_columns));
+    for (int j = 0; j < 4; ++j) c += at.wy[j] * load_four(&coefficients(at.first + j * m_columns));
     const int end = std::min(at.end, count);
     for (int k = at.begin; k < end; ++k) {
-      const Four part = four(m_along[k].wx) * c;
+      const Four part = load_four(m_along[k].wx) * c;
       error(k) -= (part[0] + part[1]) + (part[2] + part[3]);
     }
   }
@@ -72,8 +75,8 @@ Eigen::VectorXf SmoothField::project(const Eigen::VectorXf& weighted_values, int
   for (const Segment& at : m_segments) {
     Four sum = {};
     const int end = std::min(at.end, count);
-    for (int k = at.begin; k < end; ++k) sum += weighted_values(k) * four(m_along[k].wx);
-    for (int j = 0; j < 4; ++j) four(&out(at.first + j * m_columns)) += at.wy[j] * sum;
+    for (int k = at.begin; k < end; ++k) sum += weighted_values(k) * load_four(m_along[k].wx);
+    for (int j = 0; j < 4; ++j) add_four(&out(at.first + j * m_columns), at.wy[j] * sum);
   }
   return out;
 }
@@ -88,7 +91,7 @@ Eigen::MatrixXf SmoothField::normal(const Eigen::VectorXf& weights, int count) c
     if (at.begin >= end) continue;
     Four sum[4] = {};
     for (int k = at.begin; k < end; ++k) {
-      const Four w = four(m_along[k].wx);
+      const Four w = load_four(m_along[k].wx);
       const Four weighted = weights(k) * w;
       for (int i = 0; i < 4; ++i) sum[i] += w[i] * weighted;
     }
@@ -105,7 +108,7 @@ Eigen::MatrixXf SmoothField::normal(const Eigen::VectorXf& weights, int count) c
     const Four* cell = cells[static_cast<std::size_t>(first)].data();
     for (int a = 0; a < 4; ++a) {
       for (int b = a; b < 4; ++b, cell += 4) {
-        for (int i = 0; i < 4; ++i) four(&out(first + b * m_columns, first + a * m_columns + i)) += cell[i];
+        for (int i = 0; i < 4; ++i) add_four(&out(first + b * m_columns, first + a * m_columns + i), cell[i]);
       }
     }
   }
