@@ -15,6 +15,7 @@ namespace {
 constexpr int tiles = tiles_a_side * tiles_a_side;
 constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
 constexpr double most_of_part = 0.95;
+constexpr double least_of_tile = 0.5;
 constexpr double beyond_noise = 3.3;       // times: 0.1 % of chi-square of eight over eight is above
 constexpr double hidden_weight = 0.05;     // a pixel with less does not show the target
 constexpr double least_rim_energy = 0.05;  // of the gradient energy: with less the rim says nothing
@@ -31,6 +32,7 @@ struct RegistrationSolver::Scores {
   std::array<Vector, tiles> gradient;
   std::array<Normal, tiles> normal;
   std::array<bool, tiles> used{};
+  std::array<bool, tiles> hidden{};  // most of what it should show does not fit
 
   Scores() {
     gradient.fill(Vector::Zero());
@@ -122,7 +124,15 @@ RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const 
     weighted_errors(at) = m_weight(k) * m_error(k);
   }
   if (m_field == nullptr) rows.topRows<motion_count>() *= gain_now;
+  std::array<double, tiles> energy{}, kept{};
+  for (int k = 0; k < count; ++k) {
+    if (m_pixel_state[k] != FramePatch::seen) continue;
+    const double e = double{m_model.fx[k]} * m_model.fx[k] + double{m_model.fy[k]} * m_model.fy[k];
+    energy[m_model.tile[k]] += e;
+    if (m_robust(k) * m_neighbours(k) > 0.25f) kept[m_model.tile[k]] += e;
+  }
   for (int tile = 0; tile < tiles; ++tile) {
+    out.hidden[tile] = kept[tile] < least_of_tile * energy[tile];
     const int begin = first[tile];
     const int size = first[tile + 1] - begin;
     if (size == 0) continue;
@@ -227,7 +237,13 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   }
   const Scores scores = scores_of_tiles(count);
   const double shrink = sum_w / std::max(slope, 0.1 * sum_w);
-  const Normal inverse = m_prepared.normal.inverse();
+  // Where most does not fit, what does may do so by chance: an even cover is somewhere as bright as an edge. Such tiles
+  // take part in the solve and not in what is said to be known.
+  Normal known = m_prepared.normal;
+  for (int tile = 0; tile < tiles; ++tile) {
+    if (scores.hidden[tile]) known -= most_of_part * scores.normal[tile];
+  }
+  const Normal inverse = known.inverse();
   const double factor = variance * used / sum_w * shrink * shrink;
   const Eigen::Vector2d growth(std::sqrt(m_model.noise_growth_x), std::sqrt(m_model.noise_growth_y));
   const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;

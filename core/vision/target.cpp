@@ -53,6 +53,7 @@ constexpr double accepted_blur_px2 = 12.0;
 constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
 constexpr double rough_residual = 2.4;     // standard deviations of shot noise
 constexpr double rough_sigma_px = 0.01;
+constexpr double hidden_sigma_px = 0.03;
 constexpr double nothing_hidden = 0.97;
 constexpr double another_print =
     0.5;  // of what does not fit: covers and chips stay below 0.25, other codes and letters above 0.65
@@ -73,12 +74,14 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   if (r.structure > largest_structure)
     return r.saturated_share > some_saturated ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
-  if (r.covariance_px2.diagonal().maxCoeff() > largest_sigma_px * largest_sigma_px) return Refusal::too_different;
   // A cover over much of the target can hold the fit at another place, where it leaves no outliers because it is rough
-  // everywhere. Noise is rough without hiding anything, and what is left under a smaller cover is known ten times
-  // better.
-  const bool rough = r.residual > rough_residual && r.inlier_share + r.saturated_share < nothing_hidden;
-  if (rough && r.covariance_px2.diagonal().maxCoeff() > rough_sigma_px * rough_sigma_px) return Refusal::occluded;
+  // everywhere, or where its levels happen to agree with an edge. What is left under a smaller cover is known ten times
+  // better; noise is rough without hiding anything.
+  const double sigma_px = std::sqrt(r.covariance_px2.diagonal().maxCoeff());
+  if (r.inlier_share + r.saturated_share < nothing_hidden) {
+    if (sigma_px > (r.residual > rough_residual ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
+  }
+  if (sigma_px > largest_sigma_px) return Refusal::too_different;
   if (r.printed_otherwise > another_print) return Refusal::wrong_target;
   if (r.rim_share < least_rim && !bent_by_glare) return Refusal::wrong_target;
   const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 
 #include "core/vision/row_sums.h"
 
@@ -14,6 +15,9 @@ constexpr int border_px = 3;           // of the region: its gradients use what 
 constexpr double energy_share = 0.98;  // of the gradient energy is worked on, the rest costs time and tells little
 constexpr float least_clear = 0.01f;
 constexpr double noise_energies = 4.0;  // a gradient's energy below so many of the noise's is mostly noise
+constexpr float noise_alone = 2.0f;     // times the noise's energy: noise alone seldom has a mean beyond it
+constexpr float clear_of_noise = 4.0f;
+constexpr int calm_window_px = 5;
 constexpr int growth_rows = 5;
 constexpr std::size_t sparse_step = 9;  // and every ninth of the flat pixels, for the light
 
@@ -110,6 +114,20 @@ void take_off_standing(const FloatImage& behind, const FloatImage& clear, FloatI
   }
 }
 
+// Where a gradient is no more than the template's noise it would tell of the motion what the frame does not know: one
+// axis or the turning of a target that shows nothing of them. There it is taken down, by what its surroundings show.
+void calm(FloatImage& gradient, double noise_energy) {
+  FloatImage mean(gradient.width, gradient.height);
+  for (std::size_t k = 0; k < mean.values.size(); ++k) mean.values[k] = gradient.values[k] * gradient.values[k];
+  cv::Mat view(mean.height, mean.width, CV_32F, mean.values.data());
+  cv::blur(view, view, {calm_window_px, calm_window_px});
+  const auto noise = static_cast<float>(std::max(noise_energy, 1e-9));
+  for (std::size_t k = 0; k < mean.values.size(); ++k) {
+    gradient.values[k] *=
+        std::clamp((mean.values[k] / noise - noise_alone) / (clear_of_noise - noise_alone), 0.0f, 1.0f);
+  }
+}
+
 // Share of independent noise's variance that the blur lets through.
 double power_of(const Eigen::Matrix2d& blur_px2) {
   double power = 0.0;
@@ -197,6 +215,9 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     behind = blurred(source.behind, blur_px2);
     take_off_standing(behind, clear, fx, fy);
   }
+  const double noise_each = source.noise_levels * source.noise_levels * gradient_noise(blur_px2);
+  calm(fx, noise_each);
+  calm(fy, noise_each);
   const auto index = [&](int x, int y) {
     return static_cast<std::size_t>(y + source.margin_px) * smooth.width + x + source.margin_px;
   };
@@ -213,7 +234,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   model.backdrop = source.backdrop;
   model.blur_px2 = blur_px2;
   model.gradient_energy = std::accumulate(energy.begin(), energy.end(), 0.0) / static_cast<double>(energy.size());
-  const double noise_energy = 2.0 * source.noise_levels * source.noise_levels * gradient_noise(blur_px2);
+  const double noise_energy = 2.0 * noise_each;
   model.noise_share = noise_energy / std::max(model.gradient_energy, 1e-9);
   const std::vector<int> chosen = choose_pixels(source, energy, noise_energy);
   model.pixels = static_cast<int>(chosen.size());

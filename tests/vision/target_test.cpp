@@ -109,18 +109,9 @@ TEST(Target, APatternThatRepeatsIsNotTakenForItselfAPeriodFurther) {
   EXPECT_NEAR(beside.y_px, moved.dy, 4.0 * beside.sigma_y_px);
 }
 
-/// A plate with a triangle and a bar, `dx` and `dy` whole pixels from the middle of the target's region; its edges are
-/// as wide as a lens makes them, its noise is 1 grey level at most.
-GrayImage sparse_plate(int dx, int dy) {
-  GrayImage sharp{640, 480, std::vector<std::uint8_t>(640 * 480, 110)};
-  paint(sharp, {250 + dx, 170 + dy, 140, 140}, 215);
-  for (int row = 0; row < 90; ++row) {
-    const int half = row / 2;
-    paint(sharp, {320 + dx - half, 190 + dy + row, 2 * half, 1}, 20);
-  }
-  paint(sharp, {260 + dx, 289 + dy, 120, 12}, 20);
+/// With edges as wide as a lens makes them and noise of 1 grey level at most.
+GrayImage photographed(const GrayImage& sharp, unsigned random = 1) {
   GrayImage image = sharp;
-  unsigned random = 1;
   for (int y = 1; y < 479; ++y) {
     for (int x = 1; x < 639; ++x) {
       int sum = 0;
@@ -132,6 +123,25 @@ GrayImage sparse_plate(int dx, int dy) {
     }
   }
   return image;
+}
+
+/// A plate with a triangle and a bar, `dx` and `dy` whole pixels from the middle of the target's region.
+GrayImage sparse_plate(int dx, int dy) {
+  GrayImage sharp{640, 480, std::vector<std::uint8_t>(640 * 480, 110)};
+  paint(sharp, {250 + dx, 170 + dy, 140, 140}, 215);
+  for (int row = 0; row < 90; ++row) {
+    const int half = row / 2;
+    paint(sharp, {320 + dx - half, 190 + dy + row, 2 * half, 1}, 20);
+  }
+  paint(sharp, {260 + dx, 289 + dy, 120, 12}, 20);
+  return photographed(sharp);
+}
+
+/// Upright bars: but for their ends nothing tells where they are along themselves.
+GrayImage bars(int dx, int dy) {
+  GrayImage sharp{640, 480, std::vector<std::uint8_t>(640 * 480, 205)};
+  for (int bar = 0; bar < 6; ++bar) paint(sharp, {252 + 23 * bar + dx, 175 + dy, 11, 130}, 35);
+  return photographed(sharp, static_cast<unsigned>(7 * dx + dy + 100));
 }
 
 // Of a target with few edges a cover hides much and shows an edge of its own.
@@ -169,6 +179,24 @@ TEST(Target, UnderALargeCoverNothingWrongIsTold) {
     if (!at.ok) continue;
     EXPECT_NEAR(at.x_px, 4.0, std::max(0.02, 4.0 * at.sigma_x_px)) << k;
     EXPECT_NEAR(at.y_px, -3.0, std::max(0.02, 4.0 * at.sigma_y_px)) << k;
+  }
+}
+
+// With one row of ends hidden the bars' length is all that tells, and a camera may have come closer: the noise between
+// the ends must not stand for knowing that it has not.
+TEST(Target, NoiseTellsNothingOfAnAxisThatTheTargetHardlyShows) {
+  const auto target = Target::create(bars(0, 0), target_region, {}, "template.png");
+  ASSERT_TRUE(target);
+  const Location whole = target->locate(bars(4, -3));
+  ASSERT_TRUE(whole.ok) << whole.reason;
+  EXPECT_NEAR(whole.y_px, -3.0, 4.0 * whole.sigma_y_px);
+  for (int k = 0; k < 12; ++k) {
+    GrayImage frame = bars(4, -3);
+    const Region cover = k % 2 == 0 ? Region{230, 150, 180, 30 + 3 * k} : Region{230, 290 - 3 * k, 180, 60 + 3 * k};
+    paint(frame, cover, static_cast<std::uint8_t>(40 + 17 * k));
+    const Location at = target->locate(frame);
+    if (!at.ok) continue;
+    EXPECT_NEAR(at.y_px, -3.0, 4.0 * at.sigma_y_px) << k;
   }
 }
 
