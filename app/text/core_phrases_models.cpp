@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 331> models = {{
+constexpr std::array<const char*, 332> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -377,6 +377,9 @@ constexpr std::array<const char*, 331> models = {{
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: {channel} is off the best simulation by "
                       "{um} µm (rms), {@regime}."),
+    QT_TRANSLATE_NOOP("core",
+                      "Something is missing that the library does not explain: what fits {channel} in this recording "
+                      "misses the machine's other recording by {um} µm (rms)."),
     QT_TRANSLATE_NOOP("core", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."),
     QT_TRANSLATE_NOOP(
         "core",

@@ -106,6 +106,7 @@ bool hides_a_movement(Diagnosis& first, const HeldOut& other) {
   if (moved == nullptr) return false;
   std::erase(first.mismatch.channels, moved->channel);
   first.mismatch.channels.insert(first.mismatch.channels.begin(), moved->channel);
+  first.notes.push_back("moved_elsewhere:" + moved->channel);
   return true;
 }
 

@@ -65,6 +65,8 @@ struct Discrepancy {
   double time_s = 1500.0;
   double log_likelihood = 0.0;
   double gain = 0.0;  // of it, against the default
+  /// Do the data ask for more than what is ordinary? Twenty to one is the least that counts.
+  bool asks_for_more() const { return factor > 1.0 && gain > 3.0; }
 };
 
 /// The ordinary slow misfit of a model, by evidence: between a quarter of the default and a little more than it,

@@ -94,6 +94,7 @@ Result<Diagnosis> Diagnoser::run() {
   }
   if (m_context.cancelled()) return fail(ErrorCode::cancelled);
   m_out.notes = m_selection.base->network().notes;
+  if (!m_moved_elsewhere.empty()) m_out.notes.push_back("moved_elsewhere:" + m_moved_elsewhere);
   std::vector<Sentence> far = far_parameters();
   m_out.sentences.push_back(explain_verdict(m_out));
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
@@ -199,18 +200,21 @@ void Diagnoser::decide() {
   const physics::Prediction of_best = m_selection.best->prediction();
   const Excess before = excess_under(of_base, *m_default_data);
   const Excess after = excess_under(of_best, *m_default_data);
-  // Do the data still ask for more discrepancy than a right model shows? Twenty to one is the least that counts.
-  double asked = 0.0;
+  bool asked = false;  // for more discrepancy than a right model shows
   for (const auto& channel : likely_discrepancy(*m_default_data, of_best)) {
     m_out.drift_factor = std::max(m_out.drift_factor, m_wide ? channel.factor : 1.0);
-    if (channel.factor > 1.0) asked = std::max(asked, channel.gain);
+    asked = asked || channel.asks_for_more();
   }
   m_out.excess_before = before.largest;
   m_out.excess_after = after.largest;
   tell_tried();
   const bool found = !m_selection.effects().empty();
   if (!found) {
-    m_out.verdict = after.largest > 2.3 ? Verdict::unexplained : Verdict::consistent;
+    m_out.verdict = after.largest > least_evident ? Verdict::unexplained : Verdict::consistent;
+    if (m_out.verdict == Verdict::consistent && !m_lumps_only) {
+      m_moved_elsewhere = moved_elsewhere(*m_selection.base, m_limits.others);
+    }
+    if (!m_moved_elsewhere.empty()) m_out.verdict = Verdict::unexplained;
     m_used = m_selection.base;
   } else {
     // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
@@ -220,7 +224,7 @@ void Diagnoser::decide() {
     // What stands for many parts as one lump each is a guess, and leaves what it leaves.
     const double left = leftover(of_best);
     const bool by_far = !m_lumps_only && left > most_left_widths;
-    const bool poor = wrong || by_far || (asked > 3.0 && left > most_left * leftover(of_base));
+    const bool poor = wrong || by_far || (asked && left > most_left * leftover(of_base));
     m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
     // A wrong effect can worsen the prediction of another run: it is used only if it really helps.
     const bool helps = !wrong && after.mean < 0.7 * before.mean;
@@ -275,8 +279,7 @@ void Diagnoser::effects() {
       }
     }
     found.bounds_reached = best.bounds_reached();
-    found.log_evidence_gain = best.log_evidence() - without->log_evidence();
-    if (index + 1 == best.machine().effects.size()) found.log_evidence_gain += best.elsewhere;
+    found.log_evidence_gain = m_selection.shown[i];
     // One effect alone: what the table of the channels calls re-fitted is the simulation without it.
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
     const Shown shown = show_best(found, other);

@@ -143,6 +143,7 @@ void Diagnoser::mismatch() {
     if (channel->score > std::max(1.0, 0.15 * order.front()->score)) m.channels.push_back(channel->channel);
   }
   if (m.channels.empty() && !order.empty()) m.channels.push_back(order.front()->channel);
+  if (!m_moved_elsewhere.empty()) m.channels = {m_moved_elsewhere};
   locate();
   times();
 }

@@ -71,7 +71,8 @@ class Diagnoser {
   SelectionOptions m_limits;
   std::shared_ptr<const Dataset> m_data, m_default_data;
   bool m_lumps_only = false;
-  bool m_wide = false;  // the data asked for more than the ordinary discrepancy
+  std::string m_moved_elsewhere;  // what only another recording shows to be unexplained
+  bool m_wide = false;            // the data asked for more than the ordinary discrepancy
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;

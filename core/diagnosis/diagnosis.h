@@ -146,7 +146,8 @@ struct DiagnoseOptions {
 /// show of it where all fit (the refined description keeps the first's). Note "heat_falls_with_speed:CHANNEL": no law
 /// has such heat, and nothing is named there. Note "far_from_description:QUANTITY:OF:FACTOR": the fit moved a number of
 /// the description by more than four of its tolerances. Note "sign_turned:CHANNEL": the displacement follows the
-/// description with its sign turned. Note "no_excitation": nothing moves, or nothing drives the machine.
+/// description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something moves
+/// the nose that the description has not. Note "no_excitation": nothing moves, or nothing drives the machine.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

@@ -8,30 +8,32 @@
 namespace zerodrift::diagnosis {
 namespace {
 
-constexpr double fitting_excess = 2.3;  // excess, as of a description that nothing is missing in
-
 struct Elsewhere {
   double evidence = 0.0;
   double left = 0.0;  // what is slow where it fits worst
   ModelPtr last;      // in the last of them, with what all before have shown
 };
 
+/// In another recording with what is known of the machine, at the misfit that suits it, as in the first recording.
+ModelPtr fitted_there(const Model& fit, const Model& known, const std::shared_ptr<const Dataset>& usual) {
+  Model there(fit.machine(), usual);
+  there.learn_from(known);
+  there.fit({10, 0.1, true});
+  auto suited = std::make_shared<Dataset>(with_discrepancy(*usual, ordinary_discrepancy(*usual, there.prediction())));
+  auto own = std::make_shared<Model>(fit.machine(), std::move(suited));
+  own->learn_from(known);
+  own->continue_from(there);
+  own->fit({12, 0.05, true});
+  return own;
+}
+
 Elsewhere elsewhere(const Model& fit, const OtherRecordings& others) {
   Elsewhere sum;
   const Model* known = &fit;
   for (const auto& usual : others) {
-    Model there(fit.machine(), usual);
-    there.learn_from(*known);
-    there.fit({10, 0.1, true});
-    // At the misfit that suits it, as in the first recording.
-    auto suited = std::make_shared<Dataset>(with_discrepancy(*usual, ordinary_discrepancy(*usual, there.prediction())));
-    auto own = std::make_shared<Model>(fit.machine(), std::move(suited));
-    own->learn_from(*known);
-    own->continue_from(there);
-    own->fit({12, 0.05, true});
-    sum.evidence += own->log_evidence_total();
-    sum.left = std::max(sum.left, excess_of(*own).largest);
-    sum.last = std::move(own);
+    sum.last = fitted_there(fit, *known, usual);
+    sum.evidence += sum.last->log_evidence_total();
+    sum.left = std::max(sum.left, excess_of(*sum.last).largest);
     known = sum.last.get();
   }
   return sum;
@@ -66,7 +68,7 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    if (left[i] <= fitting_excess) {
+    if (left[i] <= least_evident) {
       models[kept++] = models[i];
     } else {
       models[i]->elsewhere = 0.0;
@@ -78,7 +80,23 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
 ModelPtr seen_by_all(const Model& fit, const OtherRecordings& others) {
   if (others.empty()) return nullptr;
   const Elsewhere there = elsewhere(fit, others);
-  return there.left <= fitting_excess ? there.last : nullptr;
+  return there.left <= least_evident ? there.last : nullptr;
+}
+
+std::string moved_elsewhere(const Model& fit, const OtherRecordings& others) {
+  for (const auto& usual : others) {
+    const std::vector<Discrepancy> asked = likely_discrepancy(*usual, fitted_there(fit, fit, usual)->prediction());
+    const std::string* moved = nullptr;
+    bool warmer = false;
+    for (std::size_t c = 0; c < asked.size(); ++c) {
+      const MeasuredChannel& channel = usual->channels[c];
+      if (channel.samples == 0 || !asked[c].asks_for_more()) continue;
+      warmer = warmer || channel.temperature;
+      if (moved == nullptr && !channel.temperature) moved = &channel.name;
+    }
+    if (moved != nullptr && !warmer) return *moved;
+  }
+  return {};
 }
 
 double evidence_of(const Model& model) {

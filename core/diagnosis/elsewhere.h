@@ -18,6 +18,10 @@ bool worth_naming(const Model& model);
 /// under what the fit to those before it knows of the machine. Leaves out models that do not fit there - a recording of
 /// another machine judges nobody.
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others);
+/// The displacement that needs more than the ordinary misfit in another recording, with what the fitted one has shown
+/// of the machine, where no temperature does; empty where there is none. An expansion or an offset of the description
+/// may hide in one run what moves the nose, but not in two.
+std::string moved_elsewhere(const Model& fit, const OtherRecordings& others);
 /// Of the fitted recording, and of the others where they were asked.
 double evidence_of(const Model& model);
 /// The model in the last of the others, with what the fitted one and all others have shown of the machine; none where

@@ -219,6 +219,15 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
       s.id += "_length";  // no heat is missing where a displacement alone is off
       s.facts["um"] = fmt::format("{:.2g}", report.rms_refitted);
     }
+    if (std::count(diagnosis.notes.begin(), diagnosis.notes.end(), "moved_elsewhere:" + channel) != 0) {
+      s.id = "verdict_unexplained_elsewhere";
+      double missed_um = 0.0;
+      for (const auto& other : diagnosis.held_out) {
+        const auto rms = other.explained.find(channel);
+        if (rms != other.explained.end()) missed_um = std::max(missed_um, rms->second);
+      }
+      s.facts["um"] = fmt::format("{:.2g}", missed_um);
+    }
     if (s.facts.count("um") == 0) s.facts["watts"] = fmt::format("{:.0f}", diagnosis.mismatch.missing_heat_W);
   }
   if (diagnosis.verdict == Verdict::missing_effect) {

@@ -58,7 +58,17 @@ std::vector<double> values_at_start(const Machine& refined, const recording::Rec
       recording::slice(recording, 0, std::min(recording.rows(), std::max(least_rows, within)));
   const Dataset whole = make_dataset(recording, network);
   Dataset data = make_dataset(start, network);
-  for (std::size_t c = 0; c < data.channels.size(); ++c) data.channels[c].white = whole.channels[c].white;
+  // Noise and spikes are known from the whole: among twenty samples one spike looks like much noise.
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    MeasuredChannel& channel = data.channels[c];
+    channel.white = whole.channels[c].white;
+    channel.samples = 0;
+    for (std::size_t k = 0; k < data.rows(); ++k) {
+      channel.present[k] = whole.channels[c].present[k];
+      channel.values[k] = whole.channels[c].values[k];
+      channel.samples += channel.present[k] ? 1 : 0;
+    }
+  }
   data.prepare();
   Model own(refined, std::make_shared<Dataset>(std::move(data)), true);
   own.fit({});

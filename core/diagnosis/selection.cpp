@@ -98,31 +98,41 @@ Result<Selection> Selector::again(const Selection& selection, const std::shared_
 /// was fitted from there, under the noise of the answer.
 void Selector::only_what_stands() {
   m_result.without.clear();
+  m_result.shown.clear();
   while (m_result.best->machine().effects.size() > m_result.described) {
     const Model& best = *m_result.best;
     const std::vector<std::size_t> named = m_result.effects();
+    const double least = named.size() == 1 ? m_options.first : m_options.second_clean;
     std::vector<ModelPtr> without(named.size());
     in_parallel(named.size(), [&](std::size_t i) {
       without[i] = reduced(best, named[i]);
       without[i]->fit({8, 0.05, true});
     });
-    const auto shown = [&](std::size_t i) {
-      const bool last = named[i] + 1 == best.machine().effects.size();
-      return best.log_evidence() - without[i]->log_evidence() + (last ? best.elsewhere : 0.0);
-    };
-    std::size_t weakest = 0;
-    for (std::size_t i = 1; i < named.size(); ++i) {
-      if (shown(i) < shown(weakest)) weakest = i;
+    std::vector<double> shown(named.size());
+    for (std::size_t i = 0; i < named.size(); ++i) {
+      const bool last = i + 1 == named.size();
+      shown[i] = best.log_evidence() - without[i]->log_evidence();
+      if (last) shown[i] += best.elsewhere;
+      // Where the others were asked about the last effect, an earlier one may stand by them as well.
+      if (!last && shown[i] <= least && best.elsewhere != 0.0) shown[i] += shown_elsewhere(best, *without[i]);
     }
-    if (shown(weakest) > (named.size() == 1 ? m_options.first : m_options.second_clean)) {
+    const auto weakest = std::min_element(shown.begin(), shown.end()) - shown.begin();
+    if (shown[static_cast<std::size_t>(weakest)] > least) {
       m_result.without = std::move(without);
+      m_result.shown = std::move(shown);
       return;
     }
-    m_result.best = without[weakest];
+    m_result.best = without[static_cast<std::size_t>(weakest)];
     if (named.size() > 1) continue;
     if (by_evidence(m_result.best, m_result.base)) m_result.base = m_result.best;
     m_result.best = m_result.base;
   }
+}
+
+double Selector::shown_elsewhere(const Model& best, const Model& without) const {
+  std::vector<ModelPtr> asked = {std::make_shared<Model>(best)};
+  ask_elsewhere(asked, without, m_options.others);
+  return asked.empty() ? 0.0 : asked.front()->elsewhere;
 }
 
 ModelPtr Selector::under(const Model& model, const std::shared_ptr<const Dataset>& data) {
@@ -207,33 +217,38 @@ void Selector::base_from(const Model& best) {
 }
 
 void Selector::ask_others() {
+  while (static_cast<int>(m_result.best->machine().effects.size() - m_result.described) < m_options.most_effects &&
+         !m_context.cancelled() && ask_others_for_one()) {
+  }
+}
+
+bool Selector::ask_others_for_one() {
+  constexpr double speaks_against = -2.0;
   const Model& best = *m_result.best;
-  if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return;
+  if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return false;
   std::vector<Candidate> screened = screen(best, m_facts);
-  // What a room sensor does wrong is its own in each recording. Tiny effects, which are not worth naming, often score
-  // before one that is.
+  // What a room sensor does wrong is its own in each recording.
   std::erase_if(screened, [](const Candidate& candidate) {
-    constexpr double tiny = 0.1;  // half of what is worth naming: a score's step is rough
-    const auto small = [](double step) { return std::abs(step) < tiny; };
-    return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault" ||
-           std::all_of(candidate.step.begin(), candidate.step.end(), small);
+    return physics::happens_once(candidate.spec.id) || candidate.spec.id == "room_sensor_fault";
   });
   const bool alone = m_result.best == m_result.base;
-  std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, alone ? 8u : 4u});
+  std::vector<ModelPtr> doubtful = refine(m_result.best, screened, {1, 3.0, 8});
   in_parallel(doubtful.size(), [&](std::size_t i) { doubtful[i] = with_ordinary(doubtful[i]); });
-  std::erase_if(doubtful, [&](const ModelPtr& fit) {
-    return total_gain(*fit, best) < 0.0 || !worth_naming(*fit) || doubles_a_joint(*fit);
-  });
+  std::erase_if(doubtful,
+                [&](const ModelPtr& fit) { return total_gain(*fit, best) < speaks_against || doubles_a_joint(*fit); });
   ask_elsewhere(doubtful, best, m_options.others);
-  if (doubtful.empty()) return;
   const auto together = [&](const ModelPtr& fit) { return total_gain(*fit, best) + fit->elsewhere; };
-  std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
   // What is not quite right about a strong effect's law shows in both.
-  const double least = alone ? m_options.together_alone
-                             : std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
-  if (together(doubtful.front()) <= least) return;
-  m_result.levels.push_back(doubtful);
+  const double least =
+      alone ? m_options.together : std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
+  std::erase_if(doubtful, [&](const ModelPtr& fit) {
+    return together(fit) <= (worth_naming(*fit) ? least : std::max(least, m_options.tiny));
+  });
+  if (doubtful.empty()) return false;
+  std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
   m_result.best = doubtful.front();
+  m_result.levels.push_back(std::move(doubtful));
+  return true;
 }
 
 void Selector::tell_apart() {
@@ -337,7 +352,10 @@ ModelPtr Selector::one_of_its_joints(const Model& doubled) const {
 }
 
 double Selector::least_first(const Model& fit) const {
-  return m_options.own_misfit && !worth_naming(fit) ? m_options.tiny : m_options.first;
+  if (!m_options.own_misfit || worth_naming(fit)) return m_options.first;
+  // Where something evidently is missing, it is no longer what every machine has.
+  const bool evident = excess_of(*m_result.base).largest > least_evident && excess_of(fit).largest < least_evident;
+  return evident ? m_options.first : m_options.tiny;
 }
 
 bool Selector::accepted(const Model& fit, const Excess& before) const {

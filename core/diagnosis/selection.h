@@ -16,15 +16,17 @@ struct SelectionOptions {
   double clean_relative = 0.001;  // of the evidence so far: a strong effect's law is never quite right
   double second = 25;             // a second effect where it does
   double second_relative = 0.002;
-  double together = 10.0;  // an effect that two recordings have to show together: the faults of a description add up
-  double together_alone = 40.0;  // the same where nothing else is missing: of 350 sound machines one reached 29
-  double tiny = 30.0;            // an effect against none where it is so small that every machine has as much of it
+  double together = 10.0;  // an effect that two recordings have to show together; of 1200 sound machines one reached 5
+  double tiny = 15.0;      // an effect so small that every machine has as much of it; by itself of 400 none reached 5
   int most_effects = 3;
   bool own_misfit = true;        // models are compared at the ordinary misfit that suits each best
   bool excess_must_fall = true;  // a second effect must also remove much of what is slow in some channel
   /// Other recordings of the machine, with default widths: asked where the fitted one leaves an effect in doubt.
   std::vector<std::shared_ptr<const Dataset>> others;
 };
+
+/// Excess of slow variation from which on something is missing: right descriptions leave less.
+inline constexpr double least_evident = 2.3;
 
 struct Excess {
   std::vector<double> per_channel;
@@ -38,6 +40,7 @@ struct Selection {
   std::shared_ptr<Model> base;  // refitted without any effect
   std::shared_ptr<Model> best;
   std::vector<std::shared_ptr<Model>> without;              // the best without each of effects(), fitted
+  std::vector<double> shown;                                // log evidence of each, with that of others where asked
   std::vector<Candidate> screened;                          // around the base
   std::vector<std::vector<std::shared_ptr<Model>>> levels;  // refits with one effect more, best first
   double falling_heat = 0.0;  // log evidence by which heat that falls with speed beats the best; 0: it does not

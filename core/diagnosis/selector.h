@@ -76,6 +76,10 @@ class Selector {
   /// An effect that this recording leaves in doubt may show in another of the machine: both must show together what one
   /// alone has to. Only what this one does not speak against is asked.
   void ask_others();
+  bool ask_others_for_one();
+
+  /// What other recordings add to one effect of an answer that they were asked about.
+  double shown_elsewhere(const Model& best, const Model& without) const;
 
   /// What this recording can hardly tell apart the others may.
   void tell_apart();

@@ -20,6 +20,9 @@ constexpr std::array catalogue{
     Entry{"verdict_unexplained_length",
           "Something is missing that the library does not explain: {channel} is off the best "
           "simulation by {um} µm (rms), {@regime}."},
+    Entry{"verdict_unexplained_elsewhere",
+          "Something is missing that the library does not explain: what fits {channel} in this recording misses the "
+          "machine's other recording by {um} µm (rms)."},
     Entry{"verdict_missing_effect", "The simulation left out {+effects}."},
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "

@@ -3418,6 +3418,10 @@
         <translation>存在效应库无法解释的缺失：{channel} 与最佳仿真相差 {um} µm（rms），{@regime}。</translation>
     </message>
     <message>
+        <source>Something is missing that the library does not explain: what fits {channel} in this recording misses the machine's other recording by {um} µm (rms).</source>
+        <translation>存在效应库无法解释的缺失：与本次记录中的 {channel} 相符的仿真，在该机床的另一记录中相差 {um} µm（rms）。</translation>
+    </message>
+    <message>
         <source>This run at one speed would hardly show {@name}{@where}: it cannot be excluded.</source>
         <translation>本次单一转速的运行几乎无法显示{@where}{@name}，不能排除。</translation>
     </message>

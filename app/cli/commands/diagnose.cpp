@@ -71,6 +71,10 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
       output.warnings.push_back("the heat on " + note.substr(22) +
                                 " is less at some speed than at a lower one: no law has that, nothing is named there");
     }
+    if (note.rfind("moved_elsewhere:", 0) == 0) {
+      output.warnings.push_back("only another recording shows that " + note.substr(16) +
+                                " does not follow the simulation");
+    }
     if (note.rfind("fitted_instead:", 0) == 0) {
       output.warnings.push_back("the first recording does not show it: " + note.substr(15) +
                                 " was fitted and the first held out");
