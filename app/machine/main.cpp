@@ -121,9 +121,9 @@ Status work(const Options& options, const sigset_t& endings) {
   if (options.conceal.empty()) return serve(options, hidden, endings);
   const Commitment commitment = commit_to(hidden);
   fmt::print(stderr, "concealed sha256={}\n", commitment.sha256);
-  Status done = serve(options, hidden, endings);
+  ZD_CHECK(serve(options, hidden, endings));
   fmt::print(stderr, "opened salt={} answer={}\n", commitment.salt, commitment.answer);
-  return done;
+  return {};
 }
 
 int run(int argc, char** argv) {

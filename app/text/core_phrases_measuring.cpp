@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 182> measuring = {{
+constexpr std::array<const char*, 184> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -140,6 +140,8 @@ constexpr std::array<const char*, 182> measuring = {{
     QT_TRANSLATE_NOOP("core", "%1 was left out: %2"),
     QT_TRANSLATE_NOOP("core", "no region was given: %1,%2,%3,%4 shows the most pattern and is used"),
     QT_TRANSLATE_NOOP("core", "%1: %2x%3 pixels, the template has %4x%5"),
+    QT_TRANSLATE_NOOP("core", "%1: %2"),
+    QT_TRANSLATE_NOOP("core", "the file does not exist"),
     QT_TRANSLATE_NOOP("core", "target missing"),
     QT_TRANSLATE_NOOP("core", "target occluded, or another one"),
     QT_TRANSLATE_NOOP("core", "target occluded"),

@@ -242,7 +242,7 @@ void Run::note_measurement(const Result<ErrorSample>& measured) {
     return;
   }
   std::string reasons;
-  for (const std::string& reason : measured->problems) reasons += (reasons.empty() ? "" : ", ") + reason;
+  for (const std::string& reason : measured->problems) reasons += (reasons.empty() ? "" : "; ") + reason;
   ++m_summary.refused;
   raise("errors", {ErrorCode::target_refused, {{"reason", reasons}}});
 }

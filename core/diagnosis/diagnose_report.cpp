@@ -164,8 +164,12 @@ void Diagnoser::locate() {
     m.scan_evidence = scan.evidence;
     m.regime = regime_of(scan, recording(), driver_of_first());
     double sum = 0.0;
-    for (const double w : scan.watts) sum += std::abs(w);
-    m.missing_heat_W = scan.watts.empty() ? 0.0 : sum / static_cast<double>(scan.watts.size());
+    double net = 0.0;
+    for (const double w : scan.watts) {
+      sum += std::abs(w);
+      net += w;
+    }
+    m.missing_heat_W = scan.watts.empty() ? 0.0 : std::copysign(sum / static_cast<double>(scan.watts.size()), net);
     HeatMap heat;
     heat.component = component.id;
     heat.position_mm = scan.position_mm;

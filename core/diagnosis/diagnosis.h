@@ -79,7 +79,7 @@ struct Mismatch {
   double best_position_mm = 0.0;
   std::vector<std::pair<double, double>> time_s;
   std::string regime;
-  double missing_heat_W = 0.0;
+  double missing_heat_W = 0.0;  // mean size over time at its place; negative where heat is taken away
   std::vector<double> scan_position_mm, scan_evidence;  // one point source with a free history, along the rod
 };
 

@@ -228,7 +228,7 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
       }
       s.facts["um"] = fmt::format("{:.2g}", missed_um);
     }
-    if (s.facts.count("um") == 0) s.facts["watts"] = fmt::format("{:.0f}", diagnosis.mismatch.missing_heat_W);
+    if (s.facts.count("um") == 0) s.facts["watts"] = fmt::format("{:.0f}", std::abs(diagnosis.mismatch.missing_heat_W));
   }
   if (diagnosis.verdict == Verdict::missing_effect) {
     std::string list;

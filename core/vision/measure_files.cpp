@@ -23,6 +23,7 @@ void warn(std::vector<std::string>* warnings, std::string text) {
 // In few words, for a row or a warning; the file's name stands beside it.
 std::string short_reason(const Error& error) {
   const auto detail = error.context.find("detail");
+  if (error.code == ErrorCode::file_not_found) return "the file does not exist";
   return "unreadable: " + (detail != error.context.end() ? detail->second : std::string(name_of(error.code)));
 }
 

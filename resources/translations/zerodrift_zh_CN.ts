@@ -3913,6 +3913,14 @@
         <source>from %1 to %2 min</source>
         <translation>自 %1 至 %2 min</translation>
     </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>the file does not exist</source>
+        <translation>文件不存在</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -5541,7 +5549,7 @@
     </message>
     <message>
         <source>%1 on the wall</source>
-        <translation>实际用时 %1</translation>
+        <translation>实际剩余 %1</translation>
     </message>
     <message>
         <source>The run ended before this note was kept: %1</source>

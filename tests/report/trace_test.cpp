@@ -140,4 +140,20 @@ TEST(ReportTrace, WhoDidItIsAskedFor) {
   EXPECT_NE(says(somebody).find("Engineer=A. Keller"), std::string::npos);
 }
 
+// Two places over three times, as the search found them.
+TEST(HeatMapOfReport, HasARowAPosition) {
+  RichJob rich({"VMC", "17", "", "A. Keller", ""});
+  const auto report = build_report(rich.job());
+  ASSERT_TRUE(report) << describe(report.error());
+  const HeatMap* map = nullptr;
+  for (const Section& section : report->sections) {
+    for (const auto& block : section.blocks) {
+      if (std::holds_alternative<HeatMap>(block)) map = &std::get<HeatMap>(block);
+    }
+  }
+  ASSERT_NE(map, nullptr);
+  const std::vector<std::vector<double>> expected{{-0.1, 0.2, 0.3}, {0.0, 0.1, -0.4}};
+  EXPECT_EQ(map->rows, expected);
+}
+
 }  // namespace zerodrift::report

@@ -8,7 +8,7 @@ namespace zerodrift::flow {
 
 /// The artefact "physics" of compare_physics, and what the search found in it:
 ///   "diagnosis": core/diagnosis' JSON, "adopted": [ids], "rejected": [ids],
-///   "heat": {"component", "from_mm", "to_mm", "from_s", "to_s", "watts": [[over time] a position]} | null,
+///   "heat": {"component", "from_mm", "to_mm", "from_s", "to_s", "watts": [a position: [over time]]} | null,
 ///   "refined_machine": the machine description with what was found
 /// and with "refined" beside the values of each curve. When the search fails "problems" says why and the rest is
 /// missing. Comes with the blob "refined.csv", the simulation with what was found. A verification run serves as unseen

@@ -93,13 +93,6 @@ void add_heat_map(const json& body, const Source& source, Section& section) {
     map.rows.push_back(std::move(values));
   }
   if (map.rows.empty() || map.rows.front().empty()) return;
-  // Stored a row a time; drawn a row a position.
-  std::vector<std::vector<double>> by_position(map.rows.front().size(), std::vector<double>(map.rows.size(), NAN));
-  for (std::size_t t = 0; t < map.rows.size(); ++t) {
-    for (std::size_t p = 0; p < std::min(by_position.size(), map.rows[t].size()); ++p)
-      by_position[p][t] = map.rows[t][p];
-  }
-  map.rows = std::move(by_position);
   map.id = "missing_heat";
   map.title = source.tell("Missing heat over position and time: {}", source.say(text_of(heat, "component")));
   map.x_label = source.say("hours");
