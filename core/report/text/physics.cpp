@@ -40,6 +40,9 @@ std::vector<TextEntry> texts_of_physics() {
        "没有缺失：在容差和传感器噪声范围内，仿真与记录一致。"},
       {"Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W.",
        "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，约 {watts} W。"},
+      {"Something is missing that the library does not explain: what fits {channel} in this recording misses the "
+       "machine's other recording by {um} µm (rms).",
+       "存在效应库无法解释的缺失：与本次记录中的 {channel} 相符的仿真，在该机床的另一记录中相差 {um} µm（rms）。"},
       {"Something is missing that the library does not explain: {channel} is off the best simulation by {um} µm (rms), "
        "{@regime}.",
        "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {um} µm（均方根），{@regime}。"},
