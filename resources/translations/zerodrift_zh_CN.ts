@@ -3418,7 +3418,7 @@
         <translation>存在效应库无法解释的缺失：{channel} 与最佳仿真相差 {um} µm（rms），{@regime}。</translation>
     </message>
     <message>
-        <source>Something is missing that the library does not explain: what fits {channel} in this recording misses the machine's other recording by {um} µm (rms).</source>
+        <source>Something is missing that the library does not explain: what fits {channel} in this recording misses the machine&apos;s other recording by {um} µm (rms).</source>
         <translation>存在效应库无法解释的缺失：与本次记录中的 {channel} 相符的仿真，在该机床的另一记录中相差 {um} µm（rms）。</translation>
     </message>
     <message>
@@ -7495,10 +7495,6 @@
         <translation>已按机床描述对该运行进行仿真。由程序找出仿真缺少的内容。</translation>
     </message>
     <message>
-        <source>Simulation and recording agree down to the noise. Nothing needs to be added.</source>
-        <translation>仿真与记录在噪声范围内一致，无需增加任何效应。</translation>
-    </message>
-    <message>
         <source>Map, curves and figures hold what was adopted. Go on, or take it out again.</source>
         <translation>图、曲线和数值已包含所采纳的效应。可继续，或撤销采纳。</translation>
     </message>
@@ -7577,10 +7573,6 @@
     <message>
         <source>With what was adopted.</source>
         <translation>已计入所采纳的效应。</translation>
-    </message>
-    <message>
-        <source>As the machine is described.</source>
-        <translation>按机床描述。</translation>
     </message>
     <message>
         <source>Noise of the sensors</source>
@@ -7811,6 +7803,18 @@
     <message>
         <source>A part is explained, at the right. The rest no known effect explains: it is shown, not guessed.</source>
         <translation>一部分已得到解释，见右侧。其余部分没有已知效应可以解释：程序如实显示，不作猜测。</translation>
+    </message>
+    <message>
+        <source>Within the tolerances of its description the simulation agrees with the recording. Nothing needs to be added.</source>
+        <translation>在机床描述的容差范围内，仿真与记录一致。无需补充。</translation>
+    </message>
+    <message>
+        <source>within its tolerances</source>
+        <translation>在其容差范围内</translation>
+    </message>
+    <message>
+        <source>As the machine is described: with every number at its middle.</source>
+        <translation>按机床描述：各数值取标称值。</translation>
     </message>
 </context>
 <context>

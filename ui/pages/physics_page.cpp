@@ -156,7 +156,9 @@ QString PhysicsPage::sentence() const {
     case PhysicsVerdict::none:
       return tr("The run is simulated from the machine's description. Let the program find what the simulation lacks.");
     case PhysicsVerdict::consistent:
-      return tr("Simulation and recording agree down to the noise. Nothing needs to be added.");
+      return tr(
+          "Within the tolerances of its description the simulation agrees with the recording. Nothing needs to be "
+          "added.");
     case PhysicsVerdict::missingEffect:
       return m_state.adopted
                  ? tr("Map, curves and figures hold what was adopted. Go on, or take it out again.")
@@ -210,7 +212,11 @@ QVector<Figure> PhysicsPage::figures() const {
                          : figureAtMost(label, m_state.rmse_K, 2, "K", std::ceil(20.0 * m_state.noise_K) / 10.0);
   if (agreement.judgement == Judgement::ok) agreement.word = tr("down to noise");
   if (agreement.judgement == Judgement::bad) agreement.word = tr("something missing");
-  agreement.tip = m_state.adopted ? tr("With what was adopted.") : tr("As the machine is described.");
+  if (agreement.judgement == Judgement::bad && m_state.verdict == PhysicsVerdict::consistent) {
+    agreement = figureOf(label, m_state.rmse_K, 2, "K", tr("within its tolerances"));
+  }
+  agreement.tip = m_state.adopted ? tr("With what was adopted.")
+                                  : tr("As the machine is described: with every number at its middle.");
   Figure noise = figureOf(tr("Noise of the sensors"), m_state.noise_K, 2, "K");
   Figure heat = figureOf(tr("Missing heat"), m_state.missing_W, 0, "W");
   if (m_state.adopted && !heat.value.isEmpty()) heat.word = tr("explained by what was adopted");
