@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/hash.h"
 #include "core/commissioning/artefact_hash.h"
 #include "core/commissioning/job_store.h"
@@ -21,7 +23,9 @@ class Checker {
     if (!answer) {
       m_report.problems.push_back(answer.error());
     } else if (*answer != "ok") {
-      damaged(*answer);
+      std::string words = *answer;
+      std::replace(words.begin(), words.end(), '\n', ' ');
+      damaged(std::move(words));
     }
   }
 
@@ -82,12 +86,16 @@ class Checker {
 Result<CheckReport> Job::check() const {
   const std::scoped_lock lock(m_store->mutex);
   CheckReport report;
+  // Beside somebody who writes, all of it as it was at one moment.
+  const bool aside = m_store->read_only;
+  if (aside) ZD_CHECK(m_store->database->execute("BEGIN"));
   Checker checker(*m_store->database, report);
   checker.structure();
   checker.samples();
   checker.artefacts();
   if (const Status trail = m_store->check_audit(&report.audit_entries); !trail)
     report.problems.push_back(trail.error());
+  if (aside) ZD_CHECK(m_store->database->execute("END"));
   return report;
 }
 

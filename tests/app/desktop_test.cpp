@@ -211,6 +211,25 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(!problem.remedy.isEmpty());
   }
 
+  /// A job whose first pages are whole opens; that the rest is not is said all the same.
+  void jobDamagedInTheMiddleIsSaid() {
+    QFile sample(QStringLiteral(ZERODRIFT_SOURCE_DIR "/resources/samples/sample.zdj"));
+    QVERIFY(sample.open(QIODevice::ReadOnly));
+    QByteArray bytes = sample.readAll();
+    const qsizetype middle = bytes.size() / 2;
+    for (qsizetype i = middle; i < middle + 20000; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x5a);
+    const QString path = m_folder.filePath(QStringLiteral("middle.zdj"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(bytes);
+    file.close();
+    Application application(m_theme);
+    application.openJob(path);
+    const auto& problem = application.presenters().front()->page()->problem();
+    QTRY_VERIFY2(problem.sentence.contains(QStringLiteral("middle.zdj")), qPrintable(problem.sentence));
+    QCOMPARE(problem.kind, ProblemKind::failure);
+  }
+
   /// The banner of a failure goes when the next try succeeds.
   void bannerGoes() {
     Application application(m_theme);

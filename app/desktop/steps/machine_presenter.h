@@ -6,6 +6,8 @@
 #include <QVector>
 #include <deque>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "app/desktop/demo_machine.h"
 #include "app/desktop/map_editor.h"
@@ -50,6 +52,8 @@ class MachinePresenter : public Presenter {
   void looked();
   void sayWhenOld();
   void remember(const QString& path);
+  /// Says in the banner when something in the opened file is damaged.
+  void checkWhole(const QString& path);
   QString connectionText() const;
   std::optional<int> virtualSeed() const;
   void fillSensors(ui::MachineState& state);
@@ -72,6 +76,7 @@ class MachinePresenter : public Presenter {
   std::optional<ErrorCode> m_lostSaid;  // the trouble that stands in the banner
   bool m_toldLost = false;
   std::function<void()> m_whenReady;
+  std::vector<std::jthread> m_checks;  // waited for when the window is closed
 };
 
 }  // namespace zerodrift::desktop
