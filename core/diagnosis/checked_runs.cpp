@@ -20,9 +20,10 @@ void tell_findings(CheckedRuns& runs) {
     const std::string kind(analysis::name_of(finding.kind));
     const bool unit =
         finding.kind == analysis::FindingKind::fahrenheit || finding.kind == analysis::FindingKind::kelvin;
-    const auto alike = std::count_if(findings.begin(), findings.end(), [&](const RunFinding& other) {
-      return other.recording == recording && other.finding.kind == finding.kind;
-    });
+    const auto alike = std::count_if(findings.begin(), findings.end(),
+                                     [&recording = recording, &finding = finding](const RunFinding& other) {
+                                       return other.recording == recording && other.finding.kind == finding.kind;
+                                     });
     if (!unit || alike == 1) {
       runs.told.push_back(
           explain_note("run_finding", {{"recording", recording}, {"what", analysis::describe(finding)}}));
