@@ -20,7 +20,6 @@
 #include "app/desktop/steps/warmup_presenter.h"
 #include "app/text/error_text.h"
 #include "core/acquisition/job_sink.h"
-#include "core/flow/flow.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 
@@ -110,10 +109,14 @@ void Application::wire() {
   // Said when the job has been opened and its page stands.
   connect(m_bench.get(), &Workbench::jobChanged, this, &Application::sayInterrupted, Qt::QueuedConnection);
   connect(m_bench.get(), &Workbench::disconnectedFor, this, &Application::sayDisconnected, Qt::QueuedConnection);
+  connect(m_bench.get(), &Workbench::jobDamaged, this, &Application::sayDamaged);
   connect(m_bench.get(), &Workbench::controllerTold, this, &Application::updateLamps);
   connect(&m_lampTimer, &QTimer::timeout, this, &Application::updateLamps);
   m_lampTimer.start(lamp_period_ms);
-  connect(&m_bench->tasks(), &TaskRunner::started, this, [this] { updateLamps(); });
+  connect(&m_bench->tasks(), &TaskRunner::started, this, [this] {
+    updateLamps();
+    updateSteps();
+  });
   connect(&m_bench->tasks(), &TaskRunner::finished, this, [this] {
     updateLamps();
     updateSteps();
@@ -207,6 +210,11 @@ void Application::sayDisconnected(unsigned connected_serial, unsigned job_serial
         tr("To go on with the connected machine open its own job, or begin a new one."),
         {}};
   });
+}
+
+void Application::sayDamaged(const Error& damage) {
+  updateSteps();
+  if (auto* open = presenter(m_open)) open->show(damage);
 }
 
 /// A run that was broken off is the first thing to know of a job.
@@ -304,60 +312,6 @@ void Application::setLanguage(const QString& code) {
   for (auto* presenter : m_presenters) presenter->languageChanged();
   updateSteps();
   updateLamps();
-}
-
-void Application::updateSteps() {
-  const auto* job = m_bench->job();
-  const auto words = [this](flow::StepState state, const std::string& reason) -> QString {
-    switch (state) {
-      case flow::StepState::blocked:
-        return tr("Not started");
-      case flow::StepState::ready:
-        return tr("Ready");
-      case flow::StepState::current:
-        return tr("Done");
-      case flow::StepState::stale:
-        return tr("Out of date: %1 changed").arg(stepName(reason));
-    }
-    return {};
-  };
-  const auto shown = [](flow::StepState state) {
-    switch (state) {
-      case flow::StepState::blocked:
-        return ui::StepState::blocked;
-      case flow::StepState::ready:
-        return ui::StepState::ready;
-      case flow::StepState::current:
-        return ui::StepState::current;
-      case flow::StepState::stale:
-        return ui::StepState::stale;
-    }
-    return ui::StepState::blocked;
-  };
-  const flow::Flow steps;
-  const auto all =
-      job == nullptr ? std::vector<flow::StepStatus>() : steps.status(*job).value_or(std::vector<flow::StepStatus>());
-  for (auto* presenter : m_presenters) {
-    if (job == nullptr) {
-      m_window->setStepState(presenter->id(), ui::StepState::blocked, tr("Not started"));
-      continue;
-    }
-    if (const QString standing = presenter->standing(); !standing.isEmpty()) {
-      m_window->setStepState(presenter->id(), ui::StepState::ready, standing);
-      continue;
-    }
-    const std::string id = presenter->id().toStdString();
-    const auto at = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.step->id == id; });
-    const flow::StepStatus status = at == all.end() ? flow::StepStatus() : *at;
-    m_window->setStepState(presenter->id(), shown(status.state), words(status.state, status.reason));
-  }
-  if (job == nullptr) {
-    m_window->setJob(tr("No job"), {});
-    return;
-  }
-  const auto header = job->header().value_or(commissioning::JobHeader{});
-  const QString name = header.machine.empty() ? tr("New job") : QString::fromStdString(header.machine);
-  m_window->setJob(name, QString::fromStdString(job->path().filename().string()));
 }
 
 void Application::updateLamps() {

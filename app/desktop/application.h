@@ -12,6 +12,10 @@
 #include "ui/shell/main_window.h"
 #include "ui/shell/theme.h"
 
+namespace zerodrift::flow {
+struct StepStatus;
+}
+
 namespace zerodrift::desktop {
 
 class FileOpener;
@@ -51,11 +55,14 @@ class Application : public QObject {
   void switchCompensation();
   void sayInterrupted();
   void sayDisconnected(unsigned connected_serial, unsigned job_serial);
+  void sayDamaged(const Error& damage);
   /// The lamp of the lock: sets a PIN, unlocks or locks.
   void changeAccess();
   void openNext(const QString& after);
   void openBack();
+  /// How each step stands, into the rail.
   void updateSteps();
+  QString wordsOf(const flow::StepStatus& status) const;
   void updateLamps();
   void lightController();
   void lightCamera();

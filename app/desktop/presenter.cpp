@@ -47,6 +47,7 @@ void Presenter::whenIdle(std::function<void()> act) {
 QObject* Presenter::beginTask(const QString& name) {
   m_page->clearProblem();
   if (m_bench.tasks().running()) return nullptr;  // its progress is another page's
+  m_working = true;
   auto* progress = new QObject(this);
   connect(&m_bench.tasks(), &TaskRunner::progressed, progress,
           [this, name](double fraction, const QString&, double secondsLeft) {
@@ -59,6 +60,7 @@ QObject* Presenter::beginTask(const QString& name) {
 
 void Presenter::endTask(QObject* progress) {
   if (progress == nullptr) return;
+  m_working = false;
   progress->deleteLater();
   progress->disconnect();
   m_page->clearProgress();

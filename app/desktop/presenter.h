@@ -33,6 +33,10 @@ class Presenter : public QObject {
   virtual void undo() {}
   /// What the tour does on this page: starts the step and calls `done` when it has ended.
   virtual void tour(std::function<void(bool good)> done) = 0;
+  /// Whether work of this page runs.
+  bool working() const { return m_working; }
+  /// Into the banner and the log.
+  void show(const Error& error);
   /// Into the banner; asked again when the language changes.
   void tell(std::function<ui::Problem()> problem);
 
@@ -65,8 +69,7 @@ class Presenter : public QObject {
   }
   /// Whether work of this page may be stopped by Cancel.
   virtual bool cancellable() const { return true; }
-  void show(const Error& error);
-  /// The same without a line in the log: where it was told already.
+  /// Into the banner alone: where the log was told already.
   void showOnly(const Error& error);
   /// Why nothing can be asked of the machine now; empty: it is there.
   QString offlineReason() const;
@@ -83,6 +86,7 @@ class Presenter : public QObject {
 
   Workbench& m_bench;
   ui::Page* m_page;
+  bool m_working = false;
   std::function<ui::Problem()> m_told;  // in the banner, unless it shows something else by now
   QString m_toldText;
 };

@@ -65,6 +65,7 @@ void Workbench::useAccess(std::unique_ptr<access::Access> access) {
 Status Workbench::useJob(Result<commissioning::Job> job) {
   if (!job) return fail(std::move(job).error());
   forgetRead();
+  m_damage.reset();
   m_job = std::make_unique<commissioning::Job>(std::move(*job));
   log(LogKind::note, tr("Job %1").arg(QString::fromStdString(m_job->path().string())));
   // A job of another machine takes neither the connection nor its profile over.
@@ -109,11 +110,32 @@ Status Workbench::createJob(const std::filesystem::path& path) {
 }
 
 Status Workbench::openJob(const std::filesystem::path& path) {
-  return useJob(commissioning::Job::open(path));
+  ZD_CHECK(useJob(commissioning::Job::open(path)));
+  checkWhole();
+  return {};
+}
+
+void Workbench::checkWhole() {
+  m_checks.emplace_back([this, path = m_job->path()] {
+    const auto job = commissioning::Job::open_read_only(path);
+    if (!job) return;
+    const auto checked = job->check();
+    if (checked && checked->ok()) return;
+    const Error problem = checked ? checked->problems.front() : checked.error();
+    QMetaObject::invokeMethod(
+        this,
+        [this, path, problem] {
+          if (!m_job || m_job->path() != path) return;
+          m_damage = problem;
+          Q_EMIT jobDamaged(problem);
+        },
+        Qt::QueuedConnection);
+  });
 }
 
 void Workbench::closeJob() {
   forgetRead();
+  m_damage.reset();
   m_job.reset();
   Q_EMIT jobChanged();
 }

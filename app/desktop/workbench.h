@@ -8,6 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "app/desktop/machine_monitor.h"
 #include "app/tasks/task_runner.h"
@@ -50,6 +52,8 @@ class Workbench : public QObject {
   Status createJob(const std::filesystem::path& path);
   Status openJob(const std::filesystem::path& path);
   void closeJob();
+  /// What the check of the whole file has found since it was opened; the job works on with what can be read.
+  const std::optional<Error>& damage() const { return m_damage; }
   commissioning::Job* job() { return m_job ? m_job.get() : nullptr; }
   const commissioning::Job* job() const { return m_job ? m_job.get() : nullptr; }
   /// Keeps what a step made and tells everybody.
@@ -100,6 +104,7 @@ class Workbench : public QObject {
 
  Q_SIGNALS:
   void jobChanged();
+  void jobDamaged(const zerodrift::Error& damage);
   void artefactsChanged();
   void profileChanged();
   void machineSeen();
@@ -117,6 +122,8 @@ class Workbench : public QObject {
   /// Cameras that are not needed any more; they may be waiting for a picture.
   void dropCameras();
   Status useJob(Result<commissioning::Job> job);
+  /// Beside the window and by a connection of its own: the whole file is read.
+  void checkWhole();
   void forgetRead();
 
   std::unique_ptr<access::Access> m_access;
@@ -128,6 +135,7 @@ class Workbench : public QObject {
   MachineMonitor m_monitor;
   TaskRunner m_tasks;
   Aside m_ending;
+  std::optional<Error> m_damage;
   struct Body {
     long long of = 0;
     nlohmann::json document;
@@ -140,7 +148,8 @@ class Workbench : public QObject {
   bool m_lost = false;
   QDateTime m_seenAt;
   std::optional<ErrorCode> m_lastProblem;
-  int m_attempts = 0;  // that failed for the same reason
+  int m_attempts = 0;                  // that failed for the same reason
+  std::vector<std::jthread> m_checks;  // waited for when the window is closed
 };
 
 }  // namespace zerodrift::desktop

@@ -4838,6 +4838,14 @@
         <source>%1 in use</source>
         <translation>%1使用中</translation>
     </message>
+    <message>
+        <source>Running</source>
+        <translation>正在进行</translation>
+    </message>
+    <message>
+        <source>The job is damaged</source>
+        <translation>作业已损坏</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::AxisErrorsPresenter</name>

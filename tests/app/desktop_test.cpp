@@ -13,17 +13,21 @@
 #include "core/controller/table_words.h"
 #include "tests/app/test_home.h"
 #include "ui/pages/axis_page.h"
+#include "ui/pages/fit_page.h"
 #include "ui/pages/machine_page.h"
 #include "ui/widgets/empty_state.h"
 
 using zerodrift::desktop::Application;
 using zerodrift::ui::EmptyState;
 using zerodrift::ui::ProblemKind;
+using zerodrift::ui::StepState;
 
 class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
  private Q_SLOTS:
+  void initTestCase() { qputenv("HOME", m_folder.path().toUtf8()); }  // jobs are made in the user's documents
+
   /// Every page opens without a job, has its head, and the pages of later steps say what is needed first.
   void emptyWorkbench() {
     Application application(m_theme);
@@ -228,6 +232,28 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
     const auto& problem = application.presenters().front()->page()->problem();
     QTRY_VERIFY2(problem.sentence.contains(QStringLiteral("middle.zdj")), qPrintable(problem.sentence));
     QCOMPARE(problem.kind, ProblemKind::failure);
+    const auto steps = application.window().rail()->steps();
+    for (const auto* step : steps) QVERIFY2(step->state() != StepState::current, qPrintable(step->id()));
+    QCOMPARE(application.window().rail()->step(QStringLiteral("fit"))->state(), StepState::failed);
+    // And a whole one opened after it is done again.
+    application.openSample();
+    QCOMPARE(application.window().rail()->step(QStringLiteral("fit"))->state(), StepState::current);
+  }
+
+  /// The rail says which step is at work, wherever the window is meanwhile.
+  void railSaysWhatRuns() {
+    Application application(m_theme);
+    application.openSample();
+    const auto* fit = application.window().rail()->step(QStringLiteral("fit"));
+    QCOMPARE(fit->state(), StepState::current);
+    bool ended = false;
+    QObject::connect(&application.bench().tasks(), &zerodrift::TaskRunner::finished, [&ended] { ended = true; });
+    auto* page = qobject_cast<zerodrift::ui::FitPage*>(application.presenter(QStringLiteral("fit"))->page());
+    Q_EMIT page->methodChosen(QStringLiteral("mlr"));
+    QCOMPARE(fit->state(), StepState::running);
+    QCOMPARE(fit->words(), QStringLiteral("Running"));
+    QTRY_VERIFY_WITH_TIMEOUT(ended, 60000);
+    QTRY_VERIFY(fit->state() != StepState::running);
   }
 
   /// The banner of a failure goes when the next try succeeds.

@@ -117,7 +117,7 @@ void StepButton::paintDisc(QPainter& painter, const QPointF& centre) const {
     painter.setPen(QPen(Qt::white, 2.2, Qt::SolidLine, Qt::RoundCap));
     painter.drawLine(centre + QPointF(0, -5.2), centre + QPointF(0, 1.2));
     painter.drawPoint(centre + QPointF(0, 5.0));
-  } else if (isChecked()) {
+  } else if (isChecked() || m_state == StepState::running) {
     painter.setBrush(lightColors().accent);
     painter.drawEllipse(disc);
     number(Qt::white);
@@ -151,9 +151,10 @@ void StepButton::paintEvent(QPaintEvent*) {
   painter.drawText(QRectF(left, height() / 2.0 - 20, room, 20), Qt::AlignVCenter,
                    fittedText(painter.fontMetrics(), text(), room, toolTip()));
   painter.setFont(uiFont(12));
-  painter.setPen(m_state == StepState::stale    ? QColor("#F0A63C")
-                 : m_state == StepState::failed ? QColor("#FF8D9B")
-                                                : c.railMuted);
+  painter.setPen(m_state == StepState::stale     ? QColor("#F0A63C")
+                 : m_state == StepState::failed  ? QColor("#FF8D9B")
+                 : m_state == StepState::running ? c.railText
+                                                 : c.railMuted);
   painter.drawText(QRectF(left, height() / 2.0, room, 18), Qt::AlignVCenter,
                    fittedText(painter.fontMetrics(), m_words, room, toolTip()));
   if (hasFocus()) {

@@ -15,6 +15,7 @@ namespace zerodrift::ui {
 enum class StepState {
   blocked,  // something before it is missing: hollow number
   ready,    // can be done now: hollow number, brighter
+  running,  // being done just now: blue number
   current,  // done and up to date: green tick
   stale,    // done, but an earlier choice changed: amber "!"
   failed,   // amber "!" in red

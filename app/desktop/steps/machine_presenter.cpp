@@ -168,23 +168,6 @@ void MachinePresenter::newJob(const QString& path) {
   remember(path);
 }
 
-// Beside the window and by a connection of its own: the whole file is read.
-void MachinePresenter::checkWhole(const QString& path) {
-  m_checks.emplace_back([this, path] {
-    const auto job = commissioning::Job::open_read_only(path.toStdString());
-    if (!job) return;
-    const auto checked = job->check();
-    if (checked && checked->ok()) return;
-    const Error problem = checked ? checked->problems.front() : checked.error();
-    QMetaObject::invokeMethod(
-        this,
-        [this, path, problem] {
-          if (bench().job() != nullptr && bench().job()->path() == path.toStdString()) show(problem);
-        },
-        Qt::QueuedConnection);
-  });
-}
-
 void MachinePresenter::openJob(const QString& path) {
   if (bench().tasks().running()) return show(busy());
   if (const Status opened = bench().openJob(path.toStdString()); !opened) {
@@ -193,7 +176,6 @@ void MachinePresenter::openJob(const QString& path) {
   }
   m_page->clearProblem();
   remember(path);
-  checkWhole(path);
 }
 
 void MachinePresenter::chooseNewJob() {

@@ -6,7 +6,6 @@
 #include <QVector>
 #include <deque>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "app/desktop/demo_machine.h"
@@ -52,8 +51,6 @@ class MachinePresenter : public Presenter {
   void looked();
   void sayWhenOld();
   void remember(const QString& path);
-  /// Says in the banner when something in the opened file is damaged.
-  void checkWhole(const QString& path);
   QString connectionText() const;
   std::optional<int> virtualSeed() const;
   void fillSensors(ui::MachineState& state);
@@ -76,7 +73,6 @@ class MachinePresenter : public Presenter {
   std::optional<ErrorCode> m_lostSaid;  // the trouble that stands in the banner
   bool m_toldLost = false;
   std::function<void()> m_whenReady;
-  std::vector<std::jthread> m_checks;  // waited for when the window is closed
 };
 
 }  // namespace zerodrift::desktop
