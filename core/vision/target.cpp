@@ -58,6 +58,8 @@ constexpr double nothing_hidden = 0.97;
 constexpr double another_print =
     0.5;  // of what does not fit: covers and chips stay below 0.25, other codes and letters above 0.65
 constexpr double least_seen = 0.70;
+constexpr double part_correlation = 0.98;
+constexpr int least_moved = 3;             // frames in which the target is elsewhere
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
 Refusal judge(const Registration& r, double coarse_correlation) {
@@ -94,6 +96,12 @@ Refusal judge(const Registration& r, double coarse_correlation) {
 
 bool like_the_target(const Registration& glance) {
   return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
+}
+
+// Refused, and yet the place is known well enough to learn from.
+bool fits_in_part(const Location& at) {
+  return (at.refusal == Refusal::occluded || at.refusal == Refusal::wrong_target) &&
+         at.correlation > part_correlation && at.inlier_share > least_inliers;
 }
 
 // Better of two registrations: more of the target explained, and to a smaller residual; a bad fit has no outliers
@@ -277,11 +285,11 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   if (best.converged) {
     out.point = {m_impl->point.x_px + best.displacement_px(0), m_impl->point.y_px + best.displacement_px(1)};
   }
+  if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
   if (m_impl->repeating.may_be_elsewhere(frame, best)) return refuse(Refusal::ambiguous);
   out.ok = true;
-  if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   out.refusal = Refusal::none;
   out.x_px = best.displacement_px(0);
   out.y_px = best.displacement_px(1);
@@ -307,19 +315,27 @@ Target Target::learned_backdrop(const std::vector<GrayImage>& frames) const {
   return out;
 }
 
-Target Target::learned_from(const std::vector<GrayImage>& frames) const {
-  const Target with = learned_backdrop(frames);
-  std::vector<std::vector<float>> maps;
-  int moved = 0;
+// A region with much of what stands still in it looks hidden in part until that has been left out: `in_part` counts
+// such frames, where the others are too few to learn from.
+Target Target::without_what_stands(const std::vector<GrayImage>& frames, bool in_part) const {
+  std::vector<std::vector<float>> whole, part;
+  int moved = 0, moved_in_part = 0;
   for (const GrayImage& frame : frames) {
     std::vector<float> map;
-    const Location at = with.search(frame, &map);
-    if (!at.ok) continue;
-    maps.push_back(std::move(map));
-    moved += std::hypot(at.x_px, at.y_px) > least_move_px;
+    const Location at = search(frame, &map);
+    const bool moves =
+        std::hypot(at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px) > least_move_px;
+    if (at.ok) whole.push_back(map), moved += moves;
+    if (at.ok || fits_in_part(at)) part.push_back(std::move(map)), moved_in_part += moves;
   }
-  Target masked = with;
-  if (moved >= 3) masked = with.with_mask(travelling_pixels(m_impl->region, maps));
+  if (!in_part) return moved >= least_moved ? with_mask(travelling_pixels(m_impl->region, whole)) : *this;
+  if (moved >= least_moved || moved_in_part < least_moved) return *this;
+  return with_mask(travelling_pixels(m_impl->region, part));
+}
+
+Target Target::learned_from(const std::vector<GrayImage>& frames) const {
+  const Target seen = without_what_stands(frames, true);
+  const Target masked = seen.learned_backdrop(frames).without_what_stands(frames, false);
   std::vector<LensTerm> lenses;
   for (const GrayImage& frame : frames) {
     const Location at = masked.locate(frame);

@@ -84,6 +84,7 @@ class Target {
  private:
   struct Impl;
   Target learned_backdrop(const std::vector<GrayImage>& frames) const;
+  Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part) const;
   Location search(const GrayImage& frame, std::vector<float>* residual_map) const;
   explicit Target(std::shared_ptr<const Impl> impl, LensTerm lens = {}) : m_impl(std::move(impl)), m_lens(lens) {}
   std::shared_ptr<const Impl> m_impl;
