@@ -63,6 +63,28 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", ZERODRIFT_VERSION);
 }
 
+bool is_size(const std::string& text) {
+  unsigned width = 0;
+  unsigned height = 0;
+  int end = 0;
+  return std::sscanf(text.c_str(), "%4ux%4u%n", &width, &height, &end) == 2 &&
+         static_cast<std::size_t>(end) == text.size() && width >= 640 && height >= 480;
+}
+
+/// What was given and would be ignored; empty: nothing.
+std::string unused(const CLI::App& app, const Arguments& arguments) {
+  const bool tour = !arguments.tour.empty();
+  if (app.count("--size") > 0 && !tour) return "--size is the size of the tour's window: it needs --tour";
+  if (!is_size(arguments.size)) return "--size is not WIDTHxHEIGHT, at least 640x480: " + arguments.size;
+  if (tour && (arguments.sample || !arguments.files.empty())) return "--tour makes a job of its own and opens no other";
+  for (const char* option : {"--speedup", "--seed", "--conceal", "--fault"}) {
+    if (app.count(option) > 0 && !tour && !arguments.demo) {
+      return std::string(option) + " is for the virtual machine: it needs --demo or --tour";
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,6 +97,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (const std::string problem = unused(app, arguments); !problem.empty()) {
+    std::fprintf(stderr, "zerodrift: %s\n", problem.c_str());
+    return 2;
   }
   std::signal(SIGPIPE, SIG_IGN);
   zerodrift::desktop::sweep_scratch_folders();

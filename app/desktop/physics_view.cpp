@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/text/core_text.h"
 #include "core/diagnosis/explain.h"
@@ -115,15 +116,22 @@ double mean_between(const Residual& sensor, std::size_t from, std::size_t to) {
   return count > 0 ? sum / count : std::nan("");
 }
 
+/// Between the sensors that were alive; beyond the last of them nothing is known.
 double between(const std::vector<Residual>& sensors, const std::vector<double>& values, double position_mm) {
-  if (position_mm <= sensors.front().position_mm) return values.front();
-  for (std::size_t i = 1; i < sensors.size(); ++i) {
-    if (position_mm > sensors[i].position_mm) continue;
-    const double width = sensors[i].position_mm - sensors[i - 1].position_mm;
-    const double share = width > 0 ? (position_mm - sensors[i - 1].position_mm) / width : 0.0;
-    return (1.0 - share) * values[i - 1] + share * values[i];
+  std::optional<std::size_t> below;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    const double above_mm = sensors[i].position_mm;
+    if (above_mm < position_mm) {
+      below = i;
+      continue;
+    }
+    if (above_mm == position_mm) return values[i];
+    if (!below) break;
+    const double share = (position_mm - sensors[*below].position_mm) / (above_mm - sensors[*below].position_mm);
+    return (1.0 - share) * values[*below] + share * values[i];
   }
-  return values.back();
+  return std::nan("");
 }
 
 std::vector<Residual> residuals_on(const physics::Machine& machine, const std::string& component,

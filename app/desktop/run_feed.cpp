@@ -70,14 +70,17 @@ void RunFeed::nameChannels() {
     }
   }
   temperatures.append(channel_of("ambient_C", tr("Room")));
+  // What is left of each direction first: in a low window the rest scrolls.
   for (int axis = 0; axis < 3; ++axis) {
     const std::string letter(1, "XYZ"[axis]);
     auto channel = channel_of("d" + letter + "_um", m_compensated ? tr("Left over") : tr("Error at the nose"));
     channel.color = ui::axisColor(axis);
     if (m_compensated) channel.tag = tr("%1 left").arg(QString::fromStdString(letter));
     errors.append(channel);
-    if (!m_compensated) continue;
-    channel = channel_of("without_" + letter + "_um", tr("Without the compensation"));
+  }
+  for (int axis = 0; m_compensated && axis < 3; ++axis) {
+    const std::string letter(1, "XYZ"[axis]);
+    auto channel = channel_of("without_" + letter + "_um", tr("Without the compensation"));
     channel.tag = tr("%1 without").arg(QString::fromStdString(letter));
     channel.color = ui::axisColor(axis);
     channel.dashed = true;

@@ -8,7 +8,6 @@
 #include "app/desktop/moment.h"
 #include "app/text/core_text.h"
 #include "core/base/time_text.h"
-#include "core/compensation/sign.h"
 #include "core/controller/table_words.h"
 #include "ui/widgets/number_text.h"
 
@@ -53,7 +52,7 @@ QVector<ui::TableTerm> terms_of(const compensation::AxisTable* before, const com
     if (axis == nullptr) return;
     const auto put = [&](const QString& name, const QString& unit, double error) {
       auto& term = row(name, unit);
-      (is_new ? term.after : term.before) = compensation::compensation_from_error_um(error);
+      (is_new ? term.after : term.before) = error;
     };
     put(UploadView::tr("Constant"), QStringLiteral("µm"), axis->offset_um);
     for (const auto& term : axis->terms)

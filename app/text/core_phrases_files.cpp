@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 43> files = {{
+constexpr std::array<const char*, 50> files = {{
     QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
     QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
     QT_TRANSLATE_NOOP("core", "no random numbers"),
@@ -51,6 +51,13 @@ constexpr std::array<const char*, 43> files = {{
     QT_TRANSLATE_NOOP("core", "samples are stored in little endian"),
     QT_TRANSLATE_NOOP("core", "deflate failed on a buffer of its own bound"),
     QT_TRANSLATE_NOOP("core", "language of core's texts"),
+    QT_TRANSLATE_NOOP("core", "it is read-only"),
+    QT_TRANSLATE_NOOP("core", "it may not be read"),
+    QT_TRANSLATE_NOOP("core", "it cannot be opened"),
+    QT_TRANSLATE_NOOP("core", "the disk gives an error"),
+    QT_TRANSLATE_NOOP("core", "entries of the job contradict one another"),
+    QT_TRANSLATE_NOOP("core", "its pages do not hold together"),
+    QT_TRANSLATE_NOOP("core", "a part of it is missing"),
     QT_TRANSLATE_NOOP("core", "; "),
 }};
 

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 184> measuring = {{
+constexpr std::array<const char*, 183> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -20,7 +20,6 @@ constexpr std::array<const char*, 184> measuring = {{
     QT_TRANSLATE_NOOP("core", "axis of a camera"),
     QT_TRANSLATE_NOOP("core", "calibration of %1"),
     QT_TRANSLATE_NOOP("core", "calibration of camera %1"),
-    QT_TRANSLATE_NOOP("core", "What the simulation lacks was not searched: %1"),
     QT_TRANSLATE_NOOP("core",
                       "Method %1 on %2 sensors: leaves at most %3 um (rms %4 um) on data it has not seen (%5)."),
     QT_TRANSLATE_NOOP("core", "%1 A dynamic model, which needs the host compensator, would leave %2 um rms."),
@@ -41,7 +40,6 @@ constexpr std::array<const char*, 184> measuring = {{
     QT_TRANSLATE_NOOP("core", "upload table"),
     QT_TRANSLATE_NOOP("core", "compensation table"),
     QT_TRANSLATE_NOOP("core", "version %1, %2 registers"),
-    QT_TRANSLATE_NOOP("core", "no correction: %1"),
     QT_TRANSLATE_NOOP("core", "the uploaded table"),
     QT_TRANSLATE_NOOP("core", "the warm-up's plan"),
     QT_TRANSLATE_NOOP("core", "the corrected table"),
@@ -140,7 +138,8 @@ constexpr std::array<const char*, 184> measuring = {{
     QT_TRANSLATE_NOOP("core", "%1 was left out: %2"),
     QT_TRANSLATE_NOOP("core", "no region was given: %1,%2,%3,%4 shows the most pattern and is used"),
     QT_TRANSLATE_NOOP("core", "%1: %2x%3 pixels, the template has %4x%5"),
-    QT_TRANSLATE_NOOP("core", "%1: %2"),
+    QT_TRANSLATE_NOOP("core", "camera %1: %2"),
+    QT_TRANSLATE_NOOP("core", "the target was found in %1 of %2 views (the first without it is %3)"),
     QT_TRANSLATE_NOOP("core", "the file does not exist"),
     QT_TRANSLATE_NOOP("core", "target missing"),
     QT_TRANSLATE_NOOP("core", "target occluded, or another one"),

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 332> models = {{
+constexpr std::array<const char*, 334> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -196,9 +196,16 @@ constexpr std::array<const char*, 332> models = {{
     QT_TRANSLATE_NOOP("core", "leaves %1 um rms with %2 left out"),
     QT_TRANSLATE_NOOP("core", "%1 as asked for; %2"),
     QT_TRANSLATE_NOOP("core",
-                      "%1 %2; one cycle cannot rank methods, so the one that shrinks what it cannot tell is taken"),
-    QT_TRANSLATE_NOOP("core", "%1 %2, less than every other method tried"),
-    QT_TRANSLATE_NOOP("core", "%1 %2; %3 leaves %4 um, which is not clearly better, so the simpler model is taken"),
+                      "%1 leaves %2 um rms with %3 left out; one cycle cannot rank methods, so the one that shrinks "
+                      "what it cannot tell is taken"),
+    QT_TRANSLATE_NOOP("core",
+                      "%1 leaves %2 um rms with %3 left out; with the noise of its sensors %4 um are to be "
+                      "expected, the least of all"),
+    QT_TRANSLATE_NOOP("core",
+                      "%1 leaves %2 um rms with %3 left out; with the noise of their sensors %4 is to leave %5 um "
+                      "and this one %6 um: %7"),
+    QT_TRANSLATE_NOOP("core", "not clearly worse, and steadier where the sensors rise together"),
+    QT_TRANSLATE_NOOP("core", "not clearly worse, and simpler"),
     QT_TRANSLATE_NOOP("core", "The warmest sensor rose by only %1 K: run longer or faster."),
     QT_TRANSLATE_NOOP("core", "One speed only: a second stretch at another speed would allow a guaranteed band."),
     QT_TRANSLATE_NOOP("core", "The sensors rose nearly together: a stretch with the spindle at rest separates them."),

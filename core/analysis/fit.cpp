@@ -124,21 +124,30 @@ const Trial* choose(const std::vector<Trial>& trials, Method method, bool static
   return nullptr;
 }
 
+/// Among those that could have been taken.
 std::string reason_for(const Trial& chosen, const std::vector<Trial>& trials, const FitOptions& options,
                        const TrainingSet& set) {
-  const Trial* best = &trials.front();
-  for (const auto& t : trials) {
-    if (t.evaluation.expected_um < best->evaluation.expected_um) best = &t;
-  }
   const auto left = fmt::format("leaves {:.2f} um rms with {} left out", chosen.evaluation.rms_um, set.folds.in_words);
   if (options.method != Method::automatic) return fmt::format("{} as asked for; {}", chosen.summary.label, left);
   if (set.folds.cycles < 2) {
     return fmt::format("{} {}; one cycle cannot rank methods, so the one that shrinks what it cannot tell is taken",
                        chosen.summary.label, left);
   }
-  if (best == &chosen) return fmt::format("{} {}, less than every other method tried", chosen.summary.label, left);
-  return fmt::format("{} {}; {} leaves {:.2f} um, which is not clearly better, so the simpler model is taken",
-                     chosen.summary.label, left, best->summary.label, best->evaluation.rms_um);
+  const Trial* best = &chosen;
+  for (const auto& t : trials) {
+    const bool allowed = !options.on_controller || t.summary.runs_on_controller;
+    if (allowed && t.evaluation.expected_um < best->evaluation.expected_um) best = &t;
+  }
+  const double expected_um = chosen.evaluation.expected_um;
+  if (best == &chosen) {
+    return fmt::format("{} {}; with the noise of its sensors {:.2f} um are to be expected, the least of all",
+                       chosen.summary.label, left, expected_um);
+  }
+  const bool both_static = best->summary.runs_on_controller && chosen.summary.runs_on_controller;
+  return fmt::format("{} {}; with the noise of their sensors {} is to leave {:.2f} um and this one {:.2f} um: {}",
+                     chosen.summary.label, left, best->summary.label, best->evaluation.expected_um, expected_um,
+                     both_static ? "not clearly worse, and steadier where the sensors rise together"
+                                 : "not clearly worse, and simpler");
 }
 
 /// The final regression of one recipe on everything.
@@ -383,7 +392,7 @@ Result<Model> fit(const std::vector<recording::Recording>& recordings, const Fit
     }
   }
   const bool rank = set.folds.cycles >= 2;
-  const Trial* chosen = choose(trials, options.method, false, rank);
+  const Trial* chosen = choose(trials, options.method, options.on_controller, rank);
   const Trial* table_trial = choose(trials, options.method, true, rank);
   if (chosen == nullptr || table_trial == nullptr) {
     return fail(ErrorCode::not_enough_data, {{"what", "the run"},

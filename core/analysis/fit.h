@@ -15,8 +15,9 @@ struct FitOptions {
   std::vector<std::string> sensors;  // empty: chosen by the fit
   std::vector<std::string> errors;   // empty: all
   Method method = Method::automatic;
-  int max_sensors = 0;    // 0: no limit; else the first so many in spread order (budget.h) when the fit chooses
-  double coverage = 0.9;  // of the band
+  bool on_controller = false;  // automatic: only what a controller runs itself is taken
+  int max_sensors = 0;         // 0: no limit; else the first so many in spread order (budget.h) when the fit chooses
+  double coverage = 0.9;       // of the band
 };
 
 /// `automatic` compares static and dynamic models on left-out cycles; a simpler one wins unless it is clearly worse.

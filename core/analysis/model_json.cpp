@@ -1,7 +1,7 @@
 // model.json, "zerodrift-model/1":
 //   method, asked, reason, held_out (what was left out), recordings, sensors, averaged, runs_on_controller,
 //   errors [{error, intercept_um, terms [{sensor, um_per_K, reference_C}] (static models), fit, held_out {rms_um,
-//            peak_um, removed_percent, count}, band {half_width_um, stated_coverage, guaranteed_coverage,
+//            peak_um, p90_um, removed_percent, count}, band {half_width_um, stated_coverage, guaranteed_coverage,
 //            measured_coverage, factor}, regression {...}}],
 //   features [{channel, time_constant_s, power, unit, temperature, reference}] (what regression.coefficients belong
 //   to), table [{error, offset_um, terms [...], fit, held_out}], table_lost_percent, valid {sensor: [low, high] in C},
@@ -9,6 +9,8 @@
 //   {start_time_s, end_time_s, start_C, end_C, filtered, driving} (to go on from).
 // Covariances are packed lower triangles, row by row.
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/model.h"
@@ -34,7 +36,9 @@ std::vector<double> packed(const Eigen::MatrixXd& m) {
 }
 
 json figures_json(const ResidualFigures& f) {
-  return {{"rms_um", f.rms_um}, {"peak_um", f.peak_um}, {"removed_percent", f.removed_percent}, {"count", f.count}};
+  json out = {{"rms_um", f.rms_um}, {"peak_um", f.peak_um}, {"removed_percent", f.removed_percent}, {"count", f.count}};
+  if (std::isfinite(f.p90_um)) out["p90_um"] = f.p90_um;
+  return out;
 }
 
 json terms_json(const std::vector<StaticTerm>& terms) {
@@ -121,6 +125,7 @@ ResidualFigures figures_from(JsonObject& o) {
   f.rms_um = o.number("rms_um", not_negative);
   f.peak_um = o.number("peak_um", not_negative);
   f.removed_percent = o.number("removed_percent");
+  f.p90_um = o.number_or("p90_um", std::numeric_limits<double>::quiet_NaN(), not_negative);
   f.count = o.integer("count", 0, 2000000000);
   return f;
 }

@@ -158,15 +158,18 @@ ResidualFigures residual_figures(const Eigen::VectorXd& error_um, const Eigen::V
   ResidualFigures figures;
   double squares = 0.0;
   double peak_error = 0.0;
+  std::vector<double> sizes;
   for (Eigen::Index i = 0; i < error_um.size(); ++i) {
     if (!std::isfinite(error_um(i)) || !std::isfinite(predicted_um(i))) continue;
     const double residual = error_um(i) - predicted_um(i);
+    sizes.push_back(std::abs(residual));
     squares += residual * residual;
     figures.peak_um = std::max(figures.peak_um, std::abs(residual));
     peak_error = std::max(peak_error, std::abs(error_um(i)));
     ++figures.count;
   }
   if (figures.count > 0) figures.rms_um = std::sqrt(squares / figures.count);
+  figures.p90_um = upper_quantile(std::move(sizes), 0.9);
   if (peak_error > 0.0) figures.removed_percent = 100.0 * (1.0 - figures.peak_um / peak_error);
   return figures;
 }

@@ -45,6 +45,7 @@ PrincipalComponents principal_components(const Eigen::MatrixXd& items);
 struct ResidualFigures {
   double rms_um = 0.0;
   double peak_um = 0.0;          // largest absolute value
+  double p90_um = 0.0;           // nine in ten absolute values are no larger; not a number in older files
   double removed_percent = 0.0;  // of the largest absolute error, 100 (1 - peak residual / peak error)
   int count = 0;
 };

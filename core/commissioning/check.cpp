@@ -23,9 +23,10 @@ class Checker {
     if (!answer) {
       m_report.problems.push_back(answer.error());
     } else if (*answer != "ok") {
+      damaged("its pages do not hold together");
       std::string words = *answer;
       std::replace(words.begin(), words.end(), '\n', ' ');
-      damaged(std::move(words));
+      m_report.problems.back().context["sqlite"] = std::move(words);
     }
   }
 

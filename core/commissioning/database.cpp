@@ -154,7 +154,11 @@ Database::~Database() {
 
 Error Database::error(int code) const {
   const std::string file = m_path.string();
-  const std::string detail = m_handle == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(m_handle);
+  // The library's own words are for the log; people read ours.
+  const std::string sqlite = m_handle == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(m_handle);
+  const auto of = [&](ErrorCode kind, const char* detail) {
+    return Error{kind, {{"file", file}, {"detail", detail}, {"sqlite", sqlite}}};
+  };
   switch (code & 0xFF) {
     case SQLITE_NOTADB:
       return {ErrorCode::job_not_a_job, {{"file", file}}};
@@ -164,16 +168,20 @@ Error Database::error(int code) const {
     case SQLITE_FULL:
       return {ErrorCode::disk_full, {{"file", file}}};
     case SQLITE_READONLY:
-      return {ErrorCode::file_not_writable, {{"file", file}, {"detail", detail}}};
-    case SQLITE_CANTOPEN:
+      return of(ErrorCode::file_not_writable, "it is read-only");
     case SQLITE_PERM:
+      return of(ErrorCode::file_unreadable, "it may not be read");
+    case SQLITE_CANTOPEN:
+      return of(ErrorCode::file_unreadable, "it cannot be opened");
     case SQLITE_IOERR:
-      return {ErrorCode::file_unreadable, {{"file", file}, {"detail", detail}}};
+      return of(ErrorCode::file_unreadable, "the disk gives an error");
     case SQLITE_CONSTRAINT:
-      return {ErrorCode::internal, {{"file", file}, {"detail", detail}}};
+      return of(ErrorCode::internal, "entries of the job contradict one another");
+    case SQLITE_CORRUPT:
+      return of(ErrorCode::job_damaged, "its pages do not hold together");
     // The statements are ours, so one that the file does not understand means tables are missing.
     default:
-      return {ErrorCode::job_damaged, {{"file", file}, {"detail", detail}}};
+      return of(ErrorCode::job_damaged, "a part of it is missing");
   }
 }
 

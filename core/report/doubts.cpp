@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/error_json.h"
 #include "core/base/json.h"
 #include "core/report/limits.h"
 
@@ -30,6 +31,32 @@ const char* step_of(const std::string& kind) {
 }
 
 /// Gathers doubts about one artefact after the other.
+/// Of {"said", "code", "context"}: what was not done, and why.
+std::string what_failed(const Source& source, const json& problem) {
+  const auto error = error_from_json(problem);
+  if (!error) return json_text(problem);
+  const auto fact = [&](const char* key) {
+    const auto at = error->context.find(key);
+    return at == error->context.end() ? std::string("-") : source.in_words(at->second);
+  };
+  std::string why;
+  switch (error->code) {
+    case ErrorCode::not_enough_data:
+      why = source.tell("too little data: {} has {}, {} needed", fact("what"), fact("found"), fact("needed"));
+      break;
+    case ErrorCode::no_variation:
+      why = source.tell("{} never changes", fact("what"));
+      break;
+    case ErrorCode::data_does_not_fit:
+      why = source.tell("{} does not fit: found {}, expected {}", fact("what"), fact("found"), fact("expected"));
+      break;
+    default:
+      why = source.tell("the program could not do it ({})", name_of(error->code));
+  }
+  if (problem.value("said", "") == "no_correction") return source.tell("no correction: {}", why);
+  return source.tell("What the simulation lacks was not searched: {}", why);
+}
+
 class Doubts {
  public:
   explicit Doubts(const Source& source) : m_source(source) {}
@@ -55,8 +82,9 @@ class Doubts {
 
   void problems(const json& body) {
     for (const auto& problem : body.value("problems", json::array())) {
-      const std::string text = problem.is_string() ? problem.get<std::string>() : json_text(problem);
-      m_all.push_back({Verdict::doubtful, m_source.in_words(text), m_source.trace(m_kind, "problems")});
+      const std::string text =
+          problem.is_string() ? m_source.in_words(problem.get<std::string>()) : what_failed(m_source, problem);
+      m_all.push_back({Verdict::doubtful, text, m_source.trace(m_kind, "problems")});
     }
   }
 

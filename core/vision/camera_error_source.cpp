@@ -1,5 +1,7 @@
 #include "core/vision/camera_error_source.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <cmath>
 #include <future>
@@ -39,6 +41,11 @@ struct Combined {
     sum += w * value_um;
   }
 };
+
+/// A reason, with the camera that gives it.
+std::string in_view(const ErrorView& view, const std::string& problem) {
+  return fmt::format("camera {}: {}", view.id, problem);
+}
 
 }  // namespace
 
@@ -92,7 +99,7 @@ Status CameraErrorSource::take_zero(const TaskContext& context) {
   for (std::size_t k = 0; k < m_views.size(); ++k) {
     ZD_TRY(ViewState state, std::move(looks[k]));
     if (!state.problem.empty()) {
-      return fail(ErrorCode::target_refused, {{"reason", m_views[k].id + ": " + state.problem}});
+      return fail(ErrorCode::target_refused, {{"reason", in_view(m_views[k], state.problem)}});
     }
     m_zero[k] = {state.location.x_px, state.location.y_px, state.location.sigma_x_px, state.location.sigma_y_px};
     state.trail.push_back({state.location.x_px, state.location.y_px});
@@ -114,7 +121,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
     Result<ViewState>& looked = looks[k];
     if (!looked) {
       if (looked.error().code == ErrorCode::cancelled) return fail(looked.error());
-      sample.problems.push_back(view.id + ": " + problem_of(looked.error()));
+      sample.problems.push_back(in_view(view, problem_of(looked.error())));
       dead = looked.error();
       ++dead_count;
       const std::lock_guard lock(m_mutex);
@@ -138,7 +145,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
       }
     } else {
       state.error = {nan_value, nan_value, nan_value, nan_value};
-      sample.problems.push_back(view.id + ": " + state.problem);
+      sample.problems.push_back(in_view(view, state.problem));
     }
     const std::lock_guard lock(m_mutex);
     state.trail = std::move(m_states[k].trail);

@@ -166,15 +166,22 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
   for (const LoadedView& view : loaded) frames.push_back(view.image);
   const Target masked = target.learned_from(frames);
   std::vector<CalibrationView> used;
+  std::string refused;  // the first, with its reason
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);
     context.progress(static_cast<double>(k) / static_cast<double>(loaded.size()), "calibration");
     const Location at = masked.locate(loaded[k].image);
     if (!at.ok) {
       warn(warnings, loaded[k].row.name + " was left out: " + at.reason);
+      if (refused.empty()) refused = loaded[k].row.name + ": " + at.reason;
       continue;
     }
     used.push_back({loaded[k].row.name, loaded[k].row.x_mm, loaded[k].row.y_mm, at.x_px, at.y_px, 0.0, 0.0});
+  }
+  if (used.size() < 2 && !refused.empty()) {
+    return fail(ErrorCode::calibration_refused,
+                {{"reason", fmt::format("the target was found in {} of {} views (the first without it is {})",
+                                        used.size(), loaded.size(), refused)}});
   }
   ZD_TRY(Calibration calibration, calibrate(std::move(used)));
   return FileCalibration{std::move(calibration), masked};

@@ -1594,10 +1594,6 @@
         <translation>相机 %1 的标定</translation>
     </message>
     <message>
-        <source>What the simulation lacks was not searched: %1</source>
-        <translation>未查找仿真缺少的内容：%1</translation>
-    </message>
-    <message>
         <source>Method %1 on %2 sensors: leaves at most %3 um (rms %4 um) on data it has not seen (%5).</source>
         <translation>方法 %1，%2 个传感器：对未参与拟合的数据，最大残余误差 %3 µm（rms %4 µm；%5）。</translation>
     </message>
@@ -1672,10 +1668,6 @@
     <message>
         <source>version %1, %2 registers</source>
         <translation>版本 %1，%2 个寄存器</translation>
-    </message>
-    <message>
-        <source>no correction: %1</source>
-        <translation>不做修正：%1</translation>
     </message>
     <message>
         <source>the uploaded table</source>
@@ -2704,18 +2696,6 @@
     <message>
         <source>%1 as asked for; %2</source>
         <translation>按要求采用 %1；%2</translation>
-    </message>
-    <message>
-        <source>%1 %2; one cycle cannot rank methods, so the one that shrinks what it cannot tell is taken</source>
-        <translation>%1 %2；仅一个循环无法对方法排序，因此采用对不可辨部分进行收缩的方法</translation>
-    </message>
-    <message>
-        <source>%1 %2, less than every other method tried</source>
-        <translation>%1 %2，小于已试的其他各种方法</translation>
-    </message>
-    <message>
-        <source>%1 %2; %3 leaves %4 um, which is not clearly better, so the simpler model is taken</source>
-        <translation>%1 %2；%3 为 %4 µm，优势不明显，因此采用更简单的模型</translation>
     </message>
     <message>
         <source>The warmest sensor rose by only %1 K: run longer or faster.</source>
@@ -3914,12 +3894,64 @@
         <translation>自 %1 至 %2 min</translation>
     </message>
     <message>
-        <source>%1: %2</source>
-        <translation>%1：%2</translation>
-    </message>
-    <message>
         <source>the file does not exist</source>
         <translation>文件不存在</translation>
+    </message>
+    <message>
+        <source>it is read-only</source>
+        <translation>为只读</translation>
+    </message>
+    <message>
+        <source>it may not be read</source>
+        <translation>没有读取权限</translation>
+    </message>
+    <message>
+        <source>it cannot be opened</source>
+        <translation>无法打开</translation>
+    </message>
+    <message>
+        <source>the disk gives an error</source>
+        <translation>磁盘读写出错</translation>
+    </message>
+    <message>
+        <source>entries of the job contradict one another</source>
+        <translation>作业中的条目相互矛盾</translation>
+    </message>
+    <message>
+        <source>its pages do not hold together</source>
+        <translation>其内部数据页不一致</translation>
+    </message>
+    <message>
+        <source>a part of it is missing</source>
+        <translation>缺少一部分内容</translation>
+    </message>
+    <message>
+        <source>camera %1: %2</source>
+        <translation>相机 %1：%2</translation>
+    </message>
+    <message>
+        <source>the target was found in %1 of %2 views (the first without it is %3)</source>
+        <translation>%2 个视图中只在 %1 个里找到靶标（第一个未找到的是 %3）</translation>
+    </message>
+    <message>
+        <source>not clearly worse, and steadier where the sensors rise together</source>
+        <translation>并无明显劣势，且在各传感器同步升温时更稳定</translation>
+    </message>
+    <message>
+        <source>not clearly worse, and simpler</source>
+        <translation>并无明显劣势，且更简单</translation>
+    </message>
+    <message>
+        <source>%1 leaves %2 um rms with %3 left out; one cycle cannot rank methods, so the one that shrinks what it cannot tell is taken</source>
+        <translation>%1（留出：%3）残差均方根为 %2 µm；仅一个循环无法比较各方法，因此采用会收缩无法分辨部分的方法</translation>
+    </message>
+    <message>
+        <source>%1 leaves %2 um rms with %3 left out; with the noise of its sensors %4 um are to be expected, the least of all</source>
+        <translation>%1（留出：%3）残差均方根为 %2 µm；计入其传感器噪声，预期为 %4 µm，为各方法中最小</translation>
+    </message>
+    <message>
+        <source>%1 leaves %2 um rms with %3 left out; with the noise of their sensors %4 is to leave %5 um and this one %6 um: %7</source>
+        <translation>%1（留出：%3）残差均方根为 %2 µm；计入传感器噪声，预期%4为 %5 µm，本方法为 %6 µm：%7</translation>
     </message>
 </context>
 <context>
@@ -5320,6 +5352,10 @@
         <comment>a whole sentence</comment>
         <translation>%1。</translation>
     </message>
+    <message>
+        <source>What the simulation lacks was not searched.</source>
+        <translation>未能查找仿真所缺的内容。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::PinDialog</name>
@@ -6408,6 +6444,10 @@
         <source>Before the next camera is calibrated, you are asked again.</source>
         <translation>标定下一台相机之前会再次询问。</translation>
     </message>
+    <message>
+        <source>Measuring positions</source>
+        <translation>测量位置</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::CameraView</name>
@@ -6962,6 +7002,14 @@
     <message>
         <source>Will leave %1 µm rms in the worst axis (90 %: %2 µm) at speeds like these.</source>
         <translation>在类似转速下最差轴残余 %1 µm rms（90 %：%2 µm）。</translation>
+    </message>
+    <message>
+        <source>Why: %1.</source>
+        <translation>原因：%1。</translation>
+    </message>
+    <message>
+        <source>Will leave %1 µm rms in the worst axis at speeds like these.</source>
+        <translation>在类似转速下最差轴残余 %1 µm rms。</translation>
     </message>
 </context>
 <context>
@@ -8649,10 +8697,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>符号检查</translation>
     </message>
     <message>
-        <source>Term</source>
-        <translation>项</translation>
-    </message>
-    <message>
         <source>Old</source>
         <translation>旧</translation>
     </message>
@@ -8752,6 +8796,14 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>%1 holds no compensation any more. Write puts the last table back.</source>
         <translation>%1 中已没有补偿。“写入”将恢复最后一个补偿表。</translation>
+    </message>
+    <message>
+        <source>Term of the error</source>
+        <translation>误差项</translation>
+    </message>
+    <message>
+        <source>What each term predicts of the error, actual less commanded, as in the report and in the file. The controller moves against it: the curve above is that compensation.</source>
+        <translation>各项所预测的误差（实际减指令），与报告和文件中一致。控制器按相反方向移动：上方曲线即为该补偿。</translation>
     </message>
 </context>
 <context>

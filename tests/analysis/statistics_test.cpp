@@ -77,8 +77,12 @@ TEST(Statistics, ResidualFigures) {
   const auto f = residual_figures(e, p);
   EXPECT_EQ(f.count, 3);
   EXPECT_DOUBLE_EQ(f.peak_um, 2.0);
+  EXPECT_DOUBLE_EQ(f.p90_um, 2.0);
   EXPECT_DOUBLE_EQ(f.removed_percent, 90.0);
   EXPECT_NEAR(f.rms_um, std::sqrt(2.0), 1e-15);
+  Eigen::VectorXd ten(10);
+  for (int i = 0; i < 10; ++i) ten(i) = i % 2 == 0 ? i : -i;
+  EXPECT_DOUBLE_EQ(residual_figures(ten, Eigen::VectorXd::Zero(10)).p90_um, 8.0);
 }
 
 }  // namespace zerodrift::analysis

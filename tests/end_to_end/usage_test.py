@@ -1,9 +1,14 @@
-"""Wrong usage of the command line ends with 2 and a sentence, and a file that is read is never written over.
+"""Wrong usage of the command line ends with 2 and a sentence, and a file that is read is never written over. What came
+to nothing ends with 1 and says what, and the window's program leaves no option aside without a word.
 
 Usage: usage_test.py"""
 
 import os
+import random
+import shutil
+import struct
 import subprocess
+import zlib
 
 from virtual_machine import BIN, run_in_folder
 
@@ -52,6 +57,62 @@ def check(folder):
     usage()
     usage("no-such-command")
     assert not os.path.exists(other)
+    refused_frames(folder)
+    window(folder)
+
+
+def grey_png(path, width, height, value):
+    """value(x, y) -> 0..255"""
+    rows = b"".join(b"\0" + bytes(value(x, y) for x in range(width)) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+                   chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def refused_frames(folder):
+    """No frame measured: the file says why of each, and the command does not end as if all were well."""
+    draw = random.Random(3)
+    spots = [[draw.choice((30, 220)) for _ in range(20)] for _ in range(15)]
+    template = os.path.join(folder, "template.png")
+    grey_png(template, 160, 120, lambda x, y: spots[y // 8][x // 8])
+    frames = os.path.join(folder, "frames")
+    os.mkdir(frames)
+    for i in range(2):
+        grey_png(os.path.join(frames, f"{i}.png"), 160, 120, lambda x, y: 128)
+    out = os.path.join(folder, "positions.csv")
+    done = subprocess.run([os.path.join(BIN, "zerodrift-cli"), "locate", "--template", template, "--roi", "40,30,80,60",
+                           "--frames", frames, "--out", out], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "none of 2 frames" in done.stderr, (done.returncode, done.stderr)
+    with open(out) as file:
+        rows = file.read().splitlines()
+    assert len(rows) == 3 and all(",0," in row for row in rows[1:]), rows
+
+
+def window(folder):
+    program = os.path.join(BIN, "zerodrift")
+    if not os.path.exists(program):
+        return
+    quiet = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "HOME": folder}
+
+    def run(program, *arguments):
+        return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=120, env=quiet)
+
+    tour = os.path.join(folder, "tour")
+    for arguments in (("--size", "1280x720"), ("--fault", "drop"), ("--demo", "--size", "1280x720"),
+                      ("--tour", tour, "--size", "big"), ("--tour", tour, "job.zdj")):
+        done = run(program, *arguments)
+        assert done.returncode == 2 and "--" in done.stderr, (arguments, done.returncode, done.stderr)
+    # Without its resources a tour ends and names what is not there.
+    alone = os.path.join(folder, "alone")
+    os.mkdir(alone)
+    for name in ("zerodrift", "zerodrift-machine"):
+        shutil.copy(os.path.join(BIN, name), alone)
+    done = run(os.path.join(alone, "zerodrift"), "--tour", tour)
+    assert done.returncode == 1 and "register_maps" in done.stderr, (done.returncode, done.stderr)
 
 
 if __name__ == "__main__":

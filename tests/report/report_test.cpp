@@ -88,6 +88,30 @@ TEST_F(ReportTest, TooMuchLeftIsBadInWordsAndColour) {
   EXPECT_TRUE(std::get<Text>(report->sections.front().blocks.front()).warning);
 }
 
+/// The first page speaks of the last verification: that it was not the first, and whether the fit kept its word.
+TEST_F(ReportTest, TheFirstPageSaysWhatWasPromisedAndHowOftenItWasTried) {
+  const auto first_page = [&] {
+    std::string all;
+    const auto report = build_report(*m_job);
+    EXPECT_TRUE(report.has_value());
+    for (const auto& block : report->sections.front().blocks) {
+      if (const auto* text = std::get_if<Text>(&block)) all += text->text + "\n";
+    }
+    return all;
+  };
+  const auto model = NewArtefact::of("model", {{"figures", {{{"channel", "dZ_um"}, {"peak_held_out_um", 2.0}}}}});
+  ASSERT_TRUE(m_job->put(model).has_value());
+  commission(6.5, "failed");
+  EXPECT_NE(first_page().find("promised at most 2.0 µm; measured are 6.5 µm: not reached"), std::string::npos)
+      << first_page();
+  EXPECT_EQ(first_page().find("These figures are of verification"), std::string::npos);
+  commission(2.4, "passed");
+  EXPECT_NE(first_page().find("promised at most 2.0 µm; measured are 2.4 µm: held"), std::string::npos) << first_page();
+  EXPECT_NE(first_page().find("verification 2 of this job; the first one left at most 6.5 µm (failed)"),
+            std::string::npos)
+      << first_page();
+}
+
 /// What was red on a page is in the report, in words, and counted on its first page.
 TEST_F(ReportTest, WhatWasDoubtfulIsListed) {
   const auto put = [&](const char* kind, const nlohmann::json& body) {
@@ -108,6 +132,10 @@ TEST_F(ReportTest, WhatWasDoubtfulIsListed) {
                        {"end_error_before_um", {{"Y", 1.0}, {"Z", 59.0}}},
                        {"end_error_after_um", {{"Y", 0.9}, {"Z", 1.9}}},
                        {"limit_um", 5.0},
+                       {"problems",
+                        {{{"said", "no_correction"},
+                          {"code", "not_enough_data"},
+                          {"context", {{"what", "axis Z"}, {"found", "3 measurements"}, {"needed", "at least 6"}}}}}},
                        {"verdict", "passed"}});
   const auto report = build_report(*m_job);
   ASSERT_TRUE(report.has_value()) << describe(report.error());
@@ -135,6 +163,7 @@ TEST_F(ReportTest, WhatWasDoubtfulIsListed) {
   EXPECT_TRUE(said("model", "7.2 µm"));
   EXPECT_TRUE(said("verification", "Y became worse"));
   EXPECT_FALSE(said("verification", "Z became worse"));
+  EXPECT_TRUE(said("verification", "no correction: too little data: axis Z has 3 measurements, at least 6 needed"));
   EXPECT_EQ(doubts.front().verdict, Verdict::bad);
   EXPECT_NE(first_page.find(std::to_string(doubts.size()) + " points"), std::string::npos) << first_page;
   // A direction that lost is never shown as good, nor as something removed.

@@ -42,6 +42,7 @@ class PagesTest : public QObject {
   void calibrationNeedsConfirmation();
   void planIsEditedByFieldsAndTimeline();
   void warmupButtonsFollowThePhase();
+  void everyDirectionIsSeenInALowWindow();
   void sensorsAreTickedInAndOut();
   void nothingIsMinusZero();
   void physicsAdoptsAndRejects();
@@ -252,6 +253,25 @@ void PagesTest::warmupButtonsFollowThePhase() {
   state.phase = RunPhase::interrupted;
   page.setState(state);
   QCOMPARE(page.primaryAction().text, QString("Resume"));
+}
+
+/// In the smallest window, with trouble told above: the three errors are what the run is for.
+void PagesTest::everyDirectionIsSeenInALowWindow() {
+  MainWindow window;
+  samples::fillWindow(window);
+  window.resize(1280, 720);
+  window.show();
+  samples::play(window, {"warmup", "trouble"});
+  QVERIFY(QTest::qWaitForWindowExposed(&window));
+  QCoreApplication::processEvents();
+  QCOMPARE(window.height(), 720);
+  const auto tables = window.currentPage()->findChildren<ChannelTable*>();
+  const auto errors =
+      std::find_if(tables.begin(), tables.end(), [](const ChannelTable* one) { return one->rows().size() == 3; });
+  QVERIFY(errors != tables.end());
+  const auto* view = (*errors)->findChild<QTableView*>();
+  const QRect last = view->visualRect(view->model()->index(2, 1));
+  QVERIFY2(last.bottom() <= view->viewport()->height(), qPrintable(QString::number(view->viewport()->height())));
 }
 
 void PagesTest::sensorsAreTickedInAndOut() {

@@ -25,12 +25,14 @@ class PlotsTest : public QObject {
   void timesMustAscend();
   void appendedSamplesArrive();
   void namesStandWhereTheyFit();
+  void wordsOfMarksKeepApart();
   void linkedPlotsShareTime();
   void aDayIsDrawnQuickly();
   void csvHoldsWhatIsSeen();
   void svgAndPngAreWritten();
   void pointsCanBeClicked();
   void heatMapPutsZeroInTheMiddle();
+  void heatMapLeavesOutWhatIsNotKnown();
   void aPaperPlotInBitsIsTheSame();
 };
 
@@ -123,6 +125,34 @@ void PlotsTest::namesStandWhereTheyFit() {
   drawn->xAxis->setRange(4990, 5110);  // looked at closely it has room, and its neighbours' names have none
   drawn->replot();
   QCOMPARE(shown(), QStringList("8000 rpm"));
+}
+
+void PlotsTest::wordsOfMarksKeepApart() {
+  LivePlot plot;
+  plot.resize(600, 300);
+  plot.setCurves({{"a", "A", "K"}});
+  plot.append("a", {0, 10000}, {0, 1});
+  plot.setMarks({{100, "Door opened", {}},
+                 {600, "Pause", {}},
+                 {700, "Pause", {}},
+                 {5000, "Coolant refilled by the operator", {}},
+                 {9900, "Coolant off", {}}});
+  plot.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&plot));
+  plot.flush();
+  auto* drawn = plot.findChild<QCustomPlot*>();
+  QVector<QRectF> words;
+  for (int i = 0; i < drawn->itemCount(); ++i) {
+    const auto* text = qobject_cast<const QCPItemText*>(drawn->item(i));
+    if (text == nullptr || !text->visible() || text->position->typeY() != QCPItemPosition::ptAbsolute) continue;
+    words.append(QRectF(text->topLeft->pixelPosition(), text->bottomRight->pixelPosition()));
+  }
+  QCOMPARE(words.size(), 4);  // there is no room for the second pause
+  for (qsizetype i = 0; i < words.size(); ++i) {
+    QVERIFY2(drawn->axisRect()->rect().adjusted(-1, -1, 1, 1).contains(words[i].toAlignedRect()),
+             qPrintable(QString::number(i)));
+    for (qsizetype k = 0; k < i; ++k) QVERIFY(!words[i].intersects(words[k]));
+  }
 }
 
 void PlotsTest::linkedPlotsShareTime() {
@@ -237,6 +267,22 @@ void PlotsTest::heatMapPutsZeroInTheMiddle() {
   // The empty quarter has the neutral colour, not the cold end.
   const QColor corner = image.pixelColor(80, 200);
   QVERIFY2(corner.hslSaturation() < 60, qPrintable(corner.name()));
+}
+
+/// A dead sensor has no temperature: it must not look like the strongest cold.
+void PlotsTest::heatMapLeavesOutWhatIsNotKnown() {
+  HeatMap map;
+  map.resize(500, 300);
+  HeatMapData data;
+  data.to_s = 100;
+  data.to_mm = 400;
+  data.columns = 2;
+  data.rows = 2;
+  data.values = {std::nan(""), std::nan(""), std::nan(""), 10};
+  map.setData(data);
+  map.flush();
+  const QColor corner = map.image(500, 300).pixelColor(80, 200);
+  QVERIFY2(corner.hsvSaturation() < 20, qPrintable(corner.name()));
 }
 
 /// Bit by bit the same picture as at once: nothing in front of what stood behind it, nothing moved.

@@ -121,7 +121,7 @@ TEST(CameraErrorSource, RefusedViewsAreMissingWithTheirReason) {
   EXPECT_TRUE(std::isnan(sample->error_um[1]));
   EXPECT_NEAR(sample->error_um[2], -12.0, 0.2);
   ASSERT_EQ(sample->problems.size(), 1u);
-  EXPECT_EQ(sample->problems[0].rfind("side: ", 0), 0u);
+  EXPECT_EQ(sample->problems[0].rfind("camera side: ", 0), 0u);
 }
 
 TEST(CameraErrorSource, ADeadCameraIsAFailure) {

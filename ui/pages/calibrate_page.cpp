@@ -244,7 +244,7 @@ void CalibratePage::render() {
   m_region->setToolTip(tr("Draw a box around the target in the image"));
   m_region->setEnabled(!m_state.running);
   m_view->setPlaceholder(tr("Waiting for the camera"));
-  m_planCard->setTitle(m_planView->currentIndex() == 1 ? tr("Residuals") : tr("Positions"));
+  m_planCard->setTitle(m_planView->currentIndex() == 1 ? tr("Residuals") : tr("Measuring positions"));
   m_planCard->setSubtitle(QStringLiteral("mm"));
   m_planView->setItems({tr("Plan"), tr("Residuals")});
   renderPlan();

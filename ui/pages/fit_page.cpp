@@ -54,6 +54,10 @@ FitPage::FitPage(QWidget* parent) : Page("fit", parent) {
   m_methodCard->setBodyMargins(1, 0, 1, 6);
   m_methods = new DataTable(m_methodCard);
   m_methodCard->body()->addWidget(m_methods, 1);
+  m_why = new WrapLabel(m_methodCard);
+  m_why->setProperty("role", "caption");
+  m_why->setContentsMargins(12, 0, 12, 0);
+  m_methodCard->body()->addWidget(m_why);
   m_wordCard = new Card(this);
   m_headline = new WrapLabel(m_wordCard);
   m_headline->setProperty("role", "strong");
@@ -241,16 +245,21 @@ void FitPage::renderMethods() {
   }
   m_methods->setRows(rows);
   if (chosen >= 0) m_methods->selectRow(chosen);
+  const QString why = chosen < 0 ? QString() : m_state.methods[chosen].why;
+  m_why->setText(why.isEmpty() ? QString() : tr("Why: %1.").arg(why));
 }
 
 void FitPage::renderWords() {
   m_wordCard->setTitle(tr("What to expect"));
   if (std::isnan(m_state.attainableRms_um)) {
     m_headline->setText(tr("Choose a method to see what it will leave."));
-  } else if (std::isnan(m_state.attainable90_um)) {
+  } else if (m_state.oneCycle) {
     m_headline->setText(
         tr("Left %1 µm rms in the worst axis on the end of the run; one cycle says nothing about other speeds.")
             .arg(m_state.attainableRms_um, 0, 'f', 1));
+  } else if (std::isnan(m_state.attainable90_um)) {
+    m_headline->setText(
+        tr("Will leave %1 µm rms in the worst axis at speeds like these.").arg(m_state.attainableRms_um, 0, 'f', 1));
   } else {
     m_headline->setText(tr("Will leave %1 µm rms in the worst axis (90 %: %2 µm) at speeds like these.")
                             .arg(m_state.attainableRms_um, 0, 'f', 1)

@@ -55,7 +55,8 @@ struct FitState {
   QStringList sensors{};  // tags of the inputs
   double attainablePeak_um = std::numeric_limits<double>::quiet_NaN();
   double attainableLimit_um = 5.0;
-  double attainable90_um = std::numeric_limits<double>::quiet_NaN();
+  double attainable90_um = std::numeric_limits<double>::quiet_NaN();  // NaN: a model of an earlier version
+  bool oneCycle = false;                                              // nothing was left out that is like another speed
   double attainableRms_um = std::numeric_limits<double>::quiet_NaN();
   double removed_percent = std::numeric_limits<double>::quiet_NaN();
   double removedTarget_percent = 85.0;
@@ -110,6 +111,7 @@ class FitPage : public Page {
   XyPlot* m_histogram;
   DataTable* m_methods;
   QLabel* m_headline;
+  QLabel* m_why;
   QLabel* m_advice;
 };
 

@@ -27,6 +27,16 @@ QString shortTag(const QString& tag) {
   return digits.isEmpty() ? tag.left(2) : digits.left(2);
 }
 
+/// As HTML that keeps to one line: Chinese may be broken between any two signs.
+QString unbroken(const QString& text) {
+  QString out;
+  for (const QChar sign : text) {
+    out += sign == QLatin1Char(' ') ? QStringLiteral("&nbsp;") : QString(sign).toHtmlEscaped();
+    if (sign == QLatin1Char('/') || sign.script() == QChar::Script_Han) out += QStringLiteral("&#8288;");
+  }
+  return out;
+}
+
 }  // namespace
 
 MachinePage::MachinePage(QWidget* parent) : Page("machine", parent) {
@@ -342,8 +352,7 @@ void MachinePage::renderParts() {
                                                              : "·";
     words.append(QStringLiteral("<span style='color:%1'>%2</span>&nbsp;<span style='color:%3'>%4</span>&nbsp;%5")
                      .arg(htmlColor(colors().ink(part.judgement)), mark, htmlColor(colors().muted),
-                          part.label.toHtmlEscaped().replace(' ', "&nbsp;"),
-                          part.value.toHtmlEscaped().replace(' ', "&nbsp;").replace('/', "/&#8288;")));
+                          unbroken(part.label), unbroken(part.value)));
   }
   m_parts->setText(words.join(" &nbsp;&nbsp; "));
   m_parts->setVisible(m_state.connected && !words.isEmpty() && m_view->currentIndex() == 0);

@@ -87,10 +87,10 @@ void RunView::makeTables() {
   m_cameraCard = new Card(this);
   m_cameraCard->setBodyMargins(8, 8, 8, 8);
   m_camera = new CameraView(m_cameraCard);
-  m_camera->setMinimumHeight(72);
+  m_camera->setMinimumHeight(60);
   m_cameraCard->body()->addWidget(m_camera);
   // Gives way first when the window is low.
-  m_cameraCard->setMinimumHeight(92);
+  m_cameraCard->setMinimumHeight(78);
   m_cameraCard->setMaximumHeight(150);
   const auto table = [this](Card** card) {
     *card = new Card(this);
@@ -162,10 +162,10 @@ void RunView::setChannels(const QVector<RunChannel>& temperatures, const QVector
   m_inputs->setCurves(curvesOf(inputs, true));
   m_temperatureTable->setRows(rowsOf(temperatures));
   m_errorTable->setRows(rowsOf(errors));
-  // As high as its rows; in a low window many rows scroll.
-  const int whole = 78 + 22 * static_cast<int>(std::max<qsizetype>(1, errors.size()));
-  m_errorCard->setMinimumHeight(std::min(whole, 100));
-  m_errorCard->setMaximumHeight(whole);
+  // As high as its rows. In a low window many rows scroll, but the three directions are always seen.
+  const auto high = [](qsizetype rows) { return 72 + 22 * static_cast<int>(std::max<qsizetype>(1, rows)); };
+  m_errorCard->setMinimumHeight(high(std::min<qsizetype>(errors.size(), 3)));
+  m_errorCard->setMaximumHeight(high(errors.size()));
   retranslate();
   const QVector<RunValue> values(m_values.cbegin(), m_values.cend());
   setValues(values);

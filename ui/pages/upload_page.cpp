@@ -218,7 +218,9 @@ void UploadPage::render() {
 }
 
 void UploadPage::renderAxis() {
-  m_terms->setColumns({{tr("Term"), 0, false, {}},
+  m_terms->setColumns({{tr("Term of the error"), 0, false,
+                        tr("What each term predicts of the error, actual less commanded, as in the report and in the "
+                           "file. The controller moves against it: the curve above is that compensation.")},
                        {tr("Old"), 84, true, {}},
                        {tr("New"), 84, true, {}},
                        {tr("Change"), 84, true, {}},

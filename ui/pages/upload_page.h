@@ -22,6 +22,7 @@ class LegendRow;
 class ToggleSegment;
 class XyPlot;
 
+/// Of the predicted error (actual - commanded).
 struct TableTerm {
   QString name{};                                            // "T3 front bearing", "offset", "point 120 mm"
   QString unit{};                                            // "µm/K"

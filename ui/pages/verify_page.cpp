@@ -254,7 +254,7 @@ QVector<Figure> VerifyPage::figures() const {
   if (finished) {
     Figure promised = figureOf(tr("Fit promised"), m_state.promised_um, 1, "µm");
     promised.tip = tr("Largest error that the fit left on stretches of the warm-up run it had not seen.");
-    if (m_state.peakAfter_um > 1.25 * m_state.promised_um) {
+    if (m_state.promiseBroken()) {
       promised.judgement = Judgement::warn;
       promised.word = tr("not reached");
     } else if (!std::isnan(m_state.promised_um)) {
@@ -325,7 +325,7 @@ QStringList VerifyPage::words() const {
                  .arg(axis.now_um, 0, 'f', 2)
                  .arg(axis.before_um, 0, 'f', 2);
   }
-  if (m_state.peakAfter_um > 1.25 * m_state.promised_um) {
+  if (m_state.promiseBroken()) {
     lines << tr("The fit promised %1 µm, measured are %2 µm. The promise is of stretches of the warm-up run that were "
                 "left out, as means of some minutes each; this run goes through other speeds in another order, and "
                 "every single measurement counts with its noise.")

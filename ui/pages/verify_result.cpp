@@ -80,7 +80,7 @@ void VerifyResult::renderTable() {
     DataCell name{axis.axis};
     name.strong = true;
     DataCell gain{axis.worse() ? tr("%1 % worse").arg(-axis.removed_percent, 0, 'f', 0)
-                               : tr("%1 % removed").arg(axis.removed_percent, 0, 'f', 0)};
+                               : tr("%1 % removed").arg(std::floor(axis.removed_percent), 0, 'f', 0)};
     if (std::isnan(axis.removed_percent)) gain.text = QStringLiteral("–");
     DataCell end{QStringLiteral("%1 → %2 µm").arg(fixedText(axis.endBefore_um, 1)).arg(fixedText(axis.endAfter_um, 1))};
     if (std::isnan(axis.endBefore_um) || std::isnan(axis.endAfter_um)) end.text = QStringLiteral("–");

@@ -113,6 +113,8 @@ void HeatMap::restyle() {
   QCPColorGradient gradient;
   gradient.clearColorStops();
   for (int i = 0; i <= 20; ++i) gradient.setColorStopAt(i / 20.0, divergingColor(i / 10.0 - 1.0));
+  // What was not measured has no colour: the end of the scale would be the strongest cold.
+  gradient.setNanHandling(QCPColorGradient::nhTransparent);
   m_map->setGradient(gradient);
   m_scale->setGradient(gradient);
   const Colors& c = colors();
@@ -134,6 +136,7 @@ PlotWidget::Near HeatMap::nearest(const QPointF& pixel) const {
   const double y = yAxis()->pixelToCoord(pixel.y());
   if (!m_map->data()->keyRange().contains(x) || !m_map->data()->valueRange().contains(y)) return {};
   const double value = m_map->data()->data(x, y);
+  if (std::isnan(value)) return {};
   const double position_mm = m_across ? x : y;
   const double time_s = m_across ? y : x;
   Near near;

@@ -189,17 +189,28 @@ void PlotWidget::setSpans(const QVector<Span>& spans) {
   replot();
 }
 
-/// The words of marks stand in two rows, below the names of the spans; what fits into neither keeps its line alone.
+/// The words of marks stand in two rows, below the names of the spans, beside their line: to its right, at the end of
+/// the plot to its left. What fits into neither row keeps its line alone.
 void PlotWidget::placeMarkTexts() {
-  const int first_px = hasSpanLabels() ? 18 : 2;
+  const QRect inside = m_plot->axisRect()->rect();
+  const int first_px = inside.top() + (hasSpanLabels() ? 18 : 2);
   std::array<double, mark_rows> free_px{};
+  free_px.fill(inside.left());
   for (auto* text : m_markTexts) {
-    const double at_px = text->position->pixelPosition().x();
-    const auto row = std::find_if(free_px.begin(), free_px.end(), [&](double free) { return at_px >= free; });
-    text->setVisible(row != free_px.end());
-    if (row == free_px.end()) continue;
-    text->setPadding(QMargins(5, first_px + mark_row_px * static_cast<int>(row - free_px.begin()), 2, 2));
-    *row = at_px + QFontMetrics(text->font()).horizontalAdvance(text->text()) + 8;
+    const double x = text->position->coords().x();
+    const double at_px = xAxis()->coordToPixel(x);
+    const QMargins padding = text->padding();
+    const double width_px =
+        QFontMetrics(text->font()).horizontalAdvance(text->text()) + padding.left() + padding.right();
+    const bool left = at_px + width_px > inside.right();
+    const double from_px = left ? at_px - width_px : at_px;
+    const auto row = std::find_if(free_px.begin(), free_px.end(), [&](double free) { return from_px >= free; });
+    const bool seen = row != free_px.end() && at_px <= inside.right();
+    text->setVisible(seen);
+    if (!seen) continue;
+    text->setPositionAlignment(Qt::AlignTop | (left ? Qt::AlignRight : Qt::AlignLeft));
+    text->position->setCoords(x, first_px + mark_row_px * static_cast<int>(row - free_px.begin()));
+    *row = from_px + width_px + 3;
   }
 }
 
@@ -263,12 +274,14 @@ void PlotWidget::styleFrame() {
   m_lines.clear();
   m_lineTexts.clear();
   m_markTexts.clear();
-  const auto line = [&](const QPointF& a, const QPointF& b, const QColor& color, const QString& text, bool upright) {
+  const auto line = [&](const QPointF& a, const QPointF& b, const QColor& color) {
     auto* item = new QCPItemStraightLine(m_plot);
     item->point1->setCoords(a);
     item->point2->setCoords(b);
     item->setPen(QPen(color, 1, Qt::DashLine));
     m_lines.append(item);
+  };
+  const auto write = [&](const QPointF& at, const QColor& color, const QString& text, bool upright) {
     if (text.isEmpty()) return;
     auto* word = new QCPItemText(m_plot);
     word->setText(text);
@@ -277,17 +290,18 @@ void PlotWidget::styleFrame() {
     word->setClipToAxisRect(true);
     word->setClipAxisRect(m_plot->axisRect());
     word->position->setTypeX(upright ? QCPItemPosition::ptPlotCoords : QCPItemPosition::ptAxisRectRatio);
-    word->position->setTypeY(upright ? QCPItemPosition::ptAxisRectRatio : QCPItemPosition::ptPlotCoords);
-    word->position->setCoords(upright ? QPointF(a.x(), 0.0) : QPointF(0.0, a.y()));
-    word->setPositionAlignment(upright ? Qt::AlignTop | Qt::AlignLeft : Qt::AlignBottom | Qt::AlignLeft);
-    word->setPadding(QMargins(5, 2, 2, 2));
+    word->position->setTypeY(upright ? QCPItemPosition::ptAbsolute : QCPItemPosition::ptPlotCoords);
+    word->position->setCoords(at);
+    word->setPositionAlignment(Qt::AlignBottom | Qt::AlignLeft);
+    word->setPadding(upright ? QMargins(4, 0, 3, 0) : QMargins(5, 2, 2, 2));
+    if (upright) word->setBrush(c.panel);  // or the lines of other marks would strike it out
     m_lineTexts.append(word);
     if (upright) m_markTexts.append(word);
   };
-  for (const Limit& limit : m_limits) {
-    line({0, limit.value}, {1, limit.value}, c.ink(limit.judgement), limit.label, false);
-  }
-  for (const Mark& mark : m_marks) line({mark.at, 0}, {mark.at, 1}, c.ink(mark.judgement), mark.text, true);
+  for (const Limit& limit : m_limits) line({0, limit.value}, {1, limit.value}, c.ink(limit.judgement));
+  for (const Mark& mark : m_marks) line({mark.at, 0}, {mark.at, 1}, c.ink(mark.judgement));
+  for (const Limit& limit : m_limits) write({0.0, limit.value}, c.ink(limit.judgement), limit.label, false);
+  for (const Mark& mark : m_marks) write({mark.at, 0.0}, c.ink(mark.judgement), mark.text, true);
   for (auto* text : m_spanTexts) text->setColor(c.muted);
   replot();
 }

@@ -106,6 +106,12 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
     output.json["positions"].push_back(json_of(p));
     if (!p.location.ok) output.text += fmt::format("{}: {}\n", p.frame, p.location.reason);
   }
+  if (good == 0) {  // the file with each frame's reason is there; nothing was measured all the same
+    return fail(
+        ErrorCode::target_refused,
+        {{"reason", fmt::format("none of {} frames in {} (the first: {}); each frame's reason is in {}",
+                                positions.size(), options.frames, positions.front().location.reason, options.out)}});
+  }
   output.json["frames"] = positions.size();
   output.json["measured"] = good;
   output.text += fmt::format("{} of {} frames measured, written to {}", good, positions.size(), options.out);

@@ -189,11 +189,11 @@ void FitPresenter::fill(ui::FitState& state) {
   state.method = method_name(model->method);
   double peak = 0.0;
   double rms = 0.0;
-  double band = 0.0;
   for (const auto& error : model->errors) {
     peak = std::max(peak, error.held_out.peak_um);
     rms = std::max(rms, error.held_out.rms_um);
-    band = std::max(band, error.band.half_width_um);
+    // Of the same residuals as peak and rms. The band promises more and is wider.
+    state.attainable90_um = std::fmax(state.attainable90_um, error.held_out.p90_um);
   }
   const double range = model->quality.error_range_um;
   state.attainablePeak_um = peak;
@@ -202,8 +202,7 @@ void FitPresenter::fill(ui::FitState& state) {
   state.coverageTarget_percent = report::limits::coverage_percent;
   state.attainableRms_um = rms;
   state.coverage_percent = coverage_percent(*model);
-  // One cycle: nothing was left out that is like another speed.
-  if (!std::isnan(state.coverage_percent)) state.attainable90_um = band;
+  state.oneCycle = model->quality.cycles < 2;
   if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
   for (const auto& sensor : model->sensors) state.sensors << bench().channelInWords(sensor);
   if (model->recordings.size() > 1) state.updatedBy = QString::fromStdString(model->recordings.back());

@@ -75,6 +75,12 @@ QString tag_of(const MachineLook& look, std::size_t sensor) {
   return QString(id).remove(QStringLiteral("_C"));
 }
 
+bool is_of_the_link(ErrorCode code) {
+  return code == ErrorCode::machine_unreachable || code == ErrorCode::machine_silent ||
+         code == ErrorCode::machine_link_lost || code == ErrorCode::machine_bad_reply ||
+         code == ErrorCode::machine_busy;
+}
+
 }  // namespace
 
 MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, DemoMachine& demo)
@@ -114,6 +120,8 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     if (m_lostSaid != error.code) showOnly(error);
     m_lostSaid = error.code;
     refresh();
+    // Asking again helps against a silent controller, not against a file that is not there.
+    if (m_whenReady && !is_of_the_link(error.code)) std::exchange(m_whenReady, nullptr)(false);
   });
   connect(&bench, &Workbench::controllerTold, this, [this] {
     if (m_toldLost == this->bench().lost()) return;
@@ -123,7 +131,10 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   connect(&bench, &Workbench::profileChanged, this, &MachinePresenter::refresh);
   connect(&m_demo, &DemoMachine::ready, this, [this] {
     if (const Status loaded = this->bench().loadProfile(m_demo.profilePath().toStdString()); !loaded) {
+      m_connecting = false;
+      refresh();
       show(loaded.error());
+      if (m_whenReady) std::exchange(m_whenReady, nullptr)(false);
       return;
     }
     m_connecting = true;
@@ -288,7 +299,7 @@ void MachinePresenter::looked() {
   m_readings.push_back(look->sample.temperature_C);
   if (m_readings.size() > readings_kept) m_readings.pop_front();
   refresh();
-  if (m_whenReady && m_readings.size() >= 4) std::exchange(m_whenReady, nullptr)();
+  if (m_whenReady && m_readings.size() >= 4) std::exchange(m_whenReady, nullptr)(true);
 }
 
 /// Of the job's machine, when it is a virtual one on this computer.
@@ -438,9 +449,9 @@ void MachinePresenter::fillParts(ui::MachineState& state) const {
 }
 
 void MachinePresenter::tour(std::function<void(bool good)> done) {
-  const auto start = [this, done = std::move(done)] { startCommissioning(done); };
+  const auto start = [this, done = std::move(done)](bool good) { good ? startCommissioning(done) : done(false); };
   if (m_readings.size() >= 4) {
-    start();
+    start(true);
   } else {
     m_whenReady = start;
   }

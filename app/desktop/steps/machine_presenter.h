@@ -72,7 +72,7 @@ class MachinePresenter : public Presenter {
   bool m_saidOld = false;
   std::optional<ErrorCode> m_lostSaid;  // the trouble that stands in the banner
   bool m_toldLost = false;
-  std::function<void()> m_whenReady;
+  std::function<void(bool good)> m_whenReady;
 };
 
 }  // namespace zerodrift::desktop

@@ -10,8 +10,11 @@
 
 #include "app/desktop/physics_view.h"
 #include "app/text/core_text.h"
+#include "app/text/error_text.h"
+#include "core/base/error_json.h"
 #include "core/flow/steps/diagnose_step.h"
 #include "ui/pages/physics_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -309,6 +312,12 @@ void PhysicsPresenter::refresh() {
     if (body.contains("diagnosis")) {
       fill_search(body, state);
       fill_explanations(body, runs, state);
+    }
+    for (const auto& problem : body.value("problems", json::array())) {
+      const auto error = error_from_json(problem);
+      if (!error) continue;
+      state.verdictSentence =
+          ui::sentencesText({state.verdictSentence, tr("What the simulation lacks was not searched."), lineOf(*error)});
     }
   }
   if (m_regionAsked && body.is_object()) state.region = regionInWords();

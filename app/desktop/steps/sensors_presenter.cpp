@@ -47,7 +47,10 @@ QVector<double> standardised(const std::vector<double>& values, std::size_t stri
 }  // namespace
 
 SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Presenter(bench, page), m_page(page) {
-  connect(&bench, &Workbench::jobChanged, this, [this] { m_undo.clear(); });
+  connect(&bench, &Workbench::jobChanged, this, [this] {
+    m_undo.clear();
+    m_absolute.reset();
+  });
   connect(page, &ui::SensorsPage::clustersChosen, this, [this](int clusters) {
     rememberChoice();
     m_clusters = clusters;
@@ -119,6 +122,8 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   const json labels = body.value("table", json::array());
   const json price = body.value("price", json::object());
   const json changes = price.value("change_um", json::object());
+  const json criterion = body.value("criterion", json::object());
+  state.absolute = m_absolute.value_or(criterion.value("used", "signed") == "absolute");
   for (const auto& sensor : body.value("sensors", json::array())) {
     ui::SensorRow row;
     const std::string channel = sensor.value("sensor", "");
@@ -134,7 +139,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     const json correlation = sensor.value("correlation", json::object());
     int axis = 0;
     for (const char* error : {"dX_um", "dY_um", "dZ_um"}) row.r[axis++] = number(correlation, error);
-    row.sum = number(sensor, m_absolute ? "sum_absolute" : "sum");
+    row.sum = number(sensor, state.absolute ? "sum_absolute" : "sum");
     const json lags = sensor.value("lag_s", json::object());
     row.lag_s = number(lags, "dZ_um");
     row.vif = number(sensor, "vif");
@@ -160,7 +165,6 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   const json suggested = body.value("suggested_clusters", json::object());
   state.suggestedClusters = suggested.value("silhouette", state.clusters);
   state.automatic = m_clusters == 0;
-  state.absolute = m_absolute;
   const json explained = body.value("explained_variance", json::array());
   if (explained.size() >= 2) {
     state.explained1_percent = 100.0 * explained[0].get<double>();

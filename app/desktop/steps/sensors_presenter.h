@@ -1,6 +1,8 @@
 #pragma once
 // The sensors page: clusters, correlations, which sensors are kept.
 
+#include <optional>
+
 #include "app/desktop/presenter.h"
 
 namespace zerodrift::ui {
@@ -33,7 +35,7 @@ class SensorsPresenter : public Presenter {
 
   ui::SensorsPage* m_page;
   int m_clusters = 5;
-  bool m_absolute = false;
+  std::optional<bool> m_absolute;  // which sum is shown; none: the one that the clusters were judged by
   std::vector<Choice> m_undo;
 };
 

@@ -8,6 +8,7 @@
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/verify_compare.h"
 #include "core/report/comparison.h"
+#include "core/report/limits.h"
 #include "ui/pages/verify_page.h"
 
 namespace zerodrift::desktop {
@@ -215,6 +216,7 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
                                     axis.value("rms_now_um", 0.0)});
     }
   }
+  state.promiseReach = report::limits::promise_reach;
   const json& model = bench().body("model");
   if (model.is_object()) {
     for (const auto& figure : model.value("figures", json::array())) {

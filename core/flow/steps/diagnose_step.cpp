@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error_json.h"
 #include "core/base/json.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/flow/steps/inputs.h"
@@ -72,7 +73,9 @@ Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContex
   if (!diagnosed) {
     if (diagnosed.error().code == ErrorCode::cancelled) return fail(diagnosed.error());
     // The comparison stands on its own; that nothing could be searched is said with it.
-    body["problems"] = {"What the simulation lacks was not searched: " + describe(diagnosed.error())};
+    json problem = to_json(diagnosed.error());
+    problem["said"] = "not_searched";
+    body["problems"] = json::array({problem});
     made.body = json_text(body);
     return made;
   }

@@ -10,9 +10,9 @@ namespace zerodrift::flow {
 ///   "diagnosis": core/diagnosis' JSON, "adopted": [ids], "rejected": [ids],
 ///   "heat": {"component", "from_mm", "to_mm", "from_s", "to_s", "watts": [a position: [over time]]} | null,
 ///   "refined_machine": the machine description with what was found
-/// and with "refined" beside the values of each curve. When the search fails "problems" says why and the rest is
-/// missing. Comes with the blob "refined.csv", the simulation with what was found. A verification run serves as unseen
-/// data.
+/// and with "refined" beside the values of each curve. When the search fails "problems" holds {"said": "not_searched",
+/// "code", "context"} and the rest is missing. Comes with the blob "refined.csv", the simulation with what was found. A
+/// verification run serves as unseen data.
 Result<commissioning::NewArtefact> find_missing(const commissioning::Job& job, const TaskContext& context);
 
 }  // namespace zerodrift::flow

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -31,10 +32,16 @@ std::string summary_of(const analysis::Model& model) {
   return text;
 }
 
-std::string alternative_of(const analysis::Model& dynamic) {
-  double rms = 0.0;
-  for (const auto& error : dynamic.errors) rms = std::max(rms, error.held_out.rms_um);
-  return fmt::format(" A dynamic model, which needs the host compensator, would leave {:.1f} um rms.", rms);
+/// What a model would leave that the controller cannot run; empty when that is no less.
+std::string alternative_of(const analysis::Model& model) {
+  const auto taken =
+      std::find_if(model.candidates.begin(), model.candidates.end(), [](const auto& c) { return c.chosen; });
+  for (const auto& other : model.candidates) {
+    if (other.runs_on_controller || other.held_out_rms_um >= taken->held_out_rms_um) continue;
+    return fmt::format(" A dynamic model, which needs the host compensator, would leave {:.1f} um rms.",
+                       other.held_out_rms_um);
+  }
+  return {};
 }
 
 json number(double value) {
@@ -95,16 +102,12 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   analysis::FitOptions fit_options;
   fit_options.sensors = sensors.body.at("chosen").get<std::vector<std::string>>();
   ZD_TRY(fit_options.method, analysis::method_from(options.method));
-  ZD_TRY(auto model, analysis::fit({run}, fit_options, context));
-  // A controller that computes the table itself runs static models only: fit the one it will run, so that every figure
-  // is of what compensates, and say what a dynamic one would have left.
-  std::string alternative;
-  if (options.method == "auto" && !model.is_static() && accepts_table) {
-    alternative = alternative_of(model);
-    fit_options.method = analysis::Method::ridge;
-    ZD_TRY(model, analysis::fit({run}, fit_options, context));
-  }
-  return artefact_of(model, alternative, profile, {warmup.id, sensors.id});
+  // A controller that computes the table itself runs static models only: every figure is of what compensates, and what
+  // a dynamic one would have left is said.
+  fit_options.on_controller = accepts_table;
+  ZD_TRY(const auto model, analysis::fit({run}, fit_options, context));
+  return artefact_of(model, options.method == "auto" && accepts_table ? alternative_of(model) : std::string(), profile,
+                     {warmup.id, sensors.id});
 }
 
 Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error_json.h"
 #include "core/compensation/residual.h"
 #include "core/controller/active_table.h"
 #include "core/flow/steps/inputs.h"
@@ -17,7 +18,7 @@ using nlohmann::json;
 namespace {
 
 constexpr double axis_threshold_um = 1.0;  // once the table is written again: what is worth correcting in each axis
-const std::string no_correction = "no correction: ";
+const std::string no_correction = "no_correction";
 
 ResidualSamples residuals_of(const recording::Recording& run, const compensation::Table& table) {
   ResidualSamples samples;
@@ -51,7 +52,9 @@ void propose_correction(const recording::Recording& run, const compensation::Tab
   body["corrected_table"] = nullptr;
   const auto correction = compensation::correct_residual(table, residuals_of(run, table), options);
   if (!correction) {
-    body["problems"].push_back(no_correction + describe(correction.error()));
+    json problem = to_json(correction.error());
+    problem["said"] = no_correction;
+    body["problems"].push_back(problem);
     return;
   }
   bool any = false;
@@ -161,7 +164,8 @@ Result<commissioning::NewArtefact> judge_again(const commissioning::Job& job, do
   if (problems.is_array()) {
     json kept = json::array();
     for (const auto& problem : problems) {
-      if (!problem.get<std::string>().starts_with(no_correction)) kept.push_back(problem);
+      const bool of_correction = problem.is_object() && problem.value("said", "") == no_correction;
+      if (!of_correction) kept.push_back(problem);
     }
     problems = std::move(kept);
   }

@@ -28,6 +28,9 @@ Text summary_of(const Source& source, const nlohmann::json& body) {
       source.tell("Method {} on {} sensors: on data it has not seen ({}) it leaves at most {} µm, {} µm rms.",
                   source.say(text_of(model, "method")), list_of(model, "sensors").size(),
                   source.say(text_of(model, "held_out")), shown(peak, 1), shown(rms, 1));
+  if (const std::string reason = text_of(model, "reason"); !reason.empty()) {
+    text += " " + source.tell("Why this method: {}.", source.in_words(reason));
+  }
   const std::string stored = text_of(body, "summary");
   const auto alternative = stored.find("A dynamic model");
   if (alternative != std::string::npos) text += " " + source.in_words(stored.substr(alternative));

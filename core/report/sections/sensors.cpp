@@ -16,9 +16,10 @@ Table clusters_of(const Source& source, const nlohmann::json& body) {
   Table table;
   table.id = "clusters";
   table.title = source.say("Clusters and correlation with the errors");
-  table.header = {
-      source.say("sensor"), source.say("cluster"), "r(X)", "r(Y)", "r(Z)", source.say("sum of correlations"), "VIF",
-      source.say("kept")};
+  const bool absolute = text_of(object_of(body, "criterion"), "used") == "absolute";
+  const std::string sum =
+      absolute ? source.say("sum of correlations, absolute") : source.say("sum of correlations, with sign");
+  table.header = {source.say("sensor"), source.say("cluster"), "r(X)", "r(Y)", "r(Z)", sum, "VIF", source.say("kept")};
   table.trace = source.at("sensors", "/table");
   std::map<std::string, nlohmann::json> details;
   for (const auto& one : list_of(body, "sensors")) details[text_of(one, "sensor")] = one;

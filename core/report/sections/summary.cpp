@@ -7,6 +7,7 @@
 
 #include "core/report/build.h"
 #include "core/report/doubts.h"
+#include "core/report/limits.h"
 #include "core/report/pieces.h"
 
 namespace zerodrift::report {
@@ -153,6 +154,46 @@ std::optional<Text> changed_since(const Source& source, const LoadedArtefact& ve
 
 }  // namespace
 
+namespace {
+
+/// The figures are of the last verification: what came before it, and what the fit had promised.
+std::vector<Text> what_was_promised(const Source& source, const LoadedArtefact& verification) {
+  const auto largest_of = [](const nlohmann::json& body) {
+    double largest_um = std::nan("");
+    for (const auto& direction : directions_of(body, "peak_error_after_um")) {
+      largest_um = std::fmax(largest_um, number_of(body, "peak_error_after_um", direction));
+    }
+    return largest_um;
+  };
+  std::vector<Text> said;
+  const auto& all = source.history("verification");
+  if (all.size() > 1) {
+    const auto& first = all.front().body;
+    said.push_back(
+        {source.tell("These figures are of verification {} of this job; the first one left at most {} µm ({}). All of "
+                     "them are listed under Verification.",
+                     all.size(), shown(largest_of(first), 1), source.say(text_of(first, "verdict")))});
+  }
+  double promised_um = std::nan("");
+  if (const LoadedArtefact* model = source.find("model")) {
+    for (const auto& figure : list_of(model->body, "figures")) {
+      promised_um = std::fmax(promised_um, number_of(figure, "peak_held_out_um"));
+    }
+  }
+  const double left_um = largest_of(verification.body);
+  if (!std::isfinite(promised_um) || !std::isfinite(left_um)) return said;
+  const bool held = left_um <= limits::promise_reach * promised_um;
+  const std::string promised = shown(promised_um, 1);
+  const std::string left = shown(left_um, 1);
+  said.push_back({held
+                      ? source.tell("The fit promised at most {} µm; measured are {} µm: held.", promised, left)
+                      : source.tell("The fit promised at most {} µm; measured are {} µm: not reached.", promised, left),
+                  !held});
+  return said;
+}
+
+}  // namespace
+
 std::optional<Section> summary_section(const Source& source) {
   Section section{"summary", source.say("Result"), {}};
   const LoadedArtefact* verification = source.find("verification");
@@ -175,6 +216,7 @@ std::optional<Section> summary_section(const Source& source) {
   Figures figures;
   for (const auto& direction : directions) figures.figures.push_back(left_in(source, direction));
   section.blocks.emplace_back(std::move(figures));
+  for (auto& text : what_was_promised(source, *verification)) section.blocks.emplace_back(std::move(text));
   section.blocks.emplace_back(before_and_after(source, directions));
   if (auto table = brief(source)) section.blocks.emplace_back(std::move(*table));
   return section;

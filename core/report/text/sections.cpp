@@ -31,6 +31,14 @@ std::vector<TextEntry> texts_of_sections() {
       {"{} points were refused or look doubtful, {} of them so that a result is in question; they are listed under "
        "\"Refused or doubtful\".",
        "有 {} 项被拒绝或存疑，其中 {} 项使结果存在疑问；列于“被拒绝或存疑的项目”一节。"},
+      {"These figures are of verification {} of this job; the first one left at most {} µm ({}). All of them are "
+       "listed "
+       "under Verification.",
+       "以上数值来自本作业的第 {} 次验证；第一次验证最大剩余 {} µm（{}）。全部验证列于“验证”一节。"},
+      {"The fit promised at most {} µm; measured are {} µm: held.", "拟合承诺不超过 {} µm；实测 {} µm：已达到。"},
+      {"The fit promised at most {} µm; measured are {} µm: not reached.",
+       "拟合承诺不超过 {} µm；实测 {} µm：未达到。"},
+      {"Why this method: {}.", "采用此方法的原因：{}。"},
       {"Largest error left in {}", "{} 向剩余最大误差"},
       {"before {} µm", "补偿前 {} µm"},
       {"limit {} {}: kept", "限值 {} {}：满足"},
@@ -174,7 +182,8 @@ std::vector<TextEntry> texts_of_sections() {
       {"Kept for the model:", "模型采用："},
       {"Clusters and correlation with the errors", "聚类及与误差的相关性"},
       {"cluster", "类"},
-      {"sum of correlations", "相关系数之和"},
+      {"sum of correlations, absolute", "相关系数绝对值之和"},
+      {"sum of correlations, with sign", "相关系数之和（带符号）"},
       {"kept", "采用"},
       {"yes", "是"},
       {"no", "否"},

@@ -35,6 +35,19 @@ std::vector<TextEntry> texts_of_sentences() {
        "只有一种转速：再以另一转速运行一段即可给出有保证的预测带。"},
       {"The sensors rose nearly together: a stretch with the spindle at rest separates them.",
        "各传感器几乎同步升温：增加一段主轴静止的运行可将其区分。"},
+      {"{} as asked for; leaves {} um rms with {} left out", "按要求采用{0}；留出：{2}，残差均方根为 {1} um"},
+      {"{} leaves {} um rms with {} left out; one cycle cannot rank methods, so the one that shrinks what it cannot "
+       "tell "
+       "is taken",
+       "{0}（留出：{2}）残差均方根为 {1} um；仅一个循环无法比较各方法，因此采用会收缩无法分辨部分的方法"},
+      {"{} leaves {} um rms with {} left out; with the noise of its sensors {} um are to be expected, the least of all",
+       "{0}（留出：{2}）残差均方根为 {1} um；计入其传感器噪声，预期为 {3} um，为各方法中最小"},
+      {"{} leaves {} um rms with {} left out; with the noise of their sensors {} is to leave {} um and this one {} um: "
+       "{}",
+       "{0}（留出：{2}）残差均方根为 {1} um；计入传感器噪声，预期{3}为 {4} um，本方法为 {5} um：{6}"},
+      {"not clearly worse, and steadier where the sensors rise together", "并无明显劣势，且在各传感器同步升温时更稳定"},
+      {"not clearly worse, and simpler", "并无明显劣势，且更简单"},
+      {"{}; corrected by the run {}", "{}；已用运行 {} 修正"},
       {"{}; it is not used", "{}；未采用"},
       {"{} gives no samples", "{} 没有采样"},
       {"{} stopped during the run", "{} 在运行中停止"},

@@ -47,7 +47,11 @@ static void fillRun(RunView* run, double duration_s) {
   values.append({"spindle_rpm", speed.last(), {}, Judgement::none});
   run->setValues(values);
   run->setRegimes({{300, 9000, 3000, false}, {9000, 9150, 8000, true}, {9150, duration_s, 1500, true}}, 8000);
-  run->setMarks({{4210, "Door opened", Judgement::none}, {7000, "T14 lost 6 min", Judgement::warn}});
+  run->setMarks({{4210, "Door opened", Judgement::none},
+                 {4900, "Pause", Judgement::none},
+                 {5300, "Pause", Judgement::none},
+                 {7000, "T14 lost 6 min", Judgement::warn},
+                 {0.98 * duration_s, "Coolant refilled", Judgement::none}});
   CameraMarks marks;
   marks.targetRegion = {222, 132, 196, 196};
   marks.target = QPointF(320, 230.4);
