@@ -95,6 +95,7 @@ Result<Diagnosis> Diagnoser::run() {
   if (m_context.cancelled()) return fail(ErrorCode::cancelled);
   m_out.notes = m_selection.base->network().notes;
   if (!m_moved_elsewhere.empty()) m_out.notes.push_back("moved_elsewhere:" + m_moved_elsewhere);
+  if (!m_selection.settling.empty()) m_out.notes.push_back("settles_by_itself:" + m_selection.settling);
   std::vector<Sentence> far = far_parameters();
   m_out.sentences.push_back(explain_verdict(m_out));
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
@@ -211,16 +212,16 @@ void Diagnoser::decide() {
   const bool found = !m_selection.effects().empty();
   if (!found) {
     m_out.verdict = after.largest > least_evident ? Verdict::unexplained : Verdict::consistent;
-    if (m_out.verdict == Verdict::consistent && !m_lumps_only) {
+    if (m_out.verdict == Verdict::consistent && !m_lumps_only && m_selection.settling.empty()) {
       m_moved_elsewhere = moved_elsewhere(*m_selection.base, m_limits.others);
     }
-    if (!m_moved_elsewhere.empty()) m_out.verdict = Verdict::unexplained;
+    if (!m_moved_elsewhere.empty() || !m_selection.settling.empty()) m_out.verdict = Verdict::unexplained;
     m_used = m_selection.base;
   } else {
     // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
     // imitated less well. The proof has the distribution of both.
     m_out.refuted = refuted();
-    const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0;
+    const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0 || !m_selection.settling.empty();
     // What stands for many parts as one lump each is a guess, and leaves what it leaves.
     const double left = leftover(of_best);
     const bool by_far = !m_lumps_only && left > most_left_widths;

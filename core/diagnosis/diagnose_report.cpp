@@ -144,6 +144,10 @@ void Diagnoser::mismatch() {
   }
   if (m.channels.empty() && !order.empty()) m.channels.push_back(order.front()->channel);
   if (!m_moved_elsewhere.empty()) m.channels = {m_moved_elsewhere};
+  if (!m_selection.settling.empty()) {
+    std::erase(m.channels, m_selection.settling);
+    m.channels.insert(m.channels.begin(), m_selection.settling);
+  }
   locate();
   times();
 }

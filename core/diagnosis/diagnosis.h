@@ -147,7 +147,9 @@ struct DiagnoseOptions {
 /// has such heat, and nothing is named there. Note "far_from_description:QUANTITY:OF:FACTOR": the fit moved a number of
 /// the description by more than four of its tolerances. Note "sign_turned:CHANNEL": the displacement follows the
 /// description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something moves
-/// the nose that the description has not. Note "no_excitation": nothing moves, or nothing drives the machine.
+/// the nose that the description has not. Note "settles_by_itself:CHANNEL": a
+/// displacement moves by itself and slows down, and nothing shows that it follows the room. Note "no_excitation":
+/// nothing moves, or nothing drives the machine.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

@@ -30,6 +30,7 @@ Result<Selection> Selector::run(const physics::Machine& machine, std::shared_ptr
       only_what_stands();
     }
   }
+  try_settling();
   return m_result;
 }
 
@@ -91,6 +92,7 @@ Result<Selection> Selector::again(const Selection& selection, const std::shared_
     m_result.best = m_result.base;
   }
   only_what_stands();
+  try_settling();
   return m_result;
 }
 
@@ -223,7 +225,6 @@ void Selector::ask_others() {
 }
 
 bool Selector::ask_others_for_one() {
-  constexpr double speaks_against = -2.0;
   const Model& best = *m_result.best;
   if (m_options.others.empty() || !m_options.own_misfit || happened_once(best)) return false;
   std::vector<Candidate> screened = screen(best, m_facts);

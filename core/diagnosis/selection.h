@@ -44,7 +44,8 @@ struct Selection {
   std::vector<Candidate> screened;                          // around the base
   std::vector<std::vector<std::shared_ptr<Model>>> levels;  // refits with one effect more, best first
   double falling_heat = 0.0;  // log evidence by which heat that falls with speed beats the best; 0: it does not
-  std::size_t described = 0;  // effects that the description had
+  std::string settling;  // the displacement that settles by itself, where that explains it as well as the best does
+  std::size_t described = 0;                 // effects that the description had
   std::vector<std::size_t> effects() const;  // indices in best->machine().effects
 };
 

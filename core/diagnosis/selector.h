@@ -24,6 +24,7 @@ class Selector {
   void only_what_stands();
 
   static constexpr double clearly_deeper = 0.5;
+  static constexpr double speaks_against = -2.0;
 
   static ModelPtr under(const Model& model, const std::shared_ptr<const Dataset>& data);
 
@@ -47,6 +48,12 @@ class Selector {
   /// Heat that may fall with speed, beside the effects or in the place of one: no law has it, but where it explains
   /// more than they do, they only stand in for it.
   double falling_heat(const Model& best, const std::shared_ptr<const Dataset>& usual) const;
+
+  /// A displacement that settles by itself as the rival of what has a start of its own in each recording, and of none:
+  /// where it explains as much as an effect, nothing shows that the effect is there (settling.cpp).
+  void try_settling();
+  bool settles_instead(std::size_t effect, const std::string& channel) const;
+  bool settles_beside_nothing(const std::string& channel) const;
 
   /// Comparable between models under noises of their own.
   static bool by_total(const ModelPtr& a, const ModelPtr& b) {

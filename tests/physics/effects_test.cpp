@@ -203,6 +203,13 @@ TEST(Effect, FreeSpeedHeatHasExactDerivatives) {
   expect_exact_derivatives(s);
 }
 
+TEST(Effect, SettlingByItselfHasExactDerivatives) {
+  RunFacts facts;
+  Setting s = setting_on(false, *find_effect("structure_ambient"), facts);
+  s.spec = settling_by_itself(s.machine.displacements.front().channel);
+  expect_exact_derivatives(s);
+}
+
 TEST(Effect, RadiationIsTheFourthPowerLaw) {
   Machine machine = test::spindle();
   machine.effects = {{"radiation", false, {{"emissivity", 0.9}}, {}}};

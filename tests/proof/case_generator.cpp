@@ -66,8 +66,10 @@ std::vector<std::string> drawn_effects(const std::string& what, Noise& noise) {
     do ids.resize(1), ids.push_back(listed()[1 + noise.index(listed().size() - 1)]);
     while (ids[0] == ids[1] || (ids[0].rfind("sensor", 0) == 0 && ids[1].rfind("sensor", 0) == 0));
   } else if (what == "unlisted") {
-    static const char* odd[] = {"unlisted:wandering_heat", "unlisted:creep", "unlisted:patch_of_air", "unlisted:slack"};
+    static const char* odd[] = {"unlisted:wandering_heat", "unlisted:creep", "unlisted:travelling_heat",
+                                "unlisted:slack"};
     ids.push_back(odd[noise.index(4)]);
+    if (ids.back() == "unlisted:travelling_heat" && noise.uniform() < 0.5) ids.back() = "unlisted:stiction";
   } else if (what != "none") {
     ids.push_back(what);
   }
@@ -98,11 +100,14 @@ bool size_effects(Truth& real, const std::vector<std::string>& ids, const Schedu
   });
 }
 
+/// A draught is as likely as each of listed(), from its own share of the draw: other seeds keep their cases.
 std::string mixture(double draw, Noise& noise) {
-  return draw < 0.15   ? "none"
-         : draw < 0.27 ? "pair"
-         : draw < 0.36 ? "unlisted"
-                       : listed()[noise.index(listed().size())];
+  const double draught = 0.64 / (1.0 + static_cast<double>(listed().size()));
+  return draw > 1.0 - draught ? "draught"
+         : draw < 0.15        ? "none"
+         : draw < 0.27        ? "pair"
+         : draw < 0.36        ? "unlisted"
+                              : listed()[noise.index(listed().size())];
 }
 
 }  // namespace

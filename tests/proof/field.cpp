@@ -113,7 +113,7 @@ class Field {
       const int outer = i * nr + nr - 1;
       const double x = (i + 0.5) * m_dz;
       double h = m.h + (m.speed_a > 0 ? m.speed_a * std::pow(std::max(1e-9, in.rpm / m.rated_rpm), m.speed_m) : 0);
-      if (m.film_patch > 0 && in.time > 7000 && in.time < 13000) h += m.film_patch * (x / m.length);
+      if (m.draught_h > 0 && in.time > m.draught_from_s && in.time < m.draught_to_s) h += m.draught_h * (x / m.length);
       const double a = t[outer] + 273.15, b = in.room + 273.15;
       h += m.eps * 5.67e-8 * (a + b) * (a * a + b * b);
       double flow = h * (in.room - t[outer]);
@@ -143,6 +143,11 @@ class Field {
           std::sin(in.time / 3100.0 + 1.3 * std::sin(in.time / 1234.0 + static_cast<double>(m.wander_seed % 7)));
       heat(m.wander_W * std::max(0.0, level), std::max(0.0, m.wander_x - half), std::min(m.length, m.wander_x + half));
     }
+    if (m.travel_W > 0 && in.rpm > 0) {  // under a nut or slide that goes to and fro
+      const double share = 0.5 - 0.5 * std::cos(2 * pi * in.time / m.travel_s);
+      const double at = m.travel_from + share * (m.travel_to - m.travel_from);
+      heat(m.travel_W, at - half, at + half);
+    }
   }
 
   const Truth& m_m;
@@ -164,6 +169,7 @@ Readings run(const Truth& m, const Schedule& s) {
   Readings out;
   out.temperatures.resize(m.sensors.size());
   double room_lag = 0, bend = 0, bend_room = 0, lagged = m.start_C;
+  double held = 0;            // growth that the seat has let through
   const double share = 0.37;  // inputs switch inside the interval
   for (std::size_t k = 0; k < s.time.size(); ++k) {
     if (k > 0) {
@@ -192,8 +198,10 @@ Readings run(const Truth& m, const Schedule& s) {
       out.temperatures[j].push_back(value);
     }
     const double creep = m.creep_um * std::log1p(s.time[k] / 900.0);
-    const double slack = m.backlash_um * std::tanh((field.elongation_um() - 12.0) / 4.0);
-    out.dz.push_back(field.elongation_um() + m.ambient_g * room_lag + creep + slack - m.backlash_um * std::tanh(-3.0));
+    const double grown = field.elongation_um();
+    const double slack = m.backlash_um * std::tanh((grown - 12.0) / 4.0);
+    held = std::clamp(held, grown - m.stick_um, grown + m.stick_um);
+    out.dz.push_back(held + m.ambient_g * room_lag + creep + slack - m.backlash_um * std::tanh(-3.0));
     out.dy.push_back(m.bend_g * (bend + 0.3 * bend_room));
   }
   return out;

@@ -60,11 +60,22 @@ HiddenEffect hide(Truth& m, const std::string& id, Noise& noise, double strength
     if (id == "sensor_offset") m.offset_channel = j, m.offset_K = (noise.uniform() < 0.5 ? -1 : 1) * around(0.5, 1.6);
   }
   if (id == "cutting_heat") m.cut_share = around(0.015, 0.06);
+  if (id == "draught") {
+    m.draught_h = around(25, 70);
+    m.draught_from_s = noise.uniform(4000, 9000);
+    m.draught_to_s = m.draught_from_s + noise.uniform(3000, 7000);
+  }
   if (id == "unlisted:wandering_heat")
     m.wander_W = around(0.15, 0.4) * heat_W, m.wander_x = m.length * noise.uniform(0.15, 0.85);
   if (id == "unlisted:creep") m.creep_um = (noise.uniform() < 0.5 ? -1 : 1) * around(2, 6);
-  if (id == "unlisted:patch_of_air") m.film_patch = around(25, 70);
   if (id == "unlisted:slack") m.backlash_um = around(3, 9);
+  if (id == "unlisted:stiction") m.stick_um = around(2, 6);
+  if (id == "unlisted:travelling_heat") {
+    m.travel_W = around(0.15, 0.4) * heat_W;
+    m.travel_from = m.length * noise.uniform(0.1, 0.4);
+    m.travel_to = m.length * noise.uniform(0.6, 0.9);
+    m.travel_s = noise.uniform(3600, 14400);
+  }
   return hidden;
 }
 
@@ -84,8 +95,9 @@ void rescale(Truth& m, const std::string& id, double factor) {
   }
   if (id == "sensor_offset") m.offset_K *= factor;
   if (id == "cutting_heat") m.cut_share *= factor;
+  if (id == "draught") m.draught_h *= factor;
   if (id.rfind("unlisted", 0) == 0)
-    m.wander_W *= factor, m.creep_um *= factor, m.film_patch *= factor, m.backlash_um *= factor;
+    for (double* size : {&m.wander_W, &m.creep_um, &m.backlash_um, &m.stick_um, &m.travel_W}) *size *= factor;
 }
 
 const std::vector<std::string>& listed() {

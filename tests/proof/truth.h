@@ -35,7 +35,9 @@ struct Truth {
   int bend_driver = 0;
   int lag_channel = -1, offset_channel = -1;
   double lag_s = 0, offset_K = 0;
-  double wander_W = 0, wander_x = 0, creep_um = 0, backlash_um = 0, film_patch = 0;
+  double draught_h = 0, draught_from_s = 0, draught_to_s = 0;  // grows towards the nose
+  double wander_W = 0, wander_x = 0, creep_um = 0, backlash_um = 0, stick_um = 0;
+  double travel_W = 0, travel_from = 0, travel_to = 0, travel_s = 1;
   std::uint64_t wander_seed = 0;
 };
 

@@ -1,5 +1,5 @@
-// A door stands open for a while: between two moments the film is stronger and the air may be colder than the logged
-// room.
+// A door stands open for a while: between two moments the film is stronger, more so at one end where the air comes from
+// there, and the air may be colder than the logged room.
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
@@ -19,6 +19,19 @@ Strength law(const LawPoint& at) {
   return s;
 }
 
+/// Along a rod the film is h (1 + t (x / L - 1/2)).
+void tilt_film(Term& film, int tilt) {
+  film.place_parameter = tilt;
+  film.reshape = [even = film.weights](double t, std::vector<double>& weights, std::vector<double>& by_tilt) {
+    weights = by_tilt = even;
+    const double cells = static_cast<double>(even.size());
+    for (std::size_t i = 0; i < even.size(); ++i) {
+      by_tilt[i] *= (static_cast<double>(i) + 0.5) / cells - 0.5;
+      weights[i] += t * by_tilt[i];
+    }
+  };
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const int strength = builder.effect_parameter(spec, index, "h_W_m2K");
   const int from = builder.effect_parameter(spec, index, "from_s");
@@ -27,6 +40,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   air.name = "draught";
   if (spec.numbers.count("colder_K") != 0) air.parts.push_back({builder.effect_parameter(spec, index, "colder_K"), -1});
   const int environment = builder.environment(std::move(air));
+  const int tilt = spec.numbers.count("film_tilt") != 0 ? builder.effect_parameter(spec, index, "film_tilt") : -1;
   for_components(builder, spec, [&](const Component& component) {
     if (!has_surface(component)) return;
     Term film = builder.film_over(component.id, 0.0, component.length_mm);
@@ -35,6 +49,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     film.environment = environment;
     film.parameters = {strength, from, to};
     film.law = law;
+    if (tilt >= 0 && !component.lump) tilt_film(film, tilt);
     builder.add(std::move(film));
   });
 }
@@ -42,8 +57,12 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
   std::vector<EffectSpec> list;
   bool surface = false;
-  for (const auto& component : machine.components)
-    surface = surface || (!component.prescribed && has_surface(component));
+  bool rod = false;
+  for (const auto& component : machine.components) {
+    const bool here = !component.prescribed && has_surface(component);
+    surface = surface || here;
+    rod = rod || (here && !component.lump);
+  }
   if (!surface || facts.duration_s < 3600.0) return list;
   const double width_s = facts.duration_s / 8.0;
   const auto window = [&](double from_s, double to_s) {
@@ -54,6 +73,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
                     {"from_s_prior_sigma", 0.5 * width_s},
                     {"to_s_prior_sigma", 0.5 * width_s},
                     {"colder_K", 0.0}};
+    if (rod) spec.numbers["film_tilt"] = 0.0;
     list.push_back(std::move(spec));
   };
   for (int i = 0; i < 8; ++i) window(i * width_s, (i + 1) * width_s);
@@ -66,14 +86,15 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect draught_effect;
 const Effect draught_effect = {"draught",
-                               "-h_d P (T - (T_room + dT)) for t in [t1, t2]",
+                               "-h_d (1 + t (x / L - 1/2)) P (T - (T_room + dT)) for t in [t1, t2]",
                                "open door or gate: films of 5 to 40 W/(m2 K) more, air some kelvin colder",
                                "All surfaces cool together during one stretch of time that no logged input explains",
                                "room_sensor_fault coolant",
                                {{"h_W_m2K", 15.0, 0.0, 200.0, true},
                                 {"from_s", 1800.0, 0.0, 1e6},
                                 {"to_s", 1800.0, 0.0, 1e6},
-                                {"colder_K", 3.0, -20.0, 20.0}},
+                                {"colder_K", 3.0, -20.0, 20.0},
+                                {"film_tilt", 1.0, -2.0, 2.0}},
                                {"h_W_m2K"},
                                draught::add,
                                draught::candidates};

@@ -69,6 +69,9 @@ bool happens_once(std::string_view id);
 /// Heat of a lump that is free at each quarter of the speed, also to fall with it: no effect, but the rival of all
 /// laws.
 EffectSpec free_speed_heat(const Component& component);
+/// A displacement that settles by itself, whatever the room and the machine do: no effect, but the rival of those that
+/// have a start of their own in each recording.
+EffectSpec settling_by_itself(const std::string& channel);
 /// "convection, speed_convection, ..."
 std::string effect_ids();
 
