@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 183> measuring = {{
+constexpr std::array<const char*, 184> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -87,6 +87,9 @@ constexpr std::array<const char*, 183> measuring = {{
     QT_TRANSLATE_NOOP("core", "a position is not a number"),
     QT_TRANSLATE_NOOP("core", "the two positions are %1 px apart in the image, at least %2 px are needed"),
     QT_TRANSLATE_NOOP("core", "both positions have the same machine coordinates"),
+    QT_TRANSLATE_NOOP("core",
+                      "what was measured stood still while the machine moved: the region shows more of what stands "
+                      "still than of the target; draw it closer to the target"),
     QT_TRANSLATE_NOOP("core", "the positions span only %1 px in the image, at least %2 px are needed"),
     QT_TRANSLATE_NOOP("core", "the positions lie on one line: move along both axes"),
     QT_TRANSLATE_NOOP("core", "the positions span only %1 px in one direction, at least %2 px are needed"),

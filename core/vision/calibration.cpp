@@ -57,8 +57,21 @@ Fit fit_two(const Points& pixels, const Points& machine_um) {
   return fit;
 }
 
+// A camera that shows less than a pixel of this much travel would be of no use to anybody.
+constexpr double clear_move_um = 100.0;
+constexpr double stands_still_px = 1.0;
+
+double largest_step(const Points& points) {
+  return (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff();
+}
+
 std::string refusal_of(const Points& pixels, const Points& machine_um, const CalibrationLimits& limits) {
   if (!pixels.allFinite() || !machine_um.allFinite()) return "a position is not a number";
+  if (largest_step(pixels) < stands_still_px && largest_step(machine_um) > clear_move_um) {
+    return "what was measured stood still while the machine moved: the region shows more of what stands still than of "
+           "the "
+           "target; draw it closer to the target";
+  }
   if (pixels.rows() == 2) {
     const double distance = (pixels.row(1) - pixels.row(0)).norm();
     if (distance < limits.least_span_two_px) {

@@ -3953,6 +3953,10 @@
         <source>%1 leaves %2 um rms with %3 left out; with the noise of their sensors %4 is to leave %5 um and this one %6 um: %7</source>
         <translation>%1（留出：%3）残差均方根为 %2 µm；计入传感器噪声，预期%4为 %5 µm，本方法为 %6 µm：%7</translation>
     </message>
+    <message>
+        <source>what was measured stood still while the machine moved: the region shows more of what stands still than of the target; draw it closer to the target</source>
+        <translation>机床移动时所测之物静止不动：该区域显示的静止背景多于标靶；请把区域画得更贴近标靶</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>

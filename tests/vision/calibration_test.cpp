@@ -69,6 +69,14 @@ TEST(Calibration, TwoPositionsAreASimilarityWithStatedHandedness) {
   ASSERT_FALSE(result->warnings.empty());
 }
 
+TEST(Calibration, SaysWhenTheRegionShowsWhatStandsStill) {
+  std::vector<CalibrationView> views = views_at(grid(), true_um_from_px());
+  for (CalibrationView& view : views) view.x_px *= 1e-3, view.y_px *= 1e-3;
+  const auto result = calibrate(views);
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().context.at("reason").find("stands still"), std::string::npos);
+}
+
 TEST(Calibration, RefusesWhatCannotSupportTheClaim) {
   const auto refused = [](std::vector<CalibrationView> views) {
     const auto result = calibrate(std::move(views));
