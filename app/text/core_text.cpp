@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "app/text/core_phrases.h"
+#include "app/text/error_text.h"
+#include "core/base/error_json.h"
 
 namespace zerodrift {
 namespace {
@@ -112,11 +114,26 @@ class Phrasebook {
   QHash<QString, QString> m_said;
 };
 
+/// Core tells of a failure inside another text by its code and facts, at the end: "...: machine_silent what=reading".
+QString withErrorInWords(const QString& text) {
+  if (!text.contains(QLatin1Char('='))) return text;
+  for (qsizetype from = 0; from >= 0;) {
+    if (const auto error = error_described(text.mid(from).toStdString())) {
+      QString sentence = textOf(*error).sentence;
+      while (sentence.endsWith(QLatin1Char('.')) || sentence.endsWith(QChar(0x3002))) sentence.chop(1);
+      return text.left(from) + sentence;
+    }
+    const qsizetype colon = text.indexOf(QStringLiteral(": "), from);
+    from = colon < 0 ? -1 : colon + 2;
+  }
+  return text;
+}
+
 }  // namespace
 
 QString coreText(const QString& english) {
   static Phrasebook book;
-  return english.isEmpty() ? english : book.say(english);
+  return english.isEmpty() ? english : book.say(withErrorInWords(english));
 }
 
 QString coreText(const std::string& english) {

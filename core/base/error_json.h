@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string_view>
 
 #include "core/base/error.h"
 
@@ -12,5 +13,7 @@ namespace zerodrift {
 nlohmann::json to_json(const Error& error);
 /// Nothing when it is no error; a code of a newer version becomes ErrorCode::internal with the code as detail.
 std::optional<Error> error_from_json(const nlohmann::json& value);
+/// The error of which describe() has made this line; nothing for any other text.
+std::optional<Error> error_described(std::string_view line);
 
 }  // namespace zerodrift

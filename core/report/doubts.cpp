@@ -31,30 +31,40 @@ const char* step_of(const std::string& kind) {
 }
 
 /// Gathers doubts about one artefact after the other.
+std::string in_words(const Source& source, const Error& error) {
+  const auto fact = [&](const char* key) {
+    const auto at = error.context.find(key);
+    return at == error.context.end() ? std::string("-") : source.in_words(at->second);
+  };
+  switch (error.code) {
+    case ErrorCode::not_enough_data:
+      return source.tell("too little data: {} has {}, {} needed", fact("what"), fact("found"), fact("needed"));
+    case ErrorCode::no_variation:
+      return source.tell("{} never changes", fact("what"));
+    case ErrorCode::data_does_not_fit:
+      return source.tell("{} does not fit: found {}, expected {}", fact("what"), fact("found"), fact("expected"));
+    case ErrorCode::machine_silent:
+    case ErrorCode::machine_link_lost:
+    case ErrorCode::machine_unreachable:
+      return source.say("the controller did not answer");
+    default:
+      return source.tell("the program could not do it ({})", name_of(error.code));
+  }
+}
+
 /// Of {"said", "code", "context"}: what was not done, and why.
 std::string what_failed(const Source& source, const json& problem) {
   const auto error = error_from_json(problem);
   if (!error) return json_text(problem);
-  const auto fact = [&](const char* key) {
-    const auto at = error->context.find(key);
-    return at == error->context.end() ? std::string("-") : source.in_words(at->second);
-  };
-  std::string why;
-  switch (error->code) {
-    case ErrorCode::not_enough_data:
-      why = source.tell("too little data: {} has {}, {} needed", fact("what"), fact("found"), fact("needed"));
-      break;
-    case ErrorCode::no_variation:
-      why = source.tell("{} never changes", fact("what"));
-      break;
-    case ErrorCode::data_does_not_fit:
-      why = source.tell("{} does not fit: found {}, expected {}", fact("what"), fact("found"), fact("expected"));
-      break;
-    default:
-      why = source.tell("the program could not do it ({})", name_of(error->code));
-  }
-  if (problem.value("said", "") == "no_correction") return source.tell("no correction: {}", why);
-  return source.tell("What the simulation lacks was not searched: {}", why);
+  if (problem.value("said", "") == "no_correction") return source.tell("no correction: {}", in_words(source, *error));
+  return source.tell("What the simulation lacks was not searched: {}", in_words(source, *error));
+}
+
+/// A text of a step; what failed stands at its end, by code and facts.
+std::string told(const Source& source, const std::string& text) {
+  const std::size_t colon = text.find(": ");
+  const auto error = colon == std::string::npos ? std::nullopt : error_described(text.substr(colon + 2));
+  return source.in_words(error ? text.substr(0, colon + 2) + in_words(source, *error) : text);
 }
 
 class Doubts {
@@ -83,7 +93,7 @@ class Doubts {
   void problems(const json& body) {
     for (const auto& problem : body.value("problems", json::array())) {
       const std::string text =
-          problem.is_string() ? m_source.in_words(problem.get<std::string>()) : what_failed(m_source, problem);
+          problem.is_string() ? told(m_source, problem.get<std::string>()) : what_failed(m_source, problem);
       m_all.push_back({Verdict::doubtful, text, m_source.trace(m_kind, "problems")});
     }
   }

@@ -3,6 +3,8 @@
 #include <QTest>
 #include <sstream>
 
+#include "app/text/core_text.h"
+
 namespace zerodrift {
 
 class ErrorTextTest : public QObject {
@@ -25,6 +27,18 @@ class ErrorTextTest : public QObject {
                  qPrintable(QStringLiteral("%1 does not say %2").arg(all, QString::fromStdString(key))));
       }
     }
+  }
+
+  /// Why something failed may itself be an error: nobody reads its code.
+  void anErrorInsideAnotherIsSaid() {
+    const Error silent{ErrorCode::machine_silent, {{"timeout_ms", "1000"}, {"what", "reading"}}};
+    const ErrorText text = textOf({ErrorCode::upload_restored, {{"reason", describe(silent)}}});
+    QCOMPARE(text.sentence,
+             QStringLiteral("The upload failed (The controller did not answer within 1000 ms (reading)); "
+                            "the old table was restored and read back."));
+    QCOMPARE(coreText("the ramp could not be watched: " + describe(silent)),
+             QStringLiteral("the ramp could not be watched: The controller did not answer within 1000 ms (reading)"));
+    QCOMPARE(coreText(std::string("a = b: c=d")), QStringLiteral("a = b: c=d"));
   }
 };
 

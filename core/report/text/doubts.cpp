@@ -91,6 +91,7 @@ std::vector<TextEntry> texts_of_doubts() {
       {"too little data: {} has {}, {} needed", "数据不足：{}为 {}，需要 {}"},
       {"{} never changes", "{}始终不变"},
       {"{} does not fit: found {}, expected {}", "{}不符：实际为 {}，应为 {}"},
+      {"the controller did not answer", "控制器没有应答"},
       {"the program could not do it ({})", "程序未能完成（{}）"},
       {"link: {}, {} times, overcome", "通信：{}，{} 次，已恢复"},
       {"link: {} {} times, overcome", "通信：{}，{} 次，已恢复"},
