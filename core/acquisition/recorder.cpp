@@ -1,6 +1,7 @@
 #include "core/acquisition/recorder.h"
 
 #include "core/acquisition/run.h"
+#include "core/base/real_time.h"
 
 namespace zerodrift::acquisition {
 
@@ -48,11 +49,13 @@ Recorder::~Recorder() = default;
 
 Result<RunSummary> Recorder::run(const Plan& plan, const TaskContext& context) {
   const std::stop_callback link(context.stop, [this] { m_control->stop().request_stop(); });
+  const RealTimeTurns turns(m_options.real_time);
   return Run(m_machine, m_errors, m_clock, m_sink, m_options, *m_control, context).start(plan);
 }
 
 Result<RunSummary> Recorder::resume(const InterruptedRun& interrupted, const TaskContext& context) {
   const std::stop_callback link(context.stop, [this] { m_control->stop().request_stop(); });
+  const RealTimeTurns turns(m_options.real_time);
   return Run(m_machine, m_errors, m_clock, m_sink, m_options, *m_control, context).go_on(interrupted);
 }
 

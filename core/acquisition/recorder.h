@@ -61,6 +61,7 @@ struct RecorderOptions {
   double commit_period_s = 1.0;                  // of wall time
   double link_patience_s = 600.0;                // of wall time, then the run is given up (and can be resumed)
   int failed_measurements = 10;                  // in a row, then the run is given up
+  bool real_time = false;                        // ask for turns before other threads' (core/base/real_time.h)
   bool with_compensation = false;                // also record the switch and what is applied
   std::optional<std::array<double, 3>> zero_um;  // use this zero instead of taking one at the start
   Guard guard = compensation_must_be_off("recording");

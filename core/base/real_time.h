@@ -8,4 +8,16 @@ namespace zerodrift {
 /// of the time: one that computes on and on would keep the processor from all others.
 bool ask_for_real_time();
 
+/// The same for as long as this lives, and not for threads that are started meanwhile; `wanted` false does nothing.
+class RealTimeTurns {
+ public:
+  explicit RealTimeTurns(bool wanted);
+  ~RealTimeTurns();
+  RealTimeTurns(const RealTimeTurns&) = delete;
+  RealTimeTurns& operator=(const RealTimeTurns&) = delete;
+
+ private:
+  bool m_granted = false;
+};
+
 }  // namespace zerodrift

@@ -150,6 +150,7 @@ TEST(Endurance, AnHourByTheWall) {
   plan.measure_period_s = 600.0;
   plan.steps = {{3600.0, 3000.0, true, true}};
   RecorderOptions options;
+  options.real_time = true;  // as with a machine of iron
   double first_MB = 0.0;
   double largest_MB = 0.0;
   double last_s = 0.0;

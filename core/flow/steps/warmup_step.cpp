@@ -113,6 +113,8 @@ Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const 
   ZD_TRY(const auto source, open_error_source(job, devices, &cameras));
   if (options.cameras) options.cameras(cameras);
   recorder_options.time_factor = devices.profile.time_factor;
+  // A machine of iron waits for its next sample most of the time; an accelerated one would keep the processor.
+  recorder_options.real_time = devices.profile.time_factor <= 1.0;
   recorder_options.observer = [&](const acquisition::RunUpdate& update) {
     context.progress(update.fraction, std::string(acquisition::name_of(update.phase)),
                      update.seconds_left / devices.profile.time_factor);
