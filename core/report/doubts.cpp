@@ -39,6 +39,10 @@ std::string in_words(const Source& source, const Error& error) {
   switch (error.code) {
     case ErrorCode::not_enough_data:
       return source.tell("too little data: {} has {}, {} needed", fact("what"), fact("found"), fact("needed"));
+    case ErrorCode::channel_missing:
+      return source.tell("{} is missing", fact("channel"));
+    case ErrorCode::sensor_dead:
+      return source.tell("{} gives no samples", fact("sensor"));
     case ErrorCode::no_variation:
       return source.tell("{} never changes", fact("what"));
     case ErrorCode::data_does_not_fit:

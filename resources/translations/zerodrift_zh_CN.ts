@@ -9144,6 +9144,10 @@ The sum of absolute values does not have this fault.</source>
         <source>Opens Upload, which compares the table with what the machine holds and asks before it writes.</source>
         <translation>打开“上传”页，与机床中的补偿表比较，写入前会询问。</translation>
     </message>
+    <message>
+        <source>No correction could be computed: %1</source>
+        <translation>无法计算修正：%1</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::VerifyResult</name>

@@ -146,17 +146,44 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(std::abs(page->state().compared_s - 179 * 60.0) < 1.0);
   }
 
+  /// What failed is kept as code and facts, once, and said on the page.
+  void aCorrectionThatCannotBeMadeIsSaid() {
+    Application application(m_theme);
+    QVERIFY(recorded(application));
+    auto& job = *application.bench().job();
+    const auto table = tableOf("T99_C");  // of a sensor that the run does not have
+    QVERIFY(put(job, "upload", {{"table", table}, {"sign_check", {{"passed", true}}}}, {}));
+    const SeriesId series = record(job, "verification", 180, 0.12);
+    QVERIFY(series != 0);
+    const auto upload = job.latest("upload");
+    const auto warmup = job.latest("warmup");
+    QVERIFY(put(job, "verification", {{"series", series}, {"limit_um", 5.0}, {"problems", nlohmann::json::array()}},
+                {(*warmup)->id, (*upload)->id}));
+    for (int time = 0; time < 2; ++time) {
+      const auto judged = zerodrift::flow::judge_again(job, 2.0);
+      QVERIFY2(judged.has_value(), judged ? "" : describe(judged.error()).c_str());
+      QVERIFY(application.bench().keep(*judged).has_value());
+    }
+    const auto problems = application.bench().body("verification").at("problems");
+    QCOMPARE(problems.size(), std::size_t{1});
+    QCOMPARE(problems[0].value("said", ""), std::string("no_correction"));
+    QCOMPARE(problems[0].value("code", ""), std::string("channel_missing"));
+    application.openPage(QStringLiteral("verify"));
+    auto* page = qobject_cast<zerodrift::ui::VerifyPage*>(application.presenter(QStringLiteral("verify"))->page());
+    QVERIFY2(page->state().noCorrection.contains(QStringLiteral("T99")), qPrintable(page->state().noCorrection));
+  }
+
  private:
   static bool put(Job& job, const char* kind, const nlohmann::json& body,
                   const std::vector<zerodrift::commissioning::ArtefactId>& inputs) {
     return job.put(NewArtefact::of(kind, body, inputs)).has_value();
   }
 
-  static nlohmann::json tableOf() {
+  static nlohmann::json tableOf(const char* second = "T3_C") {
     zerodrift::compensation::Table table;
     for (int axis = 0; axis < 3; ++axis) {
       auto& record = table.axes[std::string(1, "XYZ"[axis])];
-      record.terms = {{"T1_C", um_per_K[axis][0], 20.0}, {"T3_C", um_per_K[axis][1], 20.0}};
+      record.terms = {{"T1_C", um_per_K[axis][0], 20.0}, {second, um_per_K[axis][1], 20.0}};
     }
     return zerodrift::compensation::to_json(table);
   }

@@ -394,7 +394,8 @@ void VerifyPage::renderCorrection() {
     m_table->selectRow(m_state.corrections[first].proposed ? first : 0);
   }
   const QString conclusion =
-      m_state.corrections.isEmpty() ? tr("The correction is computed from the verification run when it is finished.")
+      !m_state.noCorrection.isEmpty() ? tr("No correction could be computed: %1").arg(m_state.noCorrection)
+      : m_state.corrections.isEmpty() ? tr("The correction is computed from the verification run when it is finished.")
       : m_state.correctionProposed
           ? tr("With the correction the table is written anew, as a new version. The old one stays for rollback.")
       : std::any_of(m_state.corrections.begin(), m_state.corrections.end(),

@@ -66,6 +66,7 @@ struct VerifyState {
   QString switchedOff{};       // the same, when the compensation is off
   QString notHeld{};           // the same, when the machine does not hold the job's table: said on the page, too
   double compared_s = std::numeric_limits<double>::quiet_NaN();
+  QString noCorrection{};  // why none could be computed of a finished run; empty: it could
   double promised_um = std::numeric_limits<double>::quiet_NaN();  // what the fit said would be left at most
   double promiseReach = 1.25;  // single measurements may be so many times the means that the fit speaks of
   bool promiseBroken() const { return peakAfter_um > promiseReach * promised_um; }

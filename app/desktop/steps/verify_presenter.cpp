@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/text/error_text.h"
+#include "core/base/error_json.h"
 #include "core/flow/flow.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/verify_compare.h"
@@ -247,6 +249,10 @@ void VerifyPresenter::fillCorrection(ui::VerifyState& state) {
   if (!m_judging.isActive() && body.contains("threshold_um")) m_threshold_um = body["threshold_um"].get<double>();
   state.threshold_um = m_threshold_um;
   compute(**artefact);
+  for (const auto& problem : body.value("problems", json::array())) {
+    const auto error = error_from_json(problem);
+    if (error) state.noCorrection = bench().inWords(lineOf(*error).toStdString());
+  }
   for (const auto& axis : body.value("correction", json::array())) {
     const std::string name = axis.value("axis", "");
     ui::AxisCorrection row;
