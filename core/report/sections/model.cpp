@@ -24,12 +24,13 @@ Text summary_of(const Source& source, const nlohmann::json& body) {
     rms = std::fmax(rms, number_of(figure, "rms_held_out_um"));
     peak = std::fmax(peak, number_of(figure, "peak_held_out_um"));
   }
-  std::string text =
-      source.tell("Method {} on {} sensors: on data it has not seen ({}) it leaves at most {} µm, {} µm rms.",
-                  source.say(text_of(model, "method")), list_of(model, "sensors").size(),
-                  source.say(text_of(model, "held_out")), shown(peak, 1), shown(rms, 1));
+  std::string text = source.tell(
+      "Method {} on {} sensors: on data it has not seen ({}) it leaves at most {} µm, {} µm rms in the worst "
+      "direction.",
+      source.say(text_of(model, "method")), list_of(model, "sensors").size(), source.say(text_of(model, "held_out")),
+      shown(peak, 1), shown(rms, 1));
   if (const std::string reason = text_of(model, "reason"); !reason.empty()) {
-    text += " " + source.tell("Why this method: {}.", source.in_words(reason));
+    text += " " + source.tell("Why this method (rms here is the mean of the directions): {}.", source.in_words(reason));
   }
   const std::string stored = text_of(body, "summary");
   const auto alternative = stored.find("A dynamic model");

@@ -7,8 +7,9 @@ namespace zerodrift::report {
 std::vector<TextEntry> texts_of_figures() {
   return {
       {"Compensation model", "补偿模型"},
-      {"Method {} on {} sensors: on data it has not seen ({}) it leaves at most {} µm, {} µm rms.",
-       "方法：{}，传感器 {} 个。在未见数据上（{}）残差最大 {} µm，均方根 {} µm。"},
+      {"Method {} on {} sensors: on data it has not seen ({}) it leaves at most {} µm, {} µm rms in the worst "
+       "direction.",
+       "方法：{}，传感器 {} 个。在未见数据上（{}）最差方向残差最大 {} µm，均方根 {} µm。"},
       {"What the model leaves, µm", "模型的残差，µm"},
       {"RMS, fitted part", "均方根，拟合数据"},
       {"RMS, unseen", "均方根，未见数据"},
