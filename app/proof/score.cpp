@@ -220,6 +220,8 @@ void Score::count_location(const OpenedAnswer& truth, const json& diagnosis, Jud
       if (id_of(effect, truth) != hidden.id || !effect.at("position_mm").is_number()) continue;
       judgement.location_error_mm = std::abs(effect.at("position_mm").get<double>() - *hidden.position_mm);
       m_location_mm.push_back(*judgement.location_error_mm);
+      const double stated_mm = effect.value("sigma", json::object()).value("position_mm", 0.0);
+      m_location_stated.add(*judgement.location_error_mm <= 2.0 * stated_mm);
     }
   }
 }
@@ -326,6 +328,8 @@ std::vector<ProofFigure> Score::figures() const {
       share_figure("channel", "channel with the largest mismatch named", m_channel.good, m_channel.all, 0.85, true));
   list.push_back(number_figure("location_median_mm", "location, median", median(m_location_mm), 1, "mm", 2.0));
   list.push_back(number_figure("location_worst_mm", "location, worst", quantile(m_location_mm, 1.0), 1, "mm", 12.0));
+  list.push_back(plain_share("location_stated", "location within twice the stated uncertainty", m_location_stated.good,
+                             m_location_stated.all));
   for (const Improvement& one : improvements()) {
     if (!one.second || !std::isfinite(one.over_reached)) continue;
     const double must = one.kind == "T" ? 1.2 : one.kind == "dZ" ? 1.0 : 2.0;

@@ -138,7 +138,7 @@ class Score {
   void count_location(const OpenedAnswer& truth, const nlohmann::json& diagnosis, Judgement& judgement);
   void count_rms(const OpenedAnswer& truth, const nlohmann::json& diagnosis);
 
-  Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel;
+  Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel, m_location_stated;
   int m_turned_round = 0;
   std::vector<double> m_location_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;

@@ -123,8 +123,10 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
                           const TaskContext& context) {
   // A recording that shows by itself that something is missing may still be too poor to show what.
   const bool unexplained_alone = first.verdict == Verdict::unexplained && !first.refuted;
+  // One that shows nothing says little where it hardly excites anything: nothing is missing if neither shows it.
+  const bool alone_says_little = unexplained_alone || first.verdict == Verdict::consistent;
   std::size_t worst = 0;
-  double missed = unexplained_alone ? 0.0 : contradicted;
+  double missed = alone_says_little ? 0.0 : contradicted;
   for (std::size_t i = 0; i < first.held_out.size(); ++i) {
     const double by = missed_by(first, first.held_out[i]);
     if (by <= missed) continue;
@@ -149,7 +151,7 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   // What happened once in the other recording cannot be borne out by the first, and the same explanation in both, of
   // which one makes the other worse, is not saved by the turn.
   const bool borne_out = other.verdict == Verdict::missing_effect && !cannot_be_borne_out(other) &&
-                         other.forms != first.forms && missed_by(other) < (unexplained_alone ? in_order : contradicted);
+                         other.forms != first.forms && missed_by(other) < (alone_says_little ? in_order : contradicted);
   if (!twice && !borne_out) {
     const HeldOut& missed_one = first.held_out[worst - 1];
     if (fails_where_it_explains(first, missed_one) || hides_a_movement(first, missed_one)) {

@@ -122,9 +122,9 @@ int main(int argc, char** argv) {
     }
     std::string says;
     for (const auto& e : d->effects) {
-      says +=
-          fmt::format("{}{}{} [{:.2f}, {:.0f}] ", e.id, e.channel.empty() ? "" : "(" + e.channel + ")",
-                      e.position_mm ? fmt::format("@{:.0f}", *e.position_mm) : "", e.confidence, e.log_evidence_gain);
+      says += fmt::format("{}{}{} [{:.2f}, {:.0f}] ", e.id, e.channel.empty() ? "" : "(" + e.channel + ")",
+                          e.position_mm ? fmt::format("@{:.0f}+-{:.0f}", *e.position_mm, e.position_sigma_mm) : "",
+                          e.confidence, e.log_evidence_gain);
     }
     double in = 0, held = 0, rise = 0;
     int channels = 0;

@@ -68,6 +68,7 @@ TEST(Score, JudgesEachKindOfAnswer) {
   EXPECT_EQ(value_of(score, "pairs"), "1/1 = 100.0");
   EXPECT_EQ(value_of(score, "unlisted"), "1/3 = 33.3");
   EXPECT_EQ(value_of(score, "location_worst_mm"), "10.0");
+  EXPECT_EQ(value_of(score, "location_stated"), "0/7 = 0.0");
 }
 
 TEST(Score, CalibrationErrorIsTheMeanDistanceOfStatedAndTrue) {
