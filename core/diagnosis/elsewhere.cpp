@@ -57,6 +57,17 @@ bool worth_naming(const Model& model) {
   return false;
 }
 
+bool within_tolerance(const Model& model) {
+  constexpr double sound_gain = 0.01;
+  const int last = static_cast<int>(model.machine().effects.size()) - 1;
+  if (last < 0 || model.machine().effects.back().id != "sensor_gain") return false;
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    const physics::Parameter& unknown = model.unknown(i);
+    if (unknown.effect == last && unknown.amplitude) return std::abs(model.value(i)) < sound_gain;
+  }
+  return false;
+}
+
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others) {
   if (models.empty()) return;
   const double reference = elsewhere(without, others).evidence;

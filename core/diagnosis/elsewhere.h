@@ -13,6 +13,9 @@ bool happened_once(const Model& model);
 /// loses more when it turns, and oil that thins by a thousandth a kelvin is what its sheet says. Two recordings
 /// together may well show so little.
 bool worth_naming(const Model& model);
+/// Whether the last effect is no more than a sound part may have: the gain of a sensor within 1 %, the proportional
+/// part of IEC 60751's class C, its widest.
+bool within_tolerance(const Model& model);
 
 /// Sets for each model the log evidence that the other recordings, in turn, have beside `without`: of each recording
 /// under what the fit to those before it knows of the machine. Leaves out models that do not fit there - a recording of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/diagnosis/elsewhere.h"
@@ -245,8 +246,8 @@ bool Selector::ask_others_for_one() {
   std::erase_if(doubtful, [&](const ModelPtr& fit) {
     return together(fit) <= (worth_naming(*fit) ? least : std::max(least, m_options.tiny));
   });
-  if (doubtful.empty()) return false;
   std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
+  if (doubtful.empty() || within_tolerance(*doubtful.front())) return false;
   m_result.best = doubtful.front();
   m_result.levels.push_back(std::move(doubtful));
   return true;
@@ -353,6 +354,8 @@ ModelPtr Selector::one_of_its_joints(const Model& doubled) const {
 }
 
 double Selector::least_first(const Model& fit) const {
+  // What a sound sensor's tolerance explains best is no effect, and no rival's either.
+  if (within_tolerance(fit)) return std::numeric_limits<double>::infinity();
   if (!m_options.own_misfit || worth_naming(fit)) return m_options.first;
   // Where something evidently is missing, it is no longer what every machine has.
   const bool evident = excess_of(*m_result.base).largest > least_evident && excess_of(fit).largest < least_evident;
@@ -360,7 +363,7 @@ double Selector::least_first(const Model& fit) const {
 }
 
 bool Selector::accepted(const Model& fit, const Excess& before) const {
-  if (doubles_a_joint(fit)) return false;
+  if (doubles_a_joint(fit) || within_tolerance(fit)) return false;
   const double gained = total_gain(fit, *m_result.best);
   const double so_far = total_gain(*m_result.best, *m_result.base);
   if (m_options.own_misfit && gained <= m_options.tiny && !worth_naming(fit)) return false;
