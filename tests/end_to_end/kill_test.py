@@ -28,7 +28,8 @@ def rows_on_disk(job):
 
 def killed_runs(folder, count):
     dice = random.Random(7)
-    plan = write_json(os.path.join(folder, "plan.json"), warm_up_plan(hours=4.0, measure_period_s=300))
+    # Three to four minutes of machine time pass with each kill: the run must not end before the last.
+    plan = write_json(os.path.join(folder, "plan.json"), warm_up_plan(hours=4.0 + 0.1 * count, measure_period_s=300))
     job = os.path.join(folder, "job.zdj")
     with VirtualMachine(folder, 60, 1) as machine:
         command = [os.path.join(BIN, "zerodrift-cli"), "record", "--profile", machine.profile, "--plan", plan, "--job", job]
