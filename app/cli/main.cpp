@@ -16,6 +16,7 @@
 
 #include "app/cli/command.h"
 #include "app/text/error_text.h"
+#include "core/base/file.h"
 #include "core/base/json.h"
 #include "core/base/resources.h"
 
@@ -24,20 +25,33 @@ namespace {
 using zerodrift::Error;
 using zerodrift::ErrorCode;
 
-std::atomic<bool> interrupted{false};
+std::atomic<int> signal_seen{0};
 
-void on_signal(int) {
-  interrupted = true;
+void on_signal(int signal) {
+  signal_seen = signal;
 }
 
-/// Turns Ctrl+C into a stop request, so that a write to a machine is finished or restored and files are whole.
+/// Turns Ctrl+C into a stop request, so that a write to a machine is finished or restored and files are whole. A second
+/// one ends the program whatever it does; what arrives with the first (timeout signals a group twice) is no second one.
 std::jthread watch_signals(std::stop_source& stop) {
+  using Clock = std::chrono::steady_clock;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
   return std::jthread([&stop](const std::stop_token& done) {
+    constexpr auto together = std::chrono::milliseconds(500);
+    Clock::time_point first;
     while (!done.stop_requested()) {
-      if (interrupted) stop.request_stop();
+      if (const int signal = signal_seen.exchange(0); signal != 0) {
+        if (!stop.stop_requested()) {
+          first = Clock::now();
+          stop.request_stop();
+          zerodrift::end_waiting_reads();
+        } else if (Clock::now() - first > together) {
+          std::signal(signal, SIG_DFL);
+          std::raise(signal);
+        }
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   });

@@ -124,6 +124,7 @@ void Application::wire() {
   for (auto* presenter : m_presenters) {
     connect(presenter, &Presenter::nextRequested, this, [this, presenter] { openNext(presenter->id()); });
     connect(presenter, &Presenter::pageRequested, this, &Application::openPage);
+    connect(presenter, &Presenter::standingChanged, this, &Application::updateSteps);
   }
   wireSteps();
 }

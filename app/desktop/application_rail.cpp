@@ -52,7 +52,7 @@ void Application::updateSteps() {
   const auto all = flow.status(*job);
   for (auto* presenter : m_presenters) {
     const std::string id = presenter->id().toStdString();
-    const QString standing = presenter->standing();
+    const Presenter::Standing standing = presenter->standing();
     flow::StepStatus status;
     bool step = false;  // of the job
     if (all) {
@@ -63,11 +63,11 @@ void Application::updateSteps() {
     const bool made = status.state == flow::StepState::current || status.state == flow::StepState::stale;
     if (presenter->working()) {
       m_window->setStepState(presenter->id(), ui::StepState::running,
-                             step || standing.isEmpty() ? tr("Running") : standing);
+                             step || standing.words.isEmpty() ? tr("Running") : standing.words);
     } else if (!all || (made && m_bench->damage())) {  // what of it still holds nobody can say
       m_window->setStepState(presenter->id(), ui::StepState::failed, tr("The job is damaged"));
-    } else if (!standing.isEmpty()) {
-      m_window->setStepState(presenter->id(), ui::StepState::ready, standing);
+    } else if (!standing.words.isEmpty()) {
+      m_window->setStepState(presenter->id(), standing.state, standing.words);
     } else {
       m_window->setStepState(presenter->id(), shown(status.state), wordsOf(status));
     }

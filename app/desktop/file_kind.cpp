@@ -35,7 +35,9 @@ FileKind kind_of_table(const QString& path) {
 }  // namespace
 
 FileKind kind_of_file(const QString& path) {
-  const QString ending = QFileInfo(path).suffix().toLower();
+  const QFileInfo info(path);
+  if (info.exists() && !info.isFile()) return FileKind::unknown;  // a pipe would keep the window waiting
+  const QString ending = info.suffix().toLower();
   if (ending == QStringLiteral("zdj")) return FileKind::job;
   if (ending == QStringLiteral("json")) return kind_of_json(path);
   if (ending == QStringLiteral("rtl") || ending == QStringLiteral("ren") || ending == QStringLiteral("pos"))

@@ -413,6 +413,7 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
         told != facts.end() ? told->second : most_telling(effect, rmse.value("noise", json::object()));
     card.unit =
         recording::kind_of(channel) == recording::ChannelKind::temperature ? QStringLiteral("K") : QStringLiteral("µm");
+    card.channel = short_tag(channel);
     card.before = residual_of(runs.recorded, runs.simulated, channel);
     card.after = residual_of(runs.recorded, runs.refined, channel);
     card.rmseBefore = number_of(rmse.value("before", json::object()), channel);

@@ -66,12 +66,12 @@ void Presenter::endTask(QObject* progress) {
   m_page->clearProgress();
 }
 
-QString Presenter::tableStanding() const {
+Presenter::Standing Presenter::tableStanding() const {
   const auto held = m_bench.heldTable();
   if (held != HeldTable::none && held != HeldTable::another) return {};
   if (m_bench.job() == nullptr || !m_bench.has("upload")) return {};
   if (flow::status_of(*m_bench.job(), id().toStdString()).state != flow::StepState::current) return {};
-  return held == HeldTable::none ? tr("The machine holds none") : tr("The machine holds another");
+  return {held == HeldTable::none ? tr("The machine holds none") : tr("The machine holds another")};
 }
 
 QString Presenter::offlineReason() const {

@@ -6,6 +6,7 @@
 
 #include "app/desktop/workbench.h"
 #include "ui/pages/page.h"
+#include "ui/shell/rail.h"
 
 namespace zerodrift::desktop {
 
@@ -26,9 +27,13 @@ class Presenter : public QObject {
   /// The page was opened or left.
   virtual void enter() { refresh(); }
   virtual void leave() {}
-  /// Words under the name in the rail in place of the step's state: for a page that is no step of the job, and for one
-  /// whose result the machine does not hold any more; empty: the step's state.
-  virtual QString standing() const { return {}; }
+  /// In the rail in place of the step's own state: of a page that is no step of the job, and of one whose result fell
+  /// short or is no longer what the machine holds.
+  struct Standing {
+    QString words;  // empty: the step's own state
+    ui::StepState state = ui::StepState::ready;
+  };
+  virtual Standing standing() const { return {}; }
   /// Takes back the last choice on this page (Ctrl+Z).
   virtual void undo() {}
   /// What the tour does on this page: starts the step and calls `done` when it has ended.
@@ -44,6 +49,7 @@ class Presenter : public QObject {
   /// The user is done here: open the next page.
   void nextRequested();
   void pageRequested(const QString& id);
+  void standingChanged();
 
  protected:
   Workbench& bench() { return m_bench; }
@@ -73,8 +79,8 @@ class Presenter : public QObject {
   void showOnly(const Error& error);
   /// Why nothing can be asked of the machine now; empty: it is there.
   QString offlineReason() const;
-  /// For the rail, of a step that is done: that the machine holds another table than this job wrote, or none.
-  QString tableStanding() const;
+  /// Of a step that is done: that the machine holds another table than this job wrote, or none.
+  Standing tableStanding() const;
   /// Why nothing else can be done now: the task that runs.
   Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.

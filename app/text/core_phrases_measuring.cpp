@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 184> measuring = {{
+constexpr std::array<const char*, 189> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -136,6 +136,11 @@ constexpr std::array<const char*, 184> measuring = {{
     QT_TRANSLATE_NOOP("core", "%1 failed"),
     QT_TRANSLATE_NOOP("core", "the picture is damaged"),
     QT_TRANSLATE_NOOP("core", "%1 is no picture and was left out"),
+    QT_TRANSLATE_NOOP("core", "%1 is a pipe or a device, no picture, and was left out"),
+    QT_TRANSLATE_NOOP("core", "a file"),
+    QT_TRANSLATE_NOOP("core", "the PNG file is damaged"),
+    QT_TRANSLATE_NOOP("core", "unreadable: %1"),
+    QT_TRANSLATE_NOOP("core", "larger than %1 MB"),
     QT_TRANSLATE_NOOP("core", "a folder without pictures"),
     QT_TRANSLATE_NOOP("core", "a folder of PNG, JPEG, BMP or TIFF pictures"),
     QT_TRANSLATE_NOOP("core", "%1 was left out: %2"),

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 334> models = {{
+constexpr std::array<const char*, 338> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -73,6 +73,10 @@ constexpr std::array<const char*, 334> models = {{
     QT_TRANSLATE_NOOP("core", "a share of the section, 0.01 to 0.99"),
     QT_TRANSLATE_NOOP("core", "less than outer_diameter_mm (%1)"),
     QT_TRANSLATE_NOOP("core", "the id of a component"),
+    QT_TRANSLATE_NOOP("core", "a number of 0 or more"),
+    QT_TRANSLATE_NOOP("core", "-2 to 2: beyond it one end's film would be negative"),
+    QT_TRANSLATE_NOOP("core", "a share of -1 or more: -1 takes all away"),
+    QT_TRANSLATE_NOOP("core", "degrees Celsius, above absolute zero"),
     QT_TRANSLATE_NOOP("core", "a place inside %1, 0 to %2 mm"),
     QT_TRANSLATE_NOOP("core", "a channel named only once"),
     QT_TRANSLATE_NOOP("core", "one of %1"),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace zerodrift::acquisition {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr double lowest_C = -20.0;
 constexpr double highest_C = 120.0;
 // The share of sensors that must move before one that does not is called stuck, and how many readings that takes.
-constexpr int readings_for_stuck = 15;
+constexpr std::size_t readings_for_stuck = 15;
 
 struct Readings {
   std::vector<std::vector<double>> by_sensor;
@@ -43,8 +44,12 @@ SensorHealth judge(const SensorInfo& info, const std::vector<double>& values) {
   return health;
 }
 
+bool is_ok(const SensorHealth& sensor) {
+  return sensor.state == SensorState::ok;
+}
+
 // Without any change where most others change: stuck. On a machine whose sensors are all quiet nothing can be said.
-void find_stuck(std::vector<SensorHealth>& sensors, int readings) {
+void find_stuck(std::vector<SensorHealth>& sensors, std::size_t readings) {
   if (readings < readings_for_stuck) return;
   const auto moving =
       std::count_if(sensors.begin(), sensors.end(), [](const SensorHealth& s) { return s.noise_C > 0.0; });
@@ -55,15 +60,9 @@ void find_stuck(std::vector<SensorHealth>& sensors, int readings) {
 }
 
 void summarize(MachineHealth& health) {
-  double low = 1e9;
-  double high = -1e9;
-  for (const SensorHealth& sensor : health.sensors) {
-    if (sensor.state != SensorState::ok) continue;
-    ++health.sensors_alive;
-    low = std::min(low, *sensor.value_C);
-    high = std::max(high, *sensor.value_C);
-  }
-  if (health.sensors_alive > 0) health.spread_K = high - low;
+  health.sensors_alive = static_cast<int>(
+      std::count_if(health.sensors.begin(), health.sensors.end(), [](const SensorHealth& s) { return is_ok(s); }));
+  health.spread_K = spread_of(health.sensors);
   const auto obstacle = [&](ErrorCode code, std::map<std::string, std::string> context) {
     health.obstacles.push_back({code, std::move(context)});
   };
@@ -94,6 +93,27 @@ std::string_view name_of(SensorState state) {
   return "";
 }
 
+std::vector<SensorHealth> judged(const std::vector<SensorInfo>& sensors,
+                                 const std::vector<std::vector<double>>& by_sensor) {
+  std::vector<SensorHealth> out;
+  for (std::size_t s = 0; s < by_sensor.size(); ++s) {
+    out.push_back(judge(s < sensors.size() ? sensors[s] : SensorInfo{}, by_sensor[s]));
+  }
+  find_stuck(out, by_sensor.empty() ? 0 : by_sensor.front().size());
+  return out;
+}
+
+double spread_of(const std::vector<SensorHealth>& sensors) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const SensorHealth& sensor : sensors) {
+    if (!is_ok(sensor)) continue;
+    low = std::min(low, *sensor.value_C);
+    high = std::max(high, *sensor.value_C);
+  }
+  return high >= low ? high - low : 0.0;
+}
+
 Result<MachineHealth> machine_health(MachineIo& machine, Clock& clock, const HealthOptions& options,
                                      const TaskContext& context) {
   MachineHealth health;
@@ -122,10 +142,7 @@ Result<MachineHealth> machine_health(MachineIo& machine, Clock& clock, const Hea
     }
     context.progress((i + 1.0) / options.readings, "health");
   }
-  for (std::size_t s = 0; s < readings.by_sensor.size(); ++s) {
-    health.sensors.push_back(judge(health.identity.sensors[s], readings.by_sensor[s]));
-  }
-  find_stuck(health.sensors, options.readings);
+  health.sensors = judged(health.identity.sensors, readings.by_sensor);
   std::sort(readings.round_trips_ms.begin(), readings.round_trips_ms.end());
   health.round_trip_ms = readings.round_trips_ms[readings.round_trips_ms.size() / 2];
   health.slowest_round_trip_ms = readings.round_trips_ms.back();

@@ -27,7 +27,7 @@ struct MachineHealth {
   MachineSample last;  // the newest reading
   std::vector<SensorHealth> sensors;
   int sensors_alive = 0;
-  double spread_K = 0.0;       // largest minus smallest mean of the sensors that are ok: small at an isothermal start
+  double spread_K = 0.0;       // spread_of(sensors): small at an isothermal start
   double round_trip_ms = 0.0;  // median of the readings, wall time
   double slowest_round_trip_ms = 0.0;
   double clock_difference_s = 0.0;  // machine clock gained on the host's (times the time factor) while looking
@@ -41,6 +41,14 @@ struct HealthOptions {
   double interval_s = 0.2;   // wall
   double time_factor = 1.0;  // the clock given runs at this rate
 };
+
+/// From a sensor's readings, the oldest first; whose newest is not a number is dead. `by_sensor` is in the sensors'
+/// order, all of the same length.
+std::vector<SensorHealth> judged(const std::vector<SensorInfo>& sensors,
+                                 const std::vector<std::vector<double>>& by_sensor);
+/// The spread wherever page, job and report tell one, K: the warmest less the coldest of the sensors that are ok, each
+/// by the mean of its readings; 0 without a sensor.
+double spread_of(const std::vector<SensorHealth>& sensors);
 
 Result<MachineHealth> machine_health(MachineIo& machine, Clock& clock, const HealthOptions& options,
                                      const TaskContext& context);

@@ -1,13 +1,14 @@
 #include "core/base/file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 namespace zerodrift {
 namespace {
@@ -41,29 +42,61 @@ Status write_in_place(const std::filesystem::path& path, std::string_view bytes)
   return {};
 }
 
+tl::unexpected<Error> unreadable(const std::filesystem::path& path, const std::string& detail) {
+  return fail(ErrorCode::file_unreadable, {{"file", path.string()}, {"detail", detail}});
+}
+
+struct Descriptor {
+  explicit Descriptor(int of_file) : number(of_file) {}
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number;
+};
+
+std::atomic<bool> reads_ended{false};
+
+/// Until a pipe, a terminal or a device has bytes, or has come to its end.
+Status wait_for_bytes(int descriptor) {
+  constexpr int look_again_ms = 50;
+  pollfd waiting{descriptor, POLLIN, 0};
+  do {
+    if (reads_ended) return fail(ErrorCode::cancelled);
+  } while (::poll(&waiting, 1, look_again_ms) <= 0);
+  return {};
+}
+
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return fail(ErrorCode::file_not_found, {{"file", path.string()}});
-  if (std::filesystem::is_directory(path, ignored)) {
-    return fail(ErrorCode::file_unreadable, {{"file", path.string()}, {"detail", "is a folder"}});
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return fail(ErrorCode::file_unreadable, {{"file", path.string()}, {"detail", std::strerror(errno)}});
+  if (std::filesystem::is_directory(path, ignored)) return unreadable(path, "is a folder");
+  // A pipe without a writer is opened at once this way, and waited for below.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
+  if (file.number < 0) return unreadable(path, std::strerror(errno));
+  const bool may_wait = !std::filesystem::is_regular_file(path, ignored);
   std::string bytes;
   std::string block(std::size_t{1} << 16, '\0');
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
-    bytes.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  for (;;) {
+    if (may_wait) ZD_CHECK(wait_for_bytes(file.number));
+    const ssize_t count = ::read(file.number, block.data(), block.size());
+    if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (count < 0) return unreadable(path, std::strerror(errno));
+    if (count == 0) return bytes;
+    bytes.append(block.data(), static_cast<std::size_t>(count));
     if (bytes.size() > limit_bytes) {
       return fail(ErrorCode::file_too_large, {{"file", path.string()},
                                               {"size", "more than " + std::to_string(limit_bytes)},
                                               {"limit", std::to_string(limit_bytes)}});
     }
   }
-  if (stream.bad())
-    return fail(ErrorCode::file_unreadable, {{"file", path.string()}, {"detail", std::strerror(errno)}});
-  return bytes;
+}
+
+void end_waiting_reads() {
+  reads_ended = true;
 }
 
 Status write_file(const std::filesystem::path& path, std::string_view bytes) {

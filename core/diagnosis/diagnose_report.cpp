@@ -37,6 +37,30 @@ static double rms_of(const std::vector<double>& differences) {
   return differences.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(differences.size()));
 }
 
+/// The scan's heat is linear between knots and its last knot lies beyond the run: the map ends with the run.
+static HeatMap map_of(const SourceScan& scan, double end_s) {
+  constexpr std::size_t columns_a_block = 3;
+  HeatMap heat;
+  heat.component = scan.component;
+  heat.position_mm = scan.position_mm;
+  if (scan.time_s.size() < 2) return heat;
+  const double start_s = scan.time_s.front();
+  const double block_s = scan.time_s[1] - start_s;
+  const std::size_t last = columns_a_block * (scan.time_s.size() - 1);
+  for (std::size_t c = 0; c <= last; ++c) {
+    heat.time_s.push_back(start_s + (end_s - start_s) * static_cast<double>(c) / static_cast<double>(last));
+  }
+  for (const auto& knots : scan.watts_by_position) {
+    std::vector<double>& row = heat.watts.emplace_back();
+    for (const double time_s : heat.time_s) {
+      const double place = (time_s - start_s) / block_s;
+      const std::size_t before = std::min(static_cast<std::size_t>(place), knots.size() - 2);
+      row.push_back(std::lerp(knots[before], knots[before + 1], place - static_cast<double>(before)));
+    }
+  }
+  return heat;
+}
+
 /// The least that one step at some moment leaves.
 static double rms_beside_a_step(const std::vector<double>& differences) {
   double sum = 0.0, squares = 0.0, removed = 0.0, count = 0.0;
@@ -174,12 +198,7 @@ void Diagnoser::locate() {
       net += w;
     }
     m.missing_heat_W = scan.watts.empty() ? 0.0 : std::copysign(sum / static_cast<double>(scan.watts.size()), net);
-    HeatMap heat;
-    heat.component = component.id;
-    heat.position_mm = scan.position_mm;
-    heat.time_s = scan.time_s;
-    heat.watts = scan.watts_by_position;
-    m_out.heat = std::move(heat);
+    m_out.heat = map_of(scan, m_out.time_s.back());
   }
 }
 

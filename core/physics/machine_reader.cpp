@@ -5,6 +5,7 @@
 
 #include "core/base/json.h"
 #include "core/physics/effects/effect.h"
+#include "core/physics/effects/physical_range.h"
 #include "core/physics/machine.h"
 
 // Ranges are wide enough for anything that stands in a workshop and narrow enough that a unit off by 1000
@@ -236,6 +237,27 @@ EffectSpec spec_from(const std::string& id, const json& parameters) {
   return spec;
 }
 
+/// A place on the component that the effect names, else on the first rod; and nothing that physics forbids.
+void check_numbers(const JsonObject& root, const std::string& where, const EffectSpec& spec, const Machine& machine) {
+  const std::string named = spec.word_or("component", "");
+  const auto at = std::find_if(machine.components.begin(), machine.components.end(), [&](const Component& component) {
+    return named.empty() ? !component.lump : component.id == named;
+  });
+  for (const auto& number : spec.numbers) {
+    NumberRange allowed = physical_range(spec.id, number.first);
+    std::string words(allowed.words);
+    if (number.first == "position_mm" && at != machine.components.end() && !at->lump) {
+      allowed.low = 0.0;
+      allowed.high = at->length_mm;
+      words = fmt::format("a place inside {}, 0 to {:g} mm", at->id, at->length_mm);
+    }
+    const double value = number.second;
+    if (value < allowed.low || value > allowed.high || (allowed.low_open && value == allowed.low)) {
+      root.reject(where + "." + number.first, fmt::format("{:g}", value), words);
+    }
+  }
+}
+
 void read_effects(JsonObject& root, Machine& machine) {
   const json* parameters = root.raw("effect_parameters");
   if (parameters != nullptr && !parameters->is_null() && !parameters->is_object()) {
@@ -248,18 +270,22 @@ void read_effects(JsonObject& root, Machine& machine) {
     if (parameters != nullptr && parameters->contains(id)) own = (*parameters)[id];
     // An effect that acts twice (two sensors that lag) has a list of parameter sets, one a time it is listed.
     const std::size_t turn = seen[id]++;
-    if (own.is_array()) own = turn < own.size() ? own[turn] : json::object();
+    std::string where = "effect_parameters." + id;
+    if (own.is_array()) {
+      where += fmt::format("[{}]", turn);
+      own = turn < own.size() ? own[turn] : json::object();
+    }
     if (!own.is_object()) root.reject("effect_parameters", id, "an object of numbers");
     EffectSpec spec = spec_from(id, own);
     const auto& required = find_effect(id)->required_numbers;
     const auto given = [&](std::string_view key) { return spec.numbers.count(std::string(key)) != 0; };
     if (!required.empty() && std::none_of(required.begin(), required.end(), given)) {
-      root.missing("effect_parameters." + id + "." + std::string(required.front()),
-                   "a number, since the effect is listed");
+      root.missing(where + "." + std::string(required.front()), "a number, since the effect is listed");
     }
     if (spec.words.count("component") != 0 && machine.find(spec.words["component"]) == nullptr) {
       root.reject("effect_parameters", spec.words["component"], "a component: " + known_components(machine));
     }
+    check_numbers(root, where, spec, machine);
     machine.effects.push_back(std::move(spec));
   }
 }

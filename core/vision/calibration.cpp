@@ -146,6 +146,8 @@ void describe_geometry(Calibration& c) {
   up.col(1) *= -1.0;
   if (c.mirrored) up.col(0) *= -1.0;
   c.rotation_deg = std::atan2(up(1, 0) - up(0, 1), up(0, 0) + up(1, 1)) * 180.0 / M_PI;
+  // A mirrored image has either left and right exchanged or top and bottom: whichever leaves less to turn.
+  if (c.mirrored && std::abs(c.rotation_deg) > 90.0) c.rotation_deg -= std::copysign(180.0, c.rotation_deg);
   const Eigen::JacobiSVD<Eigen::Matrix2d> svd(c.um_from_px);
   const double ratio = svd.singularValues()(0) / svd.singularValues()(1);
   if (ratio > 1.1) {

@@ -41,8 +41,8 @@ struct Calibration {
   double rms_um = 0.0;                                   // of the residuals, each coordinate counted
   double leave_one_out_um = 0.0;  // rms of each view predicted from the others; NaN below five views
   double scale_um_per_px = 0.0;
-  double rotation_deg = 0.0;         // of the image against the machine's axes, counter-clockwise
-  bool mirrored = false;             // left and right exchanged
+  double rotation_deg = 0.0;         // of the image against the machine's axes, counter-clockwise; mirrored: -90 to 90
+  bool mirrored = false;             // left and right exchanged, or top and bottom
   bool handedness_assumed = false;   // two positions cannot show a mirrored camera: it was taken not to be
   std::array<double, 2> range_px{};  // largest displacement seen in the calibration, x and y
   std::vector<CalibrationView> views;

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/vision/image_header.h"
 #include "core/vision/opencv_image.h"
 
@@ -26,6 +27,26 @@ bool contains_near_end(Bytes bytes, std::string_view mark) {
                      [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }) != tail.end();
 }
 
+std::size_t number_at(Bytes bytes, std::size_t at) {
+  return std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 | std::size_t{bytes[at + 2]} << 8 |
+         bytes[at + 3];
+}
+
+// Whether every chunk is whole: the library that decodes writes what it finds broken on stderr.
+std::string fault_of_png(Bytes bytes) {
+  constexpr std::size_t signature_bytes = 8;
+  constexpr std::size_t around_bytes = 12;  // length, name and check sum
+  for (std::size_t at = signature_bytes; at + around_bytes <= bytes.size();) {
+    const std::size_t length = number_at(bytes, at);
+    if (length > bytes.size() - at - around_bytes) break;
+    const std::string_view named(reinterpret_cast<const char*>(bytes.data()) + at + 4, 4 + length);
+    if (crc32_of(named) != number_at(bytes, at + 8 + length)) return "the PNG file is damaged";
+    if (named.starts_with("IEND")) return "";
+    at += around_bytes + length;
+  }
+  return "the PNG file ends early";
+}
+
 // What makes these bytes unfit before a decoder is trusted with them; "" if nothing does.
 std::string fault_of(Bytes bytes) {
   if (bytes.empty()) return "the file is empty";
@@ -35,8 +56,7 @@ std::string fault_of(Bytes bytes) {
     return "the picture is larger than 100 megapixels";
   }
   if (starts_with(bytes, {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a})) {
-    if (bytes.size() < 33) return "the PNG file ends early";
-    return contains_near_end(bytes, "IEND") ? "" : "the PNG file ends early";
+    return fault_of_png(bytes);
   }
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) {
     // A truncated JPEG decodes to half a picture and grey below: the end mark must be there.

@@ -16,15 +16,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const char* const folder_of_pictures = "a folder of PNG, JPEG, BMP or TIFF pictures";
+
 void warn(std::vector<std::string>* warnings, std::string text) {
   if (warnings != nullptr) warnings->push_back(std::move(text));
 }
 
 // In few words, for a row or a warning; the file's name stands beside it.
 std::string short_reason(const Error& error) {
-  const auto detail = error.context.find("detail");
   if (error.code == ErrorCode::file_not_found) return "the file does not exist";
-  return "unreadable: " + (detail != error.context.end() ? detail->second : std::string(name_of(error.code)));
+  const auto detail = error.context.find("detail");
+  std::string reason = detail != error.context.end() ? detail->second : std::string(name_of(error.code));
+  if (error.code == ErrorCode::file_too_large) {
+    reason = fmt::format("larger than {} MB", std::stoull(error.context.at("limit")) / 1'000'000);
+  }
+  return "unreadable: " + reason;
 }
 
 bool looks_like_picture(const fs::path& file) {
@@ -37,13 +43,22 @@ bool looks_like_picture(const fs::path& file) {
 
 Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<std::string>* warnings) {
   std::error_code problem;
-  if (!fs::is_directory(folder, problem)) return fail(ErrorCode::file_not_found, {{"file", folder.string()}});
+  if (!fs::exists(folder, problem)) return fail(ErrorCode::file_not_found, {{"file", folder.string()}});
+  if (!fs::is_directory(folder, problem)) {
+    return fail(ErrorCode::wrong_format,
+                {{"file", folder.string()}, {"found", "a file"}, {"expected", folder_of_pictures}});
+  }
   std::vector<fs::path> out;
   for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
     std::error_code ignored;
     const std::string name = it->path().filename().string();
     if (name.empty() || name.front() == '.' || it->is_directory(ignored)) continue;
-    if (looks_like_picture(it->path())) {
+    const fs::file_type type = it->status(ignored).type();
+    const bool gives_bytes_later = type == fs::file_type::fifo || type == fs::file_type::socket ||
+                                   type == fs::file_type::character || type == fs::file_type::block;
+    if (gives_bytes_later) {
+      warn(warnings, name + " is a pipe or a device, no picture, and was left out");
+    } else if (looks_like_picture(it->path())) {
       out.push_back(it->path());
     } else {
       warn(warnings, name + " is no picture and was left out");
@@ -54,9 +69,8 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<st
   }
   std::sort(out.begin(), out.end(), [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
   if (out.empty()) {
-    return fail(ErrorCode::wrong_format, {{"file", folder.string()},
-                                          {"found", "a folder without pictures"},
-                                          {"expected", "a folder of PNG, JPEG, BMP or TIFF pictures"}});
+    return fail(ErrorCode::wrong_format,
+                {{"file", folder.string()}, {"found", "a folder without pictures"}, {"expected", folder_of_pictures}});
   }
   return out;
 }

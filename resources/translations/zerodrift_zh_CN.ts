@@ -3957,6 +3957,42 @@
         <source>what was measured stood still while the machine moved: the region shows more of what stands still than of the target; draw it closer to the target</source>
         <translation>机床移动时所测之物静止不动：该区域显示的静止背景多于标靶；请把区域画得更贴近标靶</translation>
     </message>
+    <message>
+        <source>%1 is a pipe or a device, no picture, and was left out</source>
+        <translation>%1 是管道或设备，不是图像，已略过</translation>
+    </message>
+    <message>
+        <source>a file</source>
+        <translation>文件</translation>
+    </message>
+    <message>
+        <source>the PNG file is damaged</source>
+        <translation>PNG 文件已损坏</translation>
+    </message>
+    <message>
+        <source>unreadable: %1</source>
+        <translation>无法读取：%1</translation>
+    </message>
+    <message>
+        <source>larger than %1 MB</source>
+        <translation>大于 %1 MB</translation>
+    </message>
+    <message>
+        <source>a number of 0 or more</source>
+        <translation>不小于 0 的数</translation>
+    </message>
+    <message>
+        <source>-2 to 2: beyond it one end&apos;s film would be negative</source>
+        <translation>-2 至 2：超出时一端的换热系数将为负</translation>
+    </message>
+    <message>
+        <source>a share of -1 or more: -1 takes all away</source>
+        <translation>不小于 -1 的份额：-1 表示全部去除</translation>
+    </message>
+    <message>
+        <source>degrees Celsius, above absolute zero</source>
+        <translation>摄氏度，高于绝对零度</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4973,6 +5009,18 @@
         <source>this table cannot be written in it</source>
         <translation>该补偿表无法写成此格式</translation>
     </message>
+    <message>
+        <source>In the table: %1</source>
+        <translation>已在补偿表中：%1</translation>
+    </message>
+    <message>
+        <source>%1 loaded</source>
+        <translation>%1 已载入</translation>
+    </message>
+    <message>
+        <source>When needed</source>
+        <translation>需要时使用</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::CalibratePresenter</name>
@@ -5821,6 +5869,14 @@
     <message>
         <source>The compensation is OFF: switch it on with the lamp below, then start.</source>
         <translation>补偿已断开：请用下方的指示灯接通，然后开始。</translation>
+    </message>
+    <message>
+        <source>Promise not reached</source>
+        <translation>未达到拟合的预期</translation>
+    </message>
+    <message>
+        <source>Less than %1 % removed</source>
+        <translation>消除不足 %1 %</translation>
     </message>
 </context>
 <context>
@@ -6759,6 +6815,10 @@
         <source>No offset is larger than %1 µm. If this computer or the cable fails, the controller takes the offset out by itself.</source>
         <translation>任何偏置都不超过 %1 µm。若本计算机或电缆发生故障，控制器会自行撤销偏置。</translation>
     </message>
+    <message>
+        <source>Drawn while this computer compensates</source>
+        <translation>由本计算机补偿时在此绘出</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::ComponentDrawing</name>
@@ -6798,10 +6858,6 @@
         <translation>%1，%2 %</translation>
     </message>
     <message>
-        <source>&lt;span style=&apos;color:%1&apos;&gt;before %2&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%3&apos;&gt;only re-fitted %4&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%5&apos;&gt;with the effect %6 %7&lt;/span&gt;</source>
-        <translation>&lt;span style=&apos;color:%1&apos;&gt;之前 %2&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%3&apos;&gt;仅重新拟合 %4&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%5&apos;&gt;计入该效应 %6 %7&lt;/span&gt;</translation>
-    </message>
-    <message>
         <source>Take out again</source>
         <translation>撤销采纳</translation>
     </message>
@@ -6812,6 +6868,10 @@
     <message>
         <source>Reject</source>
         <translation>否决</translation>
+    </message>
+    <message>
+        <source>&lt;span style=&apos;color:%1&apos;&gt;%8 before %2&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%3&apos;&gt;only re-fitted %4&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%5&apos;&gt;with the effect %6 %7&lt;/span&gt;</source>
+        <translation>&lt;span style=&apos;color:%1&apos;&gt;%8 之前 %2&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%3&apos;&gt;仅重新拟合 %4&lt;/span&gt;&lt;br&gt;&lt;span style=&apos;color:%5&apos;&gt;计入该效应 %6 %7&lt;/span&gt;</translation>
     </message>
 </context>
 <context>
@@ -7220,10 +7280,6 @@
         <translation>%1 %2 K/h</translation>
     </message>
     <message>
-        <source>Warmest sensor minus coldest. It forbids nothing: a sensor by a motor that always holds is always warmer. What counts is that nothing changes any more (%1 K/h) when the run begins.</source>
-        <translation>最热与最冷传感器之差。它不禁止任何操作：始终通电的电机旁的传感器总是较热。重要的是运行开始时不再变化（%1 K/h）。</translation>
-    </message>
-    <message>
         <source>Not connected</source>
         <translation>未连接</translation>
     </message>
@@ -7346,6 +7402,22 @@
     <message>
         <source>Bring the table back</source>
         <translation>恢复补偿表</translation>
+    </message>
+    <message>
+        <source>Spread at the start</source>
+        <translation>开始时温差</translation>
+    </message>
+    <message>
+        <source>now %1 K</source>
+        <translation>现在 %1 K</translation>
+    </message>
+    <message>
+        <source>Warmest less coldest of the sensors that live, each by the mean of its readings, when the commissioning began. The report says the same.</source>
+        <translation>调试开始时正常传感器中最热与最冷之差，各取其读数的平均值。报告中的数值相同。</translation>
+    </message>
+    <message>
+        <source>Warmest less coldest of the sensors that live, each by the mean of its last readings. It forbids nothing: a sensor by a motor that always holds is always warmer. What counts is that nothing changes any more (%1 K/h) when the run begins.</source>
+        <translation>正常传感器中最热与最冷之差，各取最近读数的平均值。它不禁止任何操作：始终通电的电机旁的传感器总是较热。重要的是运行开始时不再变化（%1 K/h）。</translation>
     </message>
 </context>
 <context>
@@ -7619,10 +7691,6 @@
         <translation>重新查找</translation>
     </message>
     <message>
-        <source>Simulation against recording</source>
-        <translation>仿真与记录之差</translation>
-    </message>
-    <message>
         <source>down to noise</source>
         <translation>降至噪声水平</translation>
     </message>
@@ -7875,6 +7943,14 @@
     <message>
         <source>As the machine is described: with every number at its middle.</source>
         <translation>按机床描述：各数值取标称值。</translation>
+    </message>
+    <message>
+        <source>Simulation error, all sensors</source>
+        <translation>仿真误差，全部传感器</translation>
+    </message>
+    <message>
+        <source>Recorded less simulated, rms over all temperatures; a card tells of one channel.</source>
+        <translation>记录值减仿真值，对所有温度取均方根；每张卡片只针对一个通道。</translation>
     </message>
 </context>
 <context>
@@ -9147,6 +9223,14 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>No correction could be computed: %1</source>
         <translation>无法计算修正：%1</translation>
+    </message>
+    <message>
+        <source>Peak of the warm-up</source>
+        <translation>暖机峰值</translation>
+    </message>
+    <message>
+        <source>Largest error of the whole warm-up run.</source>
+        <translation>整个暖机运行中的最大误差。</translation>
     </message>
 </context>
 <context>

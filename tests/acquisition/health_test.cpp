@@ -39,9 +39,20 @@ TEST(Health, NamesBadSensorsAndObstacles) {
   EXPECT_EQ(health->sensors[4].state, SensorState::stuck);
   EXPECT_EQ(health->sensors[6].state, SensorState::out_of_range);
   EXPECT_EQ(health->sensors_alive, 17);
+  EXPECT_LT(health->spread_K, 0.2);  // of those that are ok: the one that stands at 21.5 does not count
+  EXPECT_EQ(health->spread_K, spread_of(health->sensors));
   ASSERT_EQ(health->obstacles.size(), 2u);
   EXPECT_EQ(health->obstacles[0].code, ErrorCode::interlock_compensation_on);
   EXPECT_EQ(health->obstacles[1].code, ErrorCode::machine_not_ready);
+}
+
+TEST(Health, TheSpreadIsOfMeansAndOfSensorsThatLive) {
+  const double none = std::nan("");
+  const auto sensors = judged({}, {{20.0, 20.2}, {21.0, 21.4}, {19.0, none}, {350.0, 350.0}});
+  EXPECT_EQ(sensors[2].state, SensorState::dead);
+  EXPECT_EQ(sensors[3].state, SensorState::out_of_range);
+  EXPECT_NEAR(spread_of(sensors), 21.2 - 20.1, 1e-12);
+  EXPECT_EQ(spread_of({}), 0.0);
 }
 
 TEST(Health, SeesAClockThatRunsFast) {

@@ -241,7 +241,7 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
 
     auto* verify = qobject_cast<VerifyPage*>(application.presenter(QStringLiteral("verify"))->page());
     QCOMPARE(verify->state().phase, zerodrift::ui::VerifyPhase::finished);
-    const auto in_rail = [&](const QString& id) { return application.presenter(id)->standing(); };
+    const auto in_rail = [&](const QString& id) { return application.presenter(id)->standing().words; };
     QVERIFY2(verify->sentence().contains(QStringLiteral("of before")), qPrintable(verify->sentence()));
     QVERIFY2(in_rail(QStringLiteral("upload")).contains(QStringLiteral("none")), qPrintable(in_rail("upload")));
     QVERIFY2(in_rail(QStringLiteral("verify")).contains(QStringLiteral("none")), qPrintable(in_rail("verify")));

@@ -1,9 +1,12 @@
 #include "core/base/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "core/base/clock.h"
 
@@ -23,6 +26,21 @@ TEST(File, FailuresAreNamed) {
   EXPECT_EQ(read_file("/").error().code, ErrorCode::file_unreadable);
   EXPECT_EQ(write_file("/nonexistent/a", "x").error().code, ErrorCode::file_not_writable);
   EXPECT_EQ(write_file("/dev/full", "x").error().code, ErrorCode::disk_full);
+}
+
+TEST(File, APipeIsReadToItsEnd) {
+  const auto pipe = std::filesystem::path(testing::TempDir()) / ("zd_pipe_" + std::to_string(::getpid()));
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string text(200'000, 'x');  // more than a pipe holds
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(120));  // the reader is there first
+    EXPECT_TRUE(write_file(pipe, text));
+  });
+  const auto read = read_file(pipe);
+  writer.join();
+  std::filesystem::remove(pipe);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, text);
 }
 
 TEST(Clock, ManualClockNeverSleeps) {

@@ -47,6 +47,11 @@ TEST(Diagnosis, NamesAHiddenEffectAndFitsTheSecondRun) {
   EXPECT_EQ(d.effects[0].id, "contact_resistance");
   ASSERT_TRUE(d.effects[0].position_mm.has_value());
   EXPECT_NEAR(*d.effects[0].position_mm, one.hidden[0].position_mm, 12.0);
+  ASSERT_TRUE(d.heat.has_value());  // of the run, not of half an hour more
+  EXPECT_EQ(d.heat->time_s.front(), one.recordings[0].time_s.front());
+  EXPECT_EQ(d.heat->time_s.back(), one.recordings[0].time_s.back());
+  ASSERT_EQ(d.heat->watts.size(), d.heat->position_mm.size());
+  EXPECT_EQ(d.heat->watts.front().size(), d.heat->time_s.size());
   ASSERT_EQ(d.held_out.size(), 1u);
   for (const auto& [channel, rms] : d.held_out[0].explained) {
     if (channel[0] != 'T') continue;

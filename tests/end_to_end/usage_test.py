@@ -6,8 +6,10 @@ Usage: usage_test.py"""
 import os
 import random
 import shutil
+import signal
 import struct
 import subprocess
+import time
 import zlib
 
 from virtual_machine import BIN, run_in_folder
@@ -58,6 +60,7 @@ def check(folder):
     usage("no-such-command")
     assert not os.path.exists(other)
     refused_frames(folder)
+    pipes(folder, recording)
     window(folder)
 
 
@@ -90,6 +93,33 @@ def refused_frames(folder):
     with open(out) as file:
         rows = file.read().splitlines()
     assert len(rows) == 3 and all(",0," in row for row in rows[1:]), rows
+
+
+def pipes(folder, recording):
+    """A pipe is read to its end; one that nobody writes to is given up at the first signal."""
+    cli = os.path.join(BIN, "zerodrift-cli")
+    out = os.path.join(folder, "clusters.json")
+    done = subprocess.run(["bash", "-c", f"'{cli}' cluster --recording <(sleep 0.3; cat '{recording}') --out '{out}'"],
+                          capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and os.path.exists(out), (done.returncode, done.stderr)
+    silent = os.path.join(folder, "silent.csv")
+    os.mkfifo(silent)
+    for told in (signal.SIGINT, signal.SIGTERM):
+        waiting = subprocess.Popen([cli, "cluster", "--recording", silent, "--out", out], stderr=subprocess.PIPE,
+                                   text=True)
+        time.sleep(1.0)
+        assert waiting.poll() is None
+        waiting.send_signal(told)
+        _, said = waiting.communicate(timeout=10)
+        assert waiting.returncode == 1 and "cancelled" in said, (waiting.returncode, said)
+    # Writing into a pipe that nobody reads cannot be given up half way: the second signal ends the program.
+    waiting = subprocess.Popen([cli, "cluster", "--recording", recording, "--out", silent], stderr=subprocess.PIPE)
+    time.sleep(2.0)
+    waiting.send_signal(signal.SIGTERM)
+    time.sleep(1.0)
+    waiting.send_signal(signal.SIGTERM)
+    waiting.communicate(timeout=10)
+    assert waiting.returncode == -signal.SIGTERM, waiting.returncode
 
 
 def window(folder):

@@ -81,6 +81,41 @@ TEST(MachineReader, RefusesAnUnknownEffectAndNamesThoseItKnows) {
   EXPECT_NE(error_of(document).context.at("expected").find("convection"), std::string::npos);
 }
 
+TEST(MachineReader, RefusesWhatPhysicsForbidsOfAnEffect) {
+  const auto with = [](const std::string& effect, const std::string& key, double value) {
+    json document = spindle_json();
+    document["effects"] = {effect};
+    document["effect_parameters"] = {{effect, {{key, value}}}};
+    return document;
+  };
+  Error error = error_of(with("convection", "h_W_m2K", -12));
+  EXPECT_EQ(error.code, ErrorCode::json_bad_value);
+  EXPECT_EQ(error.context.at("file"), "m.json");
+  EXPECT_EQ(error.context.at("key"), "effect_parameters.convection.h_W_m2K");
+  EXPECT_EQ(error.context.at("found"), "-12");
+  EXPECT_EQ(error.context.at("expected"), "a number of 0 or more");
+  EXPECT_NE(error_of(with("radiation", "emissivity", 1.2)).context.at("expected").find("0 to 1"), std::string::npos);
+  EXPECT_EQ(error_of(with("radiation", "emissivity", -0.1)).code, ErrorCode::json_bad_value);
+  EXPECT_EQ(error_of(with("sensor_lag", "lag_s", -60)).code, ErrorCode::json_bad_value);
+  EXPECT_EQ(error_of(with("coolant", "conductance_W_K", -1)).code, ErrorCode::json_bad_value);
+  EXPECT_EQ(error_of(with("heater_body", "heat_capacity_J_K", -5)).code, ErrorCode::json_bad_value);
+  EXPECT_EQ(error_of(with("contact_resistance", "resistance_m2K_W", -1e-4)).code, ErrorCode::json_bad_value);
+  json beyond = with("extra_heat_source", "power_W", 20);
+  beyond["effect_parameters"]["extra_heat_source"]["position_mm"] = 900;
+  EXPECT_NE(error_of(beyond).context.at("expected").find("0 to 400 mm"), std::string::npos);
+  // The second of a list is named as such.
+  json list = spindle_json();
+  list["effects"] = {"sensor_lag", "sensor_lag"};
+  list["effect_parameters"] = {{"sensor_lag", {{{"lag_s", 60}}, {{"lag_s", -1}}}}};
+  EXPECT_EQ(error_of(list).context.at("key"), "effect_parameters.sensor_lag[1].lag_s");
+  // A source may cool, an offset and a growth have either sign, a film may be far above the usual.
+  for (const json& unusual : {with("extra_heat_source", "power_W", -20), with("convection", "h_W_m2K", 5000),
+                              with("convection", "h_W_m2K", 0), with("sensor_offset", "offset_K", -3),
+                              with("structure_ambient", "um_per_K", -4)}) {
+    EXPECT_TRUE(machine_from_json(unusual, "m.json")) << unusual["effect_parameters"];
+  }
+}
+
 TEST(MachineReader, WritesWhatItReads) {
   Machine machine = test::spindle();
   machine.components[0].material.conductivity_W_mK = 41.5;

@@ -2,12 +2,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/report/build.h"
 #include "core/report/comparison.h"
 #include "core/report/find_figure.h"
+#include "core/report/promise.h"
 
 namespace zerodrift::report {
 namespace {
@@ -110,6 +112,23 @@ TEST_F(ReportTest, TheFirstPageSaysWhatWasPromisedAndHowOftenItWasTried) {
   EXPECT_NE(first_page().find("verification 2 of this job; the first one left at most 6.5 µm (failed)"),
             std::string::npos)
       << first_page();
+}
+
+/// Rail, page and report judge by the same.
+TEST(Promise, IsHeldWithinItsReachAndBrokenBeyond) {
+  const nlohmann::json model = {{"figures", {{{"peak_held_out_um", 2.0}}, {{"peak_held_out_um", 1.1}}}}};
+  const auto left = [](double z_um) { return nlohmann::json{{"peak_error_after_um", {{"X", 0.4}, {"Z", z_um}}}}; };
+  EXPECT_TRUE(promise_of(model, left(2.4)).held());
+  EXPECT_FALSE(promise_of(model, left(2.6)).held());
+  EXPECT_EQ(promise_of(model, left(2.6)).left_um, 2.6);
+  EXPECT_FALSE(promise_of({}, left(2.6)).known());
+  EXPECT_TRUE(promise_of({}, left(2.6)).held());
+  // X was small before: that little of it is gone is no shortfall.
+  const nlohmann::json verification = {{"limit_um", 5.0},
+                                       {"peak_error_before_um", {{"X", 3.0}, {"Y", 12.0}, {"Z", 44.0}}},
+                                       {"removed_percent", {{"X", 10.0}, {"Y", 84.7}, {"Z", 96.0}}}};
+  EXPECT_EQ(least_removed_percent(verification), 84.0);
+  EXPECT_TRUE(std::isnan(least_removed_percent({})));
 }
 
 /// What was red on a page is in the report, in words, and counted on its first page.

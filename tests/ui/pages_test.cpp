@@ -152,6 +152,16 @@ void PagesTest::warmthIsJudgedByItsChange() {
   QCOMPARE(word().judgement, Judgement::ok);
   QVERIFY(word().limit.contains("T14"));
   QVERIFY(page.sentence().contains("2.9"));
+  // Once the commissioning began the figure is of then, and says so; what is now stands beside it.
+  const QString before = word().label;
+  state.rest.atStart = true;
+  state.rest.spread_K = 0.8;
+  state.rest.now_K = 3.1;
+  const Figure began = word();
+  QVERIFY(began.label != before);
+  QCOMPARE(began.value, QString("0.80"));
+  QCOMPARE(began.judgement, Judgement::ok);
+  QVERIFY(began.limit.contains("3.10"));
 }
 
 void PagesTest::columnsAreTold() {

@@ -59,6 +59,12 @@ TEST(Calibration, ThreePositionsShowAMirroredCamera) {
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->mirrored);
   EXPECT_TRUE(result->um_from_px.isApprox(true_um_from_px(true), 1e-12));
+  // The same camera upside down has top and bottom exchanged: no half turn is said beside it.
+  const auto other = calibrate(views_at({{0, 0}, {0.5, 0}, {0, 0.5}}, -true_um_from_px(true)));
+  ASSERT_TRUE(other);
+  EXPECT_TRUE(other->mirrored);
+  EXPECT_NEAR(std::abs(result->rotation_deg), 3.0, 1e-9);
+  EXPECT_NEAR(other->rotation_deg, result->rotation_deg, 1e-9);
 }
 
 TEST(Calibration, TwoPositionsAreASimilarityWithStatedHandedness) {

@@ -48,6 +48,19 @@ TEST(ImageCodec, EveryTruncationIsAnError) {
   }
 }
 
+// The library that decodes would remark on these on stderr.
+TEST(ImageCodec, ABrokenPngIsRefusedBeforeItIsDecoded) {
+  const auto whole = encode_png(ramp(64, 64));
+  ASSERT_TRUE(whole);
+  ::testing::internal::CaptureStderr();
+  for (std::size_t at = 8; at < whole->size(); at += 5) {
+    auto bytes = *whole;
+    bytes[at] ^= 0x41;
+    EXPECT_FALSE(decode(bytes, "a.png")) << at;
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ImageCodec, AHugeSizeInTheHeaderIsRefused) {
   auto bytes = encode_png(ramp(64, 64));
   ASSERT_TRUE(bytes);

@@ -1,7 +1,9 @@
 #include "core/vision/measure_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -53,6 +55,7 @@ TEST_F(MeasureFiles, BadFramesAreNamedAndGoodOnesMeasured) {
   ASSERT_TRUE(write_file(m_folder / "frames/d_empty.jpg", ""));
   ASSERT_TRUE(write_png(m_folder / "frames/e_small.png", GrayImage{100, 80, std::vector<std::uint8_t>(8000, 90)}));
   ASSERT_TRUE(write_file(m_folder / "frames/notes.txt", "hello"));
+  ASSERT_EQ(::mkfifo((m_folder / "frames/f_pipe.png").c_str(), 0600), 0);
   std::vector<std::string> warnings;
   const auto positions = locate_in_folder(target(), {}, m_folder / "frames", &warnings, {});
   ASSERT_TRUE(positions);
@@ -63,7 +66,10 @@ TEST_F(MeasureFiles, BadFramesAreNamedAndGoodOnesMeasured) {
   EXPECT_NE((*positions)[2].location.reason.find("ends early"), std::string::npos);
   EXPECT_NE((*positions)[3].location.reason.find("empty"), std::string::npos);
   EXPECT_EQ((*positions)[4].location.reason, "another resolution than the template");
-  EXPECT_EQ(warnings.size(), 4u);
+  EXPECT_EQ(warnings.size(), 5u);
+  EXPECT_EQ(
+      std::count(warnings.begin(), warnings.end(), "f_pipe.png is a pipe or a device, no picture, and was left out"),
+      1);
   const std::string csv = positions_csv(*positions, false);
   EXPECT_EQ(csv.substr(0, csv.find('\n')), "frame,x_px,y_px,sigma_x_px,sigma_y_px,ok,reason");
   EXPECT_NE(csv.find("c_cut.png,,,,,0,"), std::string::npos);
@@ -74,6 +80,9 @@ TEST_F(MeasureFiles, FolderWithoutPicturesIsAnError) {
   EXPECT_EQ(nothing.error().code, ErrorCode::wrong_format);
   EXPECT_EQ(nothing.error().context.at("file"), (m_folder / "frames").string());
   EXPECT_EQ(locate_in_folder(target(), {}, m_folder / "none", nullptr, {}).error().code, ErrorCode::file_not_found);
+  const auto file = locate_in_folder(target(), {}, m_folder / "template.png", nullptr, {});
+  EXPECT_EQ(file.error().code, ErrorCode::wrong_format);
+  EXPECT_EQ(file.error().context.at("found"), "a file");
 }
 
 TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {

@@ -170,7 +170,11 @@ void CompensatorPage::render() {
   m_legend->setItems({{tr("error predicted by the model"), colors().text, true},
                       {tr("compensation applied"), mix(colors().panel, colors().text, 0.45)},
                       {tr("left, measured"), colors().text, false, false, true}});
-  for (LivePlot* plot : m_plots) plot->setPlaceholder(tr("Waiting for the first turn"));
+  for (std::size_t axis = 0; axis < m_plots.size(); ++axis) {
+    m_plots[axis]->setAxisLabels({}, QString(QLatin1Char("XYZ"[axis])));
+    m_plots[axis]->setPlaceholder(running ? tr("Waiting for the first turn")
+                                          : tr("Drawn while this computer compensates"));
+  }
   m_tableCard->setTitle(tr("Now"));
   m_table->setColumns({{tr("Axis"), 52, false, {}},
                        {tr("Predicted"), 0, true, tr("Error = actual − commanded, as the model says")},

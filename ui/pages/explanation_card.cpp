@@ -66,7 +66,7 @@ void ExplanationCard::setExplanation(int rank, const Explanation& e) {
   m_facts->setText(e.magnitude + (e.place.isEmpty() ? QString() : QStringLiteral("   ·   ") + e.place));
   m_spark->setCurves({e.before, e.refit, e.after}, {colors().bad, colors().warn, colors().ok});
   m_improvement->setText(
-      tr("<span style='color:%1'>before %2</span><br><span style='color:%3'>only re-fitted %4</span><br>"
+      tr("<span style='color:%1'>%8 before %2</span><br><span style='color:%3'>only re-fitted %4</span><br>"
          "<span style='color:%5'>with the effect %6 %7</span>")
           .arg(colors().badText.name())
           .arg(e.rmseBefore, 0, 'f', 2)
@@ -74,7 +74,7 @@ void ExplanationCard::setExplanation(int rank, const Explanation& e) {
           .arg(e.rmseRefit, 0, 'f', 2)
           .arg(colors().okText.name())
           .arg(e.rmseAfter, 0, 'f', 2)
-          .arg(e.unit));
+          .arg(e.unit, e.channel.toHtmlEscaped()));
   QStringList notes = {e.rivals, e.couldDetect};
   notes.removeAll(QString());
   m_rivals->setText(notes.join('\n'));

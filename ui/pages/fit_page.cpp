@@ -152,11 +152,11 @@ void FitPage::render() {
   }
   const bool residuals = m_views->currentIndex() == 1;
   m_plotCard->setTitle(residuals ? tr("Residuals") : tr("Measured and predicted"));
-  m_plotCard->setSubtitle(QStringLiteral("µm"));
-  renderMethods();
-  renderWords();
   const int index =
       std::clamp(m_direction->currentIndex(), 0, std::max(0, static_cast<int>(m_state.series.size()) - 1));
+  m_plotCard->setSubtitle(names.isEmpty() ? QStringLiteral("µm") : QStringLiteral("%1, µm").arg(names[index]));
+  renderMethods();
+  renderWords();
   if (m_state.series.isEmpty()) return;
   if (residuals) {
     renderResiduals(m_state.series[index]);

@@ -261,8 +261,17 @@ QVector<Figure> MachinePage::figures() const {
 
 Figure MachinePage::restFigure() const {
   const RestState& rest = m_state.rest;
-  Figure figure = figureAtMost(tr("Spread at rest"), rest.spread_K, 2, "K", rest.spreadLimit_K);
+  Figure figure = figureAtMost(rest.atStart ? tr("Spread at the start") : tr("Spread at rest"), rest.spread_K, 2, "K",
+                               rest.spreadLimit_K);
   if (figure.judgement == Judgement::none) return figure;
+  if (rest.atStart) {
+    figure.word = rest.spread_K <= rest.spreadLimit_K ? tr("even") : tr("uneven");
+    if (!std::isnan(rest.now_K)) figure.limit = tr("now %1 K").arg(rest.now_K, 0, 'f', 2);
+    figure.tip =
+        tr("Warmest less coldest of the sensors that live, each by the mean of its readings, when the "
+           "commissioning began. The report says the same.");
+    return figure;
+  }
   const bool even = rest.spread_K <= rest.spreadLimit_K;
   const bool watched = !std::isnan(rest.change_K_h);
   const bool steady = watched && std::abs(rest.change_K_h) <= rest.changeLimit_K_h;
@@ -273,9 +282,9 @@ Figure MachinePage::restFigure() const {
   if (watched && !steady) {
     figure.limit = tr("%1 %2 K/h").arg(rest.quickest, (rest.change_K_h > 0 ? "+" : "") + fixedText(rest.change_K_h, 1));
   }
-  figure.tip = tr("Warmest sensor minus coldest. It forbids nothing: a sensor by a motor that always holds is always "
-                  "warmer. What "
-                  "counts is that nothing changes any more (%1 K/h) when the run begins.")
+  figure.tip = tr("Warmest less coldest of the sensors that live, each by the mean of its last readings. It forbids "
+                  "nothing: a sensor by a motor that always holds is always warmer. What counts is that nothing "
+                  "changes any more (%1 K/h) when the run begins.")
                    .arg(rest.changeLimit_K_h);
   return figure;
 }

@@ -45,7 +45,9 @@ struct PartHealth {
 /// How the machine stands before a run. The spread alone says little: a sensor by a motor that always holds is always
 /// warmer. What matters is whether anything still changes.
 struct RestState {
-  double spread_K = std::numeric_limits<double>::quiet_NaN();  // largest - smallest temperature
+  double spread_K = std::numeric_limits<double>::quiet_NaN();  // warmest - coldest of the sensors that live
+  bool atStart = false;  // that is the job's: of when the commissioning began; else of now
+  double now_K = std::numeric_limits<double>::quiet_NaN();  // the same of now; NaN: not connected
   double spreadLimit_K = 1.0;
   QString warmest{};                                             // the sensor farthest from the middle
   double apart_K = std::numeric_limits<double>::quiet_NaN();     // from the middle one, with sign

@@ -206,7 +206,7 @@ QVector<PageAction> PhysicsPage::secondary() const {
 
 QVector<Figure> PhysicsPage::figures() const {
   // The limit follows from the sensors' noise: before that is known there is none.
-  const QString label = tr("Simulation against recording");
+  const QString label = tr("Simulation error, all sensors");
   Figure agreement = std::isnan(m_state.noise_K)
                          ? figureOf(label, m_state.rmse_K, 2, "K")
                          : figureAtMost(label, m_state.rmse_K, 2, "K", std::ceil(20.0 * m_state.noise_K) / 10.0);
@@ -215,8 +215,10 @@ QVector<Figure> PhysicsPage::figures() const {
   if (agreement.judgement == Judgement::bad && m_state.verdict == PhysicsVerdict::consistent) {
     agreement = figureOf(label, m_state.rmse_K, 2, "K", tr("within its tolerances"));
   }
-  agreement.tip = m_state.adopted ? tr("With what was adopted.")
-                                  : tr("As the machine is described: with every number at its middle.");
+  agreement.tip =
+      sentencesText({tr("Recorded less simulated, rms over all temperatures; a card tells of one channel."),
+                     m_state.adopted ? tr("With what was adopted.")
+                                     : tr("As the machine is described: with every number at its middle.")});
   Figure noise = figureOf(tr("Noise of the sensors"), m_state.noise_K, 2, "K");
   Figure heat = figureOf(tr("Missing heat"), m_state.missing_W, 0, "W");
   if (m_state.adopted && !heat.value.isEmpty()) heat.word = tr("explained by what was adopted");

@@ -48,10 +48,11 @@ struct Explanation {
   double confidence = 0.0;  // 0..1
   bool adopted = false;
   bool rejected = false;
-  QVector<double> before{};  // residual of the most telling channel
+  QString channel{};         // the most telling one, of which the curves and their rms are: "T1"
+  QVector<double> before{};  // its residual
   QVector<double> refit{};   // after a plain re-fit without the effect
   QVector<double> after{};
-  double rmseBefore = 0.0;
+  double rmseBefore = 0.0;  // of that channel alone
   double rmseRefit = 0.0;
   double rmseAfter = 0.0;
   QString unit = "K";

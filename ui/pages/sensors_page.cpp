@@ -32,7 +32,7 @@ SensorsPage::SensorsPage(QWidget* parent) : Page("sensors", parent) {
   auto* row = new QHBoxLayout;
   row->setSpacing(16);
   row->addWidget(makePlots(), 1);
-  row->addWidget(makeChoice());
+  row->addWidget(makeChoice(), 2);
   content()->addLayout(row, 1);
   connectParts();
   refresh();
@@ -90,7 +90,8 @@ Card* SensorsPage::makeChoice() {
   m_priceNote->setProperty("role", "caption");
   m_priceNote->setContentsMargins(15, 2, 15, 4);
   m_tableCard->body()->addWidget(m_priceNote);
-  m_tableCard->setFixedWidth(578);
+  m_tableCard->setMinimumWidth(578);
+  m_tableCard->setMaximumWidth(680);  // the longest names of sensors
   return m_tableCard;
 }
 
@@ -315,13 +316,13 @@ void SensorsPage::renderTable() {
   m_tableCard->setTitle(tr("Choice"));
   m_table->setColumns(
       {{tr("Sensor"), 0, false, {}},
-       {"X", 46, true, tr("Correlation with the error in X")},
-       {"Y", 46, true, tr("Correlation with the error in Y")},
-       {"Z", 46, true, tr("Correlation with the error in Z")},
-       {tr("Sum"), 50, true, tr("Largest in its cluster: thermally sensitive point")},
-       {tr("Lag"), 64, true, tr("The error follows this sensor after so many minutes")},
+       {"X", 42, true, tr("Correlation with the error in X")},
+       {"Y", 42, true, tr("Correlation with the error in Y")},
+       {"Z", 42, true, tr("Correlation with the error in Z")},
+       {tr("Sum"), 44, true, tr("Largest in its cluster: thermally sensitive point")},
+       {tr("Lag"), 58, true, tr("The error follows this sensor after so many minutes")},
        {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
-       {tr("Price"), 74, true,
+       {tr("Price"), 72, true,
         tr("Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better")}});
   QVector<QVector<DataCell>> rows;
   for (const SensorRow& s : m_state.sensors) {

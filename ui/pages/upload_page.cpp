@@ -228,6 +228,7 @@ void UploadPage::renderAxis() {
   const int index = m_axis->currentIndex();
   if (index < 0 || index >= m_state.axes.size()) return m_terms->setRows({});
   const AxisTable& axis = m_state.axes[index];
+  m_tableCard->setSubtitle(QStringLiteral("%1, µm").arg(axis.axis));
   const Colors& c = colors();
   // Without a table before, the change is the new table itself: one curve then, not two that hide each other.
   const bool replaces = std::any_of(axis.before_um.begin(), axis.before_um.end(), [](double um) { return um != 0.0; });

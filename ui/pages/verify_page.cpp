@@ -234,9 +234,11 @@ QVector<PageAction> VerifyPage::secondary() const {
 
 QVector<Figure> VerifyPage::figures() const {
   const bool finished = m_state.phase == VerifyPhase::finished;
-  Figure before = figureOf(tr("Peak without"), m_state.peakBefore_um, 1, "µm");
+  // Before a verification has ended only the warm-up run tells, and it is another run: its figure says so.
+  Figure before = figureOf(finished ? tr("Peak without") : tr("Peak of the warm-up"), m_state.peakBefore_um, 1, "µm");
   if (!m_state.beforeAxis.isEmpty()) before.limit = tr("in %1").arg(m_state.beforeAxis);
-  before.tip = m_state.sameRun
+  before.tip = !finished ? tr("Largest error of the whole warm-up run.")
+               : m_state.sameRun
                    ? tr("Largest error that this very run would have had without compensation: measured less applied.")
                    : tr("Largest error of the warm-up run, over the minutes that the verification lasted.");
   Figure after = figureAtMost(tr("Peak with"), m_state.peakAfter_um, 1, "µm", m_state.peakLimit_um);
@@ -415,6 +417,7 @@ void VerifyPage::renderResiduals() {
     return m_plot->clear();
   }
   const AxisCorrection& axis = m_state.corrections[row];
+  m_plotCard->setSubtitle(QStringLiteral("%1, µm").arg(axis.axis));
   m_plot->setLimits(
       {{m_state.threshold_um, tr("threshold"), Judgement::warn}, {-m_state.threshold_um, {}, Judgement::warn}});
   PartStyle style;

@@ -17,7 +17,7 @@ enum class StepState {
   ready,    // can be done now: hollow number, brighter
   running,  // being done just now: blue number
   current,  // done and up to date: green tick
-  stale,    // done, but an earlier choice changed: amber "!"
+  stale,    // done, but an earlier choice changed or the result fell short: amber "!"
   failed,   // amber "!" in red
 };
 

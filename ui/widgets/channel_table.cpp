@@ -2,6 +2,7 @@
 
 #include "ui/widgets/fitted_text.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/whole_rows.h"
 
 namespace zerodrift::ui {
 
@@ -148,9 +149,7 @@ ChannelTable::ChannelTable(QWidget* parent) : QWidget(parent) {
   m_view->setColumnWidth(valueColumn, 84);
   m_view->setColumnWidth(stateColumn, 74);
   m_view->viewport()->installEventFilter(this);
-  auto* all = new QVBoxLayout(this);
-  all->setContentsMargins(0, 0, 0, 0);
-  all->addWidget(m_view);
+  new WholeRows(this, m_view);
   connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) { Q_EMIT selected(now.isValid() ? m_model->rows[now.row()].id : QString()); });
   connect(m_view, &QTableView::clicked, this, [this](const QModelIndex& at) {
@@ -189,6 +188,7 @@ void ChannelTable::setRows(const QVector<ChannelRow>& rows) {
   const QSignalBlocker quiet(this);
   m_view->selectionModel()->clear();
   m_model->replace(rows);
+  layout()->update();
 }
 
 const QVector<ChannelRow>& ChannelTable::rows() const {

@@ -2,6 +2,7 @@
 
 #include "ui/widgets/fitted_text.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/whole_rows.h"
 
 namespace zerodrift::ui {
 namespace {
@@ -85,9 +86,7 @@ DataTable::DataTable(QWidget* parent) : QWidget(parent) {
   m_table->horizontalHeader()->setMinimumSectionSize(20);
   m_table->horizontalHeader()->setHighlightSections(false);
   m_table->viewport()->installEventFilter(this);
-  auto* all = new QVBoxLayout(this);
-  all->setContentsMargins(0, 0, 0, 0);
-  all->addWidget(m_table);
+  new WholeRows(this, m_table);
   connect(m_table, &QTableWidget::currentCellChanged, this, [this](int row, int, int before, int) {
     if (!m_filling && row != before) Q_EMIT rowSelected(row);
   });
@@ -117,6 +116,7 @@ void DataTable::setColumns(const QVector<DataColumn>& columns) {
 
 void DataTable::setRows(const QVector<QVector<DataCell>>& rows) {
   m_filling = true;
+  if (m_table->rowCount() != rows.size()) layout()->update();
   m_table->setRowCount(static_cast<int>(rows.size()));
   for (int row = 0; row < rows.size(); ++row) {
     m_table->setRowHeight(row, m_rowHeight);

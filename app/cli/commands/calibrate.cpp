@@ -28,8 +28,8 @@ std::string text_of(const vision::Calibration& c) {
                                  c.um_from_px(0, 1), sigma(0, 1));
   text += fmt::format("            {:+.5f} +- {:.5f}  {:+.5f} +- {:.5f}\n", c.um_from_px(1, 0), sigma(1, 0),
                       c.um_from_px(1, 1), sigma(1, 1));
-  text += fmt::format("{:.3f} um/px, turned by {:.2f} degrees{}, {} views, residual {:.2f} um rms", c.scale_um_per_px,
-                      c.rotation_deg, c.mirrored ? ", mirrored" : "", c.views.size(), c.rms_um);
+  text += fmt::format("{:.3f} um/px, {}turned by {:.2f} degrees, {} views, residual {:.2f} um rms", c.scale_um_per_px,
+                      c.mirrored ? "mirrored and " : "", c.rotation_deg, c.views.size(), c.rms_um);
   if (std::isfinite(c.leave_one_out_um)) text += fmt::format(", {:.2f} um left out", c.leave_one_out_um);
   return text;
 }

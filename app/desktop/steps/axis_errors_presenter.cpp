@@ -161,7 +161,21 @@ bool AxisErrorsPresenter::read() {
     });
   }
   cut();
+  Q_EMIT standingChanged();
   return !m_position_mm.empty();
+}
+
+/// No step of the job: a laser is there or it is not.
+Presenter::Standing AxisErrorsPresenter::standing() const {
+  if (const auto& body = bench().body("axis_table"); body.is_object()) {
+    if (const auto kept = compensation::table_from_json(body.at("table"), "the axis table")) {
+      QStringList axes;
+      for (const auto& axis : kept->axes) axes << QString::fromStdString(axis.first);
+      return {tr("In the table: %1").arg(ui::listText(axes)), ui::StepState::current};
+    }
+  }
+  if (!m_position_mm.empty()) return {tr("%1 loaded").arg(QString::fromStdString(axisName()))};
+  return {tr("When needed")};
 }
 
 void AxisErrorsPresenter::askAgain() {

@@ -18,6 +18,7 @@ class AxisErrorsPresenter : public Presenter {
  public:
   AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page);
   void refresh() override;
+  Standing standing() const override;
   void tour(std::function<void(bool good)> done) override;
   bool load(const QString& path);
   /// In the tour nobody is there to be asked for columns.

@@ -174,8 +174,8 @@ void CompensatorPresenter::ended(const Result<controller::CompensatorSummary>& s
   refresh();
 }
 
-QString CompensatorPresenter::standing() const {
-  return m_running ? m_state.doing : tr("When needed");
+Presenter::Standing CompensatorPresenter::standing() const {
+  return {m_running ? m_state.doing : tr("When needed")};
 }
 
 void CompensatorPresenter::refresh() {

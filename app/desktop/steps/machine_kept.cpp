@@ -38,6 +38,7 @@ void MachinePresenter::fillKept(ui::MachineState& state) const {
   }
   if (state.sensors.isEmpty()) return;
   state.rest.spread_K = number(body, "spread_K");
+  state.rest.atStart = true;
   state.roundTrip_ms = number(body, "round_trip_ms");
   state.clockDifference_s = std::round(10.0 * number(body, "clock_difference_s")) / 10.0 + 0.0;
   state.keptFrom = momentText((*artefact)->created_utc);

@@ -25,6 +25,7 @@ constexpr std::size_t readings_kept = 30;
 constexpr int jobs_remembered = 8;
 constexpr qint64 old_after_ms = 5000;  // live, the machine is looked at every second
 constexpr double course_s = 900.0;     // of the machine: how far back the change of temperatures is looked at
+constexpr double spread_s = 60.0;      // of the machine: the readings whose means tell the spread of now
 constexpr double course_least_s = 180.0;
 constexpr std::size_t course_least = 20;
 constexpr std::size_t course_most = 900;
@@ -407,13 +408,9 @@ void MachinePresenter::fillRest(ui::MachineState& state) const {
   const auto& look = *bench().look();
   const auto& now_C = look.sample.temperature_C;
   const double middle_C = median_of(now_C);
-  double low = unknown;
-  double high = unknown;
   ui::RestState& rest = state.rest;
   for (std::size_t i = 0; i < now_C.size(); ++i) {
     if (std::isnan(now_C[i])) continue;
-    low = std::fmin(low, now_C[i]);
-    high = std::fmax(high, now_C[i]);
     const double apart_K = now_C[i] - middle_C;
     if (std::isnan(rest.apart_K) || std::abs(apart_K) > std::abs(rest.apart_K)) {
       rest.apart_K = apart_K;
@@ -426,7 +423,18 @@ void MachinePresenter::fillRest(ui::MachineState& state) const {
       rest.quickest = tag_of(look, i);
     }
   }
-  rest.spread_K = high - low;
+  std::vector<std::vector<double>> by_sensor(now_C.size());
+  for (const auto& [time_s, values_C] : m_course) {
+    if (m_course.back().first - time_s > spread_s) continue;
+    for (std::size_t i = 0; i < now_C.size(); ++i) by_sensor[i].push_back(values_C[i]);
+  }
+  if (!m_course.empty()) rest.now_K = acquisition::spread_of(acquisition::judged(look.identity.sensors, by_sensor));
+  rest.spread_K = rest.now_K;
+  const auto& begun = bench().body("machine");  // what the job and its report say of the start
+  if (begun.is_object() && begun.value("spread_K", nlohmann::json()).is_number()) {
+    rest.spread_K = begun["spread_K"].get<double>();
+    rest.atStart = true;
+  }
 }
 
 void MachinePresenter::fillParts(ui::MachineState& state) const {

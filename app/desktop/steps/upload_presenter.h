@@ -25,7 +25,7 @@ class UploadPresenter : public Presenter {
   UploadPresenter(Workbench& bench, ui::UploadPage* page);
   void refresh() override;
   void enter() override;
-  QString standing() const override { return tableStanding(); }
+  Standing standing() const override { return tableStanding(); }
   void tour(std::function<void(bool good)> done) override;
   /// Writes this table instead of the model's: the correction found by a verification. Asks first.
   void writeCorrection(const compensation::Table& table, std::function<void(bool good)> done);

@@ -11,6 +11,7 @@
 #include "core/flow/steps/verify_compare.h"
 #include "core/report/comparison.h"
 #include "core/report/limits.h"
+#include "core/report/promise.h"
 #include "ui/pages/verify_page.h"
 
 namespace zerodrift::desktop {
@@ -219,15 +220,7 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
     }
   }
   state.promiseReach = report::limits::promise_reach;
-  const json& model = bench().body("model");
-  if (model.is_object()) {
-    for (const auto& figure : model.value("figures", json::array())) {
-      const auto peak = figure.find("peak_held_out_um");
-      if (peak != figure.end() && peak->is_number()) {
-        state.promised_um = std::fmax(state.promised_um, peak->get<double>());
-      }
-    }
-  }
+  state.promised_um = report::promise_of(bench().body("model"), body).promised_um;
   fillCorrection(state);
 }
 
@@ -292,11 +285,20 @@ bool VerifyPresenter::ofAnotherTable() {
   });
 }
 
-QString VerifyPresenter::standing() const {
-  if (QString table = tableStanding(); !table.isEmpty()) return table;
+Presenter::Standing VerifyPresenter::standing() const {
+  if (Standing table = tableStanding(); !table.words.isEmpty()) return table;
   if (bench().job() == nullptr || running()) return {};
   if (flow::status_of(*bench().job(), "verify").state != flow::StepState::current) return {};
-  return bench().body("verification").value("verdict", "") == "failed" ? tr("Above the limit") : QString();
+  const json& body = bench().body("verification");
+  if (!body.is_object()) return {};
+  if (body.value("verdict", "") == "failed") return {tr("Above the limit")};
+  if (!report::promise_of(bench().body("model"), body).held()) {
+    return {tr("Promise not reached"), ui::StepState::stale};
+  }
+  if (report::least_removed_percent(body) < report::limits::removed_percent) {
+    return {tr("Less than %1 % removed").arg(report::limits::removed_percent, 0, 'f', 0), ui::StepState::stale};
+  }
+  return {};
 }
 
 void VerifyPresenter::refresh() {

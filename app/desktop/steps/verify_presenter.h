@@ -15,8 +15,8 @@ class VerifyPresenter : public RunPresenter {
  public:
   VerifyPresenter(Workbench& bench, ui::VerifyPage* page);
   void refresh() override;
-  /// A run that failed is no step that is done.
-  QString standing() const override;
+  /// A run that failed is no step that is done; one that left more than was promised is done, with a mark.
+  Standing standing() const override;
   void tour(std::function<void(bool good)> done) override;
 
  Q_SIGNALS:

@@ -7,8 +7,8 @@
 
 #include "core/report/build.h"
 #include "core/report/doubts.h"
-#include "core/report/limits.h"
 #include "core/report/pieces.h"
+#include "core/report/promise.h"
 
 namespace zerodrift::report {
 namespace {
@@ -158,13 +158,9 @@ namespace {
 
 /// The figures are of the last verification: what came before it, and what the fit had promised.
 std::vector<Text> what_was_promised(const Source& source, const LoadedArtefact& verification) {
-  const auto largest_of = [](const nlohmann::json& body) {
-    double largest_um = std::nan("");
-    for (const auto& direction : directions_of(body, "peak_error_after_um")) {
-      largest_um = std::fmax(largest_um, number_of(body, "peak_error_after_um", direction));
-    }
-    return largest_um;
-  };
+  const LoadedArtefact* model = source.find("model");
+  const nlohmann::json none;
+  const Promise promise = promise_of(model != nullptr ? model->body : none, verification.body);
   std::vector<Text> said;
   const auto& all = source.history("verification");
   if (all.size() > 1) {
@@ -172,23 +168,15 @@ std::vector<Text> what_was_promised(const Source& source, const LoadedArtefact& 
     said.push_back(
         {source.tell("These figures are of verification {} of this job; the first one left at most {} µm ({}). All of "
                      "them are listed under Verification.",
-                     all.size(), shown(largest_of(first), 1), source.say(text_of(first, "verdict")))});
+                     all.size(), shown(promise_of(none, first).left_um, 1), source.say(text_of(first, "verdict")))});
   }
-  double promised_um = std::nan("");
-  if (const LoadedArtefact* model = source.find("model")) {
-    for (const auto& figure : list_of(model->body, "figures")) {
-      promised_um = std::fmax(promised_um, number_of(figure, "peak_held_out_um"));
-    }
-  }
-  const double left_um = largest_of(verification.body);
-  if (!std::isfinite(promised_um) || !std::isfinite(left_um)) return said;
-  const bool held = left_um <= limits::promise_reach * promised_um;
-  const std::string promised = shown(promised_um, 1);
-  const std::string left = shown(left_um, 1);
-  said.push_back({held
+  if (!promise.known()) return said;
+  const std::string promised = shown(promise.promised_um, 1);
+  const std::string left = shown(promise.left_um, 1);
+  said.push_back({promise.held()
                       ? source.tell("The fit promised at most {} µm; measured are {} µm: held.", promised, left)
                       : source.tell("The fit promised at most {} µm; measured are {} µm: not reached.", promised, left),
-                  !held});
+                  !promise.held()});
   return said;
 }
 

@@ -195,6 +195,7 @@ void fillPhysics(Page* page, const QString& scene) {
   first.before = residual(1.9, 2600, 1);
   first.refit = residual(0.9, 3900, 2);
   first.after = residual(0.05, 3000, 3);
+  first.channel = "T3";
   first.rmseBefore = 1.62;
   first.rmseRefit = 0.74;
   first.rmseAfter = 0.10;
