@@ -146,6 +146,41 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(std::abs(page->state().compared_s - 179 * 60.0) < 1.0);
   }
 
+  /// The fit's word is part of the result: a step that left more is done, with a mark that says so.
+  void aPromiseThatWasNotKeptIsMarkedInTheRail() {
+    Application application(m_theme);
+    QVERIFY(recorded(application));
+    auto& job = *application.bench().job();
+    QVERIFY(put(job, "model", {{"figures", {{{"channel", "dZ_um"}, {"peak_held_out_um", 1.0}}}}}, {}));
+    QVERIFY(put(job, "calibration", {{"source", "probes"}}, {}));
+    QVERIFY(put(job, "upload", {{"table", tableOf()}, {"sign_check", {{"passed", true}}}}, {}));
+    const SeriesId series = record(job, "verification", 180, 0.12);
+    const auto upload = job.latest("upload");
+    const auto warmup = job.latest("warmup");
+    const auto calibration = job.latest("calibration");
+    const auto verified = [&](double left_um, double removed_percent) {
+      const nlohmann::json body = {{"series", series},
+                                   {"limit_um", 5.0},
+                                   {"verdict", left_um <= 5.0 ? "passed" : "failed"},
+                                   {"peak_error_before_um", {{"Z", 40.0}}},
+                                   {"peak_error_after_um", {{"Z", left_um}}},
+                                   {"removed_percent", {{"Z", removed_percent}}}};
+      const auto made = NewArtefact::of("verification", body, {(*warmup)->id, (*calibration)->id, (*upload)->id});
+      return application.bench().keep(made).has_value();
+    };
+    const auto standing = [&] { return application.presenter(QStringLiteral("verify"))->standing(); };
+    QVERIFY(verified(1.2, 97.0));
+    QVERIFY2(standing().words.isEmpty(), qPrintable(standing().words));
+    QVERIFY(verified(1.4, 96.5));
+    QVERIFY2(standing().words.contains(QStringLiteral("Promise")), qPrintable(standing().words));
+    QCOMPARE(standing().state, zerodrift::ui::StepState::stale);
+    QVERIFY(verified(1.2, 84.6));
+    QVERIFY2(standing().words.contains(QStringLiteral("85")), qPrintable(standing().words));
+    QVERIFY(verified(5.5, 86.0));
+    QVERIFY2(standing().words.contains(QStringLiteral("limit")), qPrintable(standing().words));
+    QCOMPARE(standing().state, zerodrift::ui::StepState::ready);
+  }
+
   /// What failed is kept as code and facts, once, and said on the page.
   void aCorrectionThatCannotBeMadeIsSaid() {
     Application application(m_theme);

@@ -191,7 +191,7 @@ TEST(ReportLanguage, SentencesThatCoreComposedAreSaid) {
   }
   EXPECT_EQ(said("T2_C stopped during the run (no samples from 3000 s); it is not used"),
             "T2_C 在运行中停止（自 3000 s 起无采样）；未采用");
-  EXPECT_EQ(said("target refused (camera front: too blurred), 3 times"), "靶标被拒绝（相机 front：图像模糊），3 次");
+  EXPECT_EQ(said("target refused (camera front: too blurred), 3 times"), "靶标被拒绝（相机 前方：图像模糊），3 次");
   EXPECT_EQ(
       said("ridge on 8 sensors leaves 0.51 um rms with each of 3 cycles in turn left out; with the noise of their "
            "sensors mlr on 8 sensors is to leave 0.55 um and this one 0.58 um: not clearly worse, and steadier "

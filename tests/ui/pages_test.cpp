@@ -162,6 +162,8 @@ void PagesTest::warmthIsJudgedByItsChange() {
   QCOMPARE(began.value, QString("0.80"));
   QCOMPARE(began.judgement, Judgement::ok);
   QVERIFY(began.limit.contains("3.10"));
+  state.rest.spread_K = 2.9;
+  QCOMPARE(word().judgement, Judgement::warn);
 }
 
 void PagesTest::columnsAreTold() {

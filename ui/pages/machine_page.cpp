@@ -265,7 +265,9 @@ Figure MachinePage::restFigure() const {
                                rest.spreadLimit_K);
   if (figure.judgement == Judgement::none) return figure;
   if (rest.atStart) {
-    figure.word = rest.spread_K <= rest.spreadLimit_K ? tr("even") : tr("uneven");
+    const bool even = rest.spread_K <= rest.spreadLimit_K;
+    figure.judgement = even ? Judgement::ok : Judgement::warn;  // never worse, as in the report
+    figure.word = even ? tr("even") : tr("uneven");
     if (!std::isnan(rest.now_K)) figure.limit = tr("now %1 K").arg(rest.now_K, 0, 'f', 2);
     figure.tip =
         tr("Warmest less coldest of the sensors that live, each by the mean of its readings, when the "

@@ -90,6 +90,7 @@ Card* SensorsPage::makeChoice() {
   m_priceNote->setProperty("role", "caption");
   m_priceNote->setContentsMargins(15, 2, 15, 4);
   m_tableCard->body()->addWidget(m_priceNote);
+  m_plotCard->setMinimumWidth(400);
   m_tableCard->setMinimumWidth(578);
   m_tableCard->setMaximumWidth(680);  // the longest names of sensors
   return m_tableCard;

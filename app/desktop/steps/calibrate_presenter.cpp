@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/desktop/pin_dialog.h"
+#include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "core/report/limits.h"
 #include "core/vision/calibration.h"
@@ -127,7 +128,7 @@ std::string CalibratePresenter::cameraAtWork() const {
 }
 
 void CalibratePresenter::confirmed() {
-  const std::string camera = m_page->state().moveCamera.toStdString();
+  const std::string camera = m_moveCamera;
   if (!m_page->takeConsent()) return;
   if (!m_running) {
     {
@@ -275,7 +276,8 @@ void CalibratePresenter::fillMoves(ui::CalibrateState& state) {
     if (profile->cameras[static_cast<std::size_t>(i)].id == at_work) next = i;
   }
   const auto& camera = profile->cameras[static_cast<std::size_t>(next)];
-  state.moveCamera = QString::fromStdString(camera.id);
+  m_moveCamera = camera.id;
+  state.moveCamera = coreText(camera.id);
   state.moveNumber = next + 1;
   for (const auto& axis : camera.axes) state.moveAxes << QString::fromStdString(axis);
   QStringList position;
@@ -307,7 +309,7 @@ void CalibratePresenter::refresh() {
   if (profile->error_source == controller::ErrorSourceKind::probes) {
     state.blocked = tr("This machine is measured with displacement probes; no camera has to be calibrated.");
   }
-  for (const auto& camera : profile->cameras) state.cameras << QString::fromStdString(camera.id);
+  for (const auto& camera : profile->cameras) state.cameras << coreText(camera.id);
   state.camera = m_camera;
   state.offline = offlineReason();
   state.running = m_running;

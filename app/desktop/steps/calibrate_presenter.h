@@ -62,6 +62,7 @@ class CalibratePresenter : public Presenter {
   void showQuality(const vision::GrayImage& image, const QRectF& region);
   QRectF regionOf(const std::string& camera);
 
+  std::string m_moveCamera;                             // id of the camera that the page asks for
   std::map<std::string, std::array<int, 4>> m_regions;  // drawn since the last calibration, by camera
   int m_camera = 0;
   bool m_running = false;

@@ -46,7 +46,7 @@ Table cameras_of(const Source& source, const LoadedArtefact& calibration) {
     const auto at = [&](const char* key) {
       return source.at("calibration", fmt::format("/cameras/{}/{}", number, key));
     };
-    table.rows.push_back({id, axes, cell(scale, 4, "um_per_px_" + id, at("um_per_px")),
+    table.rows.push_back({source.say(id), axes, cell(scale, 4, "um_per_px_" + id, at("um_per_px")),
                           cell(percent, 3, "scale_uncertainty_" + id + "_percent", at("calibration/sigma")),
                           cell(number_of(camera, "rotation_deg"), 3, "rotation_" + id + "_deg", at("rotation_deg")),
                           cell(number_of(camera, "rms_um"), 3, "calibration_rms_" + id + "_um", at("rms_um")),

@@ -27,6 +27,8 @@ std::vector<TextEntry> texts_of_machine() {
       {"Z screw nut", "Z 轴丝杠螺母"},
       {"Z screw support bearing", "Z 轴丝杠支承轴承"},
       {"A trunnion drive", "A 轴摇篮驱动"},
+      {"front", "前方"},
+      {"side", "侧方"},
       {"C table drive", "C 轴转台驱动"},
       {"Warm-up, 4 h, stepped speeds", "暖机 4 h，阶梯转速"},
       {"Warm-up, 4 h at 3000 rpm", "暖机 4 h，3000 rpm"},
