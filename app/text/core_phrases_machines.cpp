@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 324> machines = {{
+constexpr std::array<const char*, 326> machines = {{
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),
@@ -253,6 +253,9 @@ constexpr std::array<const char*, 324> machines = {{
     QT_TRANSLATE_NOOP("core", "status stays %1"),
     QT_TRANSLATE_NOOP("core", "dry run: nothing was written"),
     QT_TRANSLATE_NOOP("core", "a table it computes itself"),
+    QT_TRANSLATE_NOOP("core",
+                      "%1: when the table was written, the machine was outside the range the model was made in"),
+    QT_TRANSLATE_NOOP("core", "%1: in the verification, the machine went outside the range the model was made in"),
     QT_TRANSLATE_NOOP("core", "%1: the machine is outside the range the model was made in"),
     QT_TRANSLATE_NOOP("core", "the table's machine"),
     QT_TRANSLATE_NOOP("core", "the axes are not referenced"),

@@ -63,7 +63,8 @@ class Upload {
     if (table != nullptr) {
       ZD_CHECK(compensation::check_steepness(*table, m_machine.profile().max_um_per_K));
       for (const auto& outside : compensation::outside_valid_range(*table, temperatures_of(sample))) {
-        m_record.warnings.push_back(outside + ": the machine is outside the range the model was made in");
+        m_record.warnings.push_back(
+            outside + ": when the table was written, the machine was outside the range the model was made in");
       }
     }
     if (m_options.dry_run) return {};

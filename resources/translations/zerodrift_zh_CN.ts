@@ -3993,6 +3993,14 @@
         <source>degrees Celsius, above absolute zero</source>
         <translation>摄氏度，高于绝对零度</translation>
     </message>
+    <message>
+        <source>%1: when the table was written, the machine was outside the range the model was made in</source>
+        <translation>%1：写入补偿表时机床超出建模时的范围</translation>
+    </message>
+    <message>
+        <source>%1: in the verification, the machine went outside the range the model was made in</source>
+        <translation>%1：验证运行中机床超出建模时的范围</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -9625,6 +9633,10 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Step %1 of %2</source>
         <translation>步骤 %1 / %2</translation>
+    </message>
+    <message>
+        <source>in %1</source>
+        <translation>%1 轴</translation>
     </message>
 </context>
 </TS>

@@ -76,7 +76,7 @@ QWidget* MachinePage::makeMachine() {
   m_sensorCard = new Card(view);
   m_sensorCard->setBodyMargins(1, 0, 1, 6);
   m_sensorCard->setMinimumWidth(416);
-  m_sensorCard->setMaximumWidth(468);
+  m_sensorCard->setMaximumWidth(510);  // the longest names of sensors
   m_table = new ChannelTable(m_sensorCard);
   m_table->setColumnWidths(68, 104);
   m_sensorCard->body()->addWidget(m_table);
@@ -84,8 +84,8 @@ QWidget* MachinePage::makeMachine() {
   auto* all = new QHBoxLayout(view);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(16);
-  all->addWidget(m_drawingCard, 3);
-  all->addWidget(m_sensorCard, 2);
+  all->addWidget(m_drawingCard, 5);
+  all->addWidget(m_sensorCard, 4);
 
   connect(m_profile, &QComboBox::activated, this, &MachinePage::profileChosen);
   connect(m_view, &ToggleSegment::currentChanged, this, &MachinePage::viewShown);

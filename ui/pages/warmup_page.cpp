@@ -227,7 +227,8 @@ QVector<Figure> WarmupPage::runFigures() const {
   } else if (!std::isnan(m_state.timeLeft_s)) {
     left.value = durationText(m_state.timeLeft_s);
   }
-  Figure largest = figureOf(tr("Largest error"), m_state.largestError_um, 1, "µm", m_state.largestErrorAxis);
+  Figure largest = figureOf(tr("Largest error"), m_state.largestError_um, 1, "µm");
+  if (!m_state.largestErrorAxis.isEmpty()) largest.limit = tr("in %1").arg(m_state.largestErrorAxis);
   Figure slope = figureOf(tr("Error slope now"), m_state.slope_um_per_h, 1, "µm/h");
   Figure heat = figureOf(tr("Heat slope now"), m_state.slope_K_per_h, 1, "K/h");
   for (Figure* figure : {&slope, &heat}) {

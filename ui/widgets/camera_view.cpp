@@ -163,7 +163,9 @@ void CameraView::paintTrail(QPainter& painter, const QTransform& view) const {
   painter.setBrush(trailColor);
   painter.drawEllipse(path.currentPosition(), 3.5, 3.5);
   if (m_marks.trailEnlargement > 1.0) {
-    label(painter, {10, height() - 30.0}, tr("drift × %1").arg(m_marks.trailEnlargement), trailColor);
+    // In a thumbnail the marks stand near the foot.
+    const bool at_head = width() <= 360 && m_marks.message.isEmpty();
+    label(painter, {10, at_head ? 10.0 : height() - 30.0}, tr("drift × %1").arg(m_marks.trailEnlargement), trailColor);
   }
 }
 

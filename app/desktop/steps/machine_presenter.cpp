@@ -23,10 +23,10 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t readings_kept = 30;
 constexpr int jobs_remembered = 8;
-constexpr qint64 old_after_ms = 5000;  // live, the machine is looked at every second
-constexpr double course_s = 900.0;     // of the machine: how far back the change of temperatures is looked at
-constexpr double spread_s = 60.0;      // of the machine: the readings whose means tell the spread of now
-constexpr std::size_t spread_least = 10;
+constexpr qint64 old_after_ms = 5000;    // live, the machine is looked at every second
+constexpr double course_s = 900.0;       // of the machine: how far back the change of temperatures is looked at
+constexpr double spread_s = 60.0;        // of the machine: the readings whose means tell the spread of now
+constexpr std::size_t spread_least = 3;  // on a quick machine they are minutes apart
 constexpr double course_least_s = 180.0;
 constexpr std::size_t course_least = 20;
 constexpr std::size_t course_most = 900;
@@ -425,7 +425,6 @@ void MachinePresenter::fillRest(ui::MachineState& state) const {
     }
   }
   std::vector<std::vector<double>> by_sensor(now_C.size());
-  // On a quick machine so many looks are half an hour: what stands at rest is told best by a mean all the same.
   for (std::size_t k = 0; k < m_course.size(); ++k) {
     if (m_course.back().first - m_course[k].first > spread_s && m_course.size() - k > spread_least) continue;
     for (std::size_t i = 0; i < now_C.size(); ++i) by_sensor[i].push_back(m_course[k].second[i]);

@@ -147,7 +147,8 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   add_figures(before, after, options.limit_um, body);
   body["outside_range"] = furthest_outside(after, table);
   for (const std::string text : body["outside_range"]) {
-    body["problems"].push_back(text + ": the machine is outside the range the model was made in");
+    body["problems"].push_back(text +
+                               ": in the verification, the machine went outside the range the model was made in");
   }
   body["version_before"] = version_before(job, upload.id, residuals_of(after, table), table);
   propose_correction(after, table, std::min(options.limit_um, options.threshold_um), body);
