@@ -125,7 +125,8 @@ void about_machine(Doubts& doubts) {
   // Never worse than doubtful: a sensor by a motor that always holds is always warmer, and does no harm.
   if (const double spread_K = number_of(*body, "spread_K"); spread_K > limits::spread_K) {
     doubts.add(Verdict::doubtful, "spread_K",
-               "At the start the sensors differed by {} K (limit {} K): as far as the machine was still settling, the "
+               "When the commissioning began the sensors differed by {} K (limit {} K): as far as the machine was "
+               "still settling, the "
                "drift that was under way already is not in the figures.",
                shown(spread_K, 2), shown(limits::spread_K, 1));
   }

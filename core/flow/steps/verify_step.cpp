@@ -1,5 +1,7 @@
 #include "core/flow/steps/verify_step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

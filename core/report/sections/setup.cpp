@@ -19,7 +19,7 @@ void add_machine(const Source& source, Section& section) {
                                      source.at("machine", std::string("/") + key)));
   };
   add("sensors_alive", "Temperature sensors alive", "sensors_alive", 0, "");
-  add("spread_K", "Spread of the sensors alive, at the start", "spread_K", 2, "K");
+  add("spread_K", "Spread of the sensors when the commissioning began", "spread_K", 2, "K");
   add("round_trip_ms", "Answer of the controller", "round_trip_ms", 1, "ms");
   add("clock_difference_s", "Clock against the computer's", "clock_difference_s", 2, "s");
   section.blocks.emplace_back(std::move(figures));

@@ -16,10 +16,11 @@ std::vector<TextEntry> texts_of_doubts() {
       {"Nobody is named as the engineer who did this work. Enter the name on the Report page (on the command "
        "line: --engineer).",
        "未填写完成此项工作的工程师。请在“报告”页填写姓名（命令行：--engineer）。"},
-      {"At the start the sensors differed by {} K (limit {} K): as far as the machine was still settling, the drift "
+      {"When the commissioning began the sensors differed by {} K (limit {} K): as far as the machine was still "
+       "settling, the drift "
        "that "
        "was under way already is not in the figures.",
-       "开始时各传感器相差 {} K（限值 {} K）：若机床当时温度尚未稳定，此前已在进行的漂移未计入数值。"},
+       "调试开始时各传感器相差 {} K（限值 {} K）：若机床当时温度尚未稳定，此前已在进行的漂移未计入数值。"},
       {"An answer of the controller took {} ms (limit {} ms).", "控制器的响应用时 {} ms（限值 {} ms）。"},
       {"The controller's clock differed from the computer's by {} s (limit {} s).",
        "控制器时钟与计算机相差 {} s（限值 {} s）。"},

@@ -64,7 +64,7 @@ std::vector<TextEntry> texts_of_sections() {
       {"Nothing was refused and nothing looked doubtful.", "没有被拒绝的项目，也没有存疑之处。"},
       {"Measurement set-up", "测量装置"},
       {"Temperature sensors alive", "工作的温度传感器"},
-      {"Spread of the sensors alive, at the start", "开始时各正常传感器之间的温差"},
+      {"Spread of the sensors when the commissioning began", "调试开始时各正常传感器之间的温差"},
       {"Answer of the controller", "控制器响应时间"},
       {"Clock against the computer's", "控制器与计算机的时钟差"},
       {"Camera calibration", "相机标定"},
