@@ -126,6 +126,9 @@ class CaseRecorder {
 
 recording::Recording record_case(const HiddenEffects& hidden, std::uint64_t seed, const CaseOptions& options) {
   MachineParameters built = build_machine(seed, hidden);
+  for (std::size_t i = 0; i < options.built_otherwise.size(); ++i) {
+    built.*ordinary_numbers[i].factor *= std::exp(options.built_otherwise[i]);
+  }
   Noise noise(seed * 2654435761ULL + (options.second ? 2 : 1));
   if (options.second) {  // the same machine on another day
     built.room_start_C += noise.uniform(-1.5, 1.5);

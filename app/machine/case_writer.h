@@ -25,6 +25,8 @@ struct CaseOptions {
   bool noisy = true;       // false: what perfect sensors would show, for floors and strengths
   /// A further run of the same machine after a night of rest, of which only the room is recorded.
   std::vector<CaseStep> after_rest = {};
+  /// ln of further factors on `ordinary_numbers`, in their order: the same machine built a little differently.
+  std::vector<double> built_otherwise = {};
 };
 
 recording::Recording record_case(const HiddenEffects& hidden, std::uint64_t seed, const CaseOptions& options = {});

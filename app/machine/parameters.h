@@ -40,6 +40,17 @@ struct MachineParameters {
   HiddenEffects hidden;
 };
 
+/// What a description states of a machine or a re-fit frees: factors of its build, with how well each is known.
+struct OrdinaryNumber {
+  double MachineParameters::*factor;
+  double tolerance;
+};
+inline constexpr std::array ordinary_numbers{
+    OrdinaryNumber{&MachineParameters::conductivity, 0.05}, OrdinaryNumber{&MachineParameters::capacity, 0.04},
+    OrdinaryNumber{&MachineParameters::expansion, 0.04},    OrdinaryNumber{&MachineParameters::film, 0.15},
+    OrdinaryNumber{&MachineParameters::front_heat, 0.15},   OrdinaryNumber{&MachineParameters::rear_heat, 0.15},
+    OrdinaryNumber{&MachineParameters::motor_heat, 0.15},   OrdinaryNumber{&MachineParameters::contact, 0.3}};
+
 MachineParameters build_machine(std::uint64_t seed, HiddenEffects hidden = {});
 
 }  // namespace zerodrift::machine

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/machine/description.h"
+#include "app/machine/parameters.h"
 #include "core/base/json.h"
 #include "core/base/noise.h"
 #include "core/recording/csv.h"
@@ -83,10 +86,68 @@ std::string drawn_kind(Noise& noise) {
   return draw < 0.15 ? "none" : draw < 0.27 ? "pair" : draw < 0.36 ? "unlisted" : "single";
 }
 
+/// The judged readings in noise widths; a displacement against its own mean, for nobody knows where a nest's zero was.
+Eigen::MatrixXd in_noise_widths(const Recording& recording) {
+  std::vector<Eigen::VectorXd> columns;
+  for (const auto& channel : recording.channels) {
+    if (!is_judged(channel)) continue;
+    const auto rows = static_cast<Eigen::Index>(channel.values.size());
+    columns.push_back(Eigen::Map<const Eigen::VectorXd>(channel.values.data(), rows) / noise_of(channel.name));
+    if (channel.kind() == recording::ChannelKind::error) columns.back().array() -= columns.back().mean();
+  }
+  Eigen::MatrixXd out(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j) out.col(static_cast<Eigen::Index>(j)) = columns[j];
+  return out;
+}
+
+/// One machine under one plan without noise. What does not depend on the drawn sizes is recorded once.
+class QuietMachine {
+ public:
+  QuietMachine(std::uint64_t seed, CaseOptions run) : m_seed(seed), m_run(std::move(run)) { m_run.noisy = false; }
+
+  Recording record(const HiddenEffects& hidden) const { return record_case(hidden, m_seed, m_run); }
+  const Recording& record_bare(const HiddenEffects& bare) {
+    if (!m_bare) m_bare = record(bare);
+    return *m_bare;
+  }
+
+  /// What a re-fit without one effect leaves of the recording `with` everything, in noise widths. `rest` is what else
+  /// is hidden, in a pair of any size.
+  double left_of(const Recording& with, const HiddenEffects& rest, const HiddenEffects& bare, bool pair) {
+    const Eigen::MatrixXd none = in_noise_widths(record_bare(bare));
+    if (m_slopes.size() == 0) m_slopes = sensitivities_of(rival_with(bare), ordinary, none);
+    if (!pair) return largest_rms(left_after_refit(in_noise_widths(with), rival_with(rest), none, m_slopes));
+    const Eigen::MatrixXd other = in_noise_widths(record(rest));
+    Eigen::MatrixXd slopes(m_slopes.rows(), ordinary + 1);
+    slopes << m_slopes, (other - none).reshaped();
+    return largest_rms(left_after_refit(in_noise_widths(with), rival_with(rest), other, std::move(slopes)));
+  }
+
+ private:
+  static constexpr int ordinary = static_cast<int>(machine::ordinary_numbers.size());
+
+  /// z: the ordinary numbers in their tolerances; one more is the relative change of what `rest` hides.
+  Rival rival_with(const HiddenEffects& rest) const {
+    return [this, rest](const Eigen::VectorXd& z) {
+      CaseOptions run = m_run;
+      for (int i = 0; i < ordinary; ++i) {
+        run.built_otherwise.push_back(z[i] * machine::ordinary_numbers[static_cast<std::size_t>(i)].tolerance);
+      }
+      std::vector<HiddenEffect> list = rest.list();
+      for (HiddenEffect& effect : list) effect.size *= z.size() > ordinary ? std::max(0.0, 1.0 + z[ordinary]) : 1.0;
+      return in_noise_widths(record_case(HiddenEffects(std::move(list)), m_seed, run));
+    };
+  }
+
+  std::uint64_t m_seed;
+  CaseOptions m_run;
+  std::optional<Recording> m_bare;
+  Eigen::MatrixXd m_slopes;  // of the machine that hides nothing
+};
+
 /// Draws sizes until each effect shows; false when this machine's run cannot show them.
-bool hide_effects(ConcealedCase& one, const std::vector<std::string>& ids, Noise& noise) {
-  CaseOptions clean = one.run;
-  clean.noisy = false;
+bool hide_effects(ConcealedCase& one, const std::vector<std::string>& ids, StrengthRule rule, Noise& noise) {
+  QuietMachine quiet(one.machine_seed, one.run);
   constexpr int attempts = 8;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     std::vector<HiddenEffect> drawn;
@@ -98,18 +159,28 @@ bool hide_effects(ConcealedCase& one, const std::vector<std::string>& ids, Noise
       drawn.push_back(std::move(effect));
     }
     one.hidden = HiddenEffects(std::move(drawn));
-    const Recording with = record_case(one.hidden, one.machine_seed, clean);
-    double weakest = 1e300;
     HiddenEffects bare = one.hidden;
+    for (const auto& id : ids) bare = without(bare, id);
+    const Recording with = quiet.record(one.hidden);
+    const auto [worst_channel, all] = largest_change(with, quiet.record_bare(bare));
+    double weakest = ids.size() > 1 ? 1e300 : all;
     for (const auto& id : ids) {
-      const Recording other = record_case(without(one.hidden, id), one.machine_seed, clean);
-      weakest = std::min(weakest, largest_change(with, other).second);
-      bare = without(bare, id);
+      if (ids.size() > 1)
+        weakest = std::min(weakest, largest_change(with, quiet.record(without(one.hidden, id))).second);
     }
     if (weakest < least_strength) continue;
-    std::tie(one.truth.worst_channel, one.truth.strength) =
-        largest_change(with, record_case(bare, one.machine_seed, clean));
-    one.truth.strength = std::min(one.truth.strength, weakest);
+    double left = weakest;
+    for (const auto& id : ids) {
+      left = std::min(left, quiet.left_of(with, without(one.hidden, id), bare, ids.size() > 1));
+      if (rule == StrengthRule::left && left < least_strength) break;
+    }
+    if (rule == StrengthRule::left && left < least_strength) {
+      if (left < 0.2 * least_strength) return false;  // no size that is usual of it makes up for that
+      continue;
+    }
+    one.truth.worst_channel = worst_channel;
+    one.truth.strength = std::min(all, weakest);
+    one.truth.left = left;
     return true;
   }
   return false;
@@ -137,6 +208,7 @@ void close_seal(ConcealedCase& one) {
                  {"one_speed", one.run.one_speed},
                  {"worst_channel", one.truth.worst_channel},
                  {"strength", one.truth.strength},
+                 {"left", one.truth.left},
                  {"floor", one.truth.floor}};
   for (const auto& effect : one.truth.effects) {
     answer["effects"].push_back({{"id", effect.id},
@@ -171,13 +243,13 @@ void spoil(Recording& recording, Noise noise) {
 
 }  // namespace
 
-ConcealedCase draw_case(std::uint64_t seed, int index) {
+ConcealedCase draw_case(std::uint64_t seed, int index, StrengthRule rule) {
   Noise noise(seed * 1000003ULL + static_cast<std::uint64_t>(index) * 7919ULL + 29);
   const std::string kind = drawn_kind(noise);
-  return draw_case(seed, index, kind, noise.uniform() < 0.06);
+  return draw_case(seed, index, kind, noise.uniform() < 0.06, rule);
 }
 
-ConcealedCase draw_case(std::uint64_t seed, int index, const std::string& kind, bool one_speed) {
+ConcealedCase draw_case(std::uint64_t seed, int index, const std::string& kind, bool one_speed, StrengthRule rule) {
   Noise noise(seed * 998244353ULL + static_cast<std::uint64_t>(index) * 104729ULL + 71);
   ConcealedCase one;
   one.name = fmt::format("case-{:03}", index + 1);
@@ -187,7 +259,9 @@ ConcealedCase draw_case(std::uint64_t seed, int index, const std::string& kind, 
     one.machine_seed = 1 + noise.index(1ULL << 20U);
     one.run.one_speed = one_speed && draw < draws;
     const auto ids = ids_of(kind, noise);
-    if (ids.empty() || hide_effects(one, ids, noise)) break;
+    if (ids.empty() || hide_effects(one, ids, rule, noise)) break;
+    // Asked for by its id: what a re-fit takes in on every machine is hidden by its whole change.
+    if (draw == 2 && ids.front() == kind) rule = StrengthRule::raw;
   }
   for (const HiddenEffect& effect : one.hidden.list()) {
     TrueEffect known{effect.id, std::nullopt, "", effect.law};
@@ -226,6 +300,7 @@ Result<OpenedAnswer> truth_from(const std::string& sealed_text, const std::strin
   truth.unlisted = answer.at("unlisted");
   truth.worst_channel = answer.at("worst_channel");
   truth.strength = answer.at("strength");
+  truth.left = answer.value("left", 0.0);
   truth.floor = answer.at("floor").get<std::map<std::string, double>>();
   for (const auto& effect : answer.at("effects")) {
     TrueEffect known{effect.at("id"), std::nullopt, effect.at("channel"), effect.at("law")};

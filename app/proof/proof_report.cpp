@@ -65,8 +65,13 @@ Section method_section(const Trial& trial) {
       "{} machines were built by the virtual machine tool from seed {}. Its heat model (two bodies in rings, air gap, "
       "bearings between them, steps of 2 s) shares no code with the simulation that is judged, and the description "
       "that goes with each machine is the drawing's, not the built machine's. Each hides nothing, one effect, two, or "
-      "one that no library lists. Every hidden effect shows by at least 2.5 noise widths.",
-      trial.score.judgements().size(), trial.options.seed)});
+      "one that no library lists. Every hidden effect shows by at least 2.5 noise widths (rms) in some channel{}",
+      trial.score.judgements().size(), trial.options.seed,
+      trial.options.strength == StrengthRule::raw
+          ? "."
+          : ", after the machine's ordinary numbers (conductivity, capacity, expansion, film, heats, the bearings' "
+            "contact) have been re-fitted without it by the virtual machine itself: effects that a re-fit takes in, "
+            "radiation above all, are not among them.")});
   section.blocks.emplace_back(Text{fmt::format(
       "The answers were sealed before the first diagnosis: commitments.json holds SHA-256 of salt and answer for every "
       "case; its own SHA-256 was {}. Each case was then diagnosed from machine.json, recording.csv and second.csv "
@@ -229,10 +234,11 @@ Section cases_section(const Score& score) {
   Section section{"cases", "Every case", {}};
   Table table;
   table.id = "cases";
-  table.header = {"case",   "hidden", "noise widths", "evidence if told", "answer", "confidence",
-                  "mm off", "s",      "outcome"};
+  table.header = {"case", "hidden", "noise widths, left", "evidence if told", "answer", "confidence", "mm off",
+                  "s",    "outcome"};
   for (const auto& one : score.judgements()) {
-    table.rows.push_back({one.name, one.truth, one.truth == "none" ? "" : fmt::format("{:.1f}", one.strength),
+    table.rows.push_back({one.name, one.truth,
+                          one.truth == "none" ? "" : fmt::format("{:.1f}, {:.1f}", one.strength, one.left),
                           one.told ? fmt::format("{:.0f}", *one.told) : "", one.answer,
                           one.confidence > 0 ? fmt::format("{:.2f}", one.confidence) : "",
                           one.location_error_mm ? fmt::format("{:.1f}", *one.location_error_mm) : "",

@@ -160,6 +160,7 @@ Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
   judgement.answer = answer_of(diagnosis, truth);
   judgement.outcome = outcome_of(truth, diagnosis);
   judgement.strength = truth.strength;
+  judgement.left = truth.left;
   judgement.told = truth.told;
   judgement.seconds = diagnosis.value("seconds", 0.0);
   m_seconds.push_back(judgement.seconds);
@@ -192,6 +193,7 @@ Judgement Score::add_failure(const OpenedAnswer& truth, const std::string& answe
   judgement.truth = truth.words();
   judgement.answer = answer;
   judgement.strength = truth.strength;
+  judgement.left = truth.left;
   count_outcome(truth, judgement);
   m_judgements.push_back(judgement);
   return judgement;

@@ -24,7 +24,8 @@ struct OpenedAnswer {
   std::vector<TrueEffect> effects;      // empty: nothing was hidden
   bool unlisted = false;                // no library of effects has it: "unexplained" is the right answer
   std::string worst_channel;            // which the hidden effects change most, in noise widths; empty: nothing hidden
-  double strength = 0.0;                // how many noise widths (rms) that is
+  double strength = 0.0;                // raw, of the weakest hidden effect (strength.h)
+  double left = 0.0;                    // what of it a re-fit of ordinary numbers leaves
   std::map<std::string, double> floor;  // noise of each channel in the second recording: no model can be better
   /// What the true structure, re-fitted, reaches in the second recording; empty where nobody asked.
   std::map<std::string, double> reached;
@@ -60,7 +61,7 @@ struct Judgement {
   Outcome outcome = Outcome::failed;
   double confidence = 0.0;  // of the first effect
   double seconds = 0.0;
-  double strength = 0.0;
+  double strength = 0.0, left = 0.0;
   std::optional<double> location_error_mm;
   std::optional<double> told;  // OpenedAnswer::told
   std::vector<NotNamed> not_named;

@@ -51,6 +51,7 @@ json Score::to_json() const {
                               {"outcome", name_of(one.outcome)},
                               {"confidence", one.confidence},
                               {"strength", one.strength},
+                              {"left", one.left},
                               {"evidence_if_told", one.told ? json(*one.told) : json()},
                               {"location_error_mm", one.location_error_mm ? json(*one.location_error_mm) : json()},
                               {"seconds", one.seconds}});

@@ -55,8 +55,8 @@ Result<std::vector<Sealed>> conceal(const TrialOptions& options, const TaskConte
   const Phase phase(context, "drawing cases", 0.0, drawing_share, options.cases);
   for (int i = 0; i < options.cases; ++i) {
     if (context.cancelled()) return fail(ErrorCode::cancelled, {});
-    ConcealedCase one =
-        options.kind.empty() ? draw_case(options.seed, i) : draw_case(options.seed, i, options.kind, false);
+    ConcealedCase one = options.kind.empty() ? draw_case(options.seed, i, options.strength)
+                                             : draw_case(options.seed, i, options.kind, false, options.strength);
     ZD_CHECK(write_case_files(one, options.folder / "cases" / one.name));
     sealed.push_back({one.name, std::move(one.seal)});
     phase.done(i + 1);
@@ -118,6 +118,7 @@ Result<OracleAnswer> told(const fs::path& folder, const OpenedAnswer& truth, con
 json Trial::to_json() const {
   json out = score.to_json();
   out["seed"] = options.seed;
+  out["strength"] = name_of(options.strength);
   out["commitments_sha256"] = digest;
   out["seals_kept"] = seals_kept;
   out["seconds"] = seconds;

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "app/proof/score.h"
+#include "app/proof/strength.h"
 #include "core/base/result.h"
 #include "core/base/task_context.h"
 
@@ -19,6 +20,7 @@ struct TrialOptions {
   int cases = 300;
   std::uint64_t seed = 1;
   std::filesystem::path folder;
+  StrengthRule strength = StrengthRule::left;  // what has to reach the least strength
   std::string kind = {};  // "" the mixture, or what every case hides: an effect's id, "none", "pair", "unlisted"
 };
 

@@ -1,5 +1,5 @@
 // Draws concealed cases, diagnoses them, opens the answers and prints the table of the proof.
-//   proof [--cases N] [--seed S] [--kind K] [--verbose] [--oracle] [--write DIR]
+//   proof [--cases N] [--seed S] [--kind K] [--strength left|raw] [--verbose] [--oracle] [--write DIR]
 #include "app/proof/score.h"
 
 #include <fmt/format.h>
@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
   int cases = 40;
   std::uint64_t seed = 1;
   std::string kind;
+  zerodrift::proof::StrengthRule rule = zerodrift::proof::StrengthRule::left;
   bool verbose = false;
   bool oracle = false;
   int undecidable = 0, undecidable_pairs = 0;
@@ -78,13 +79,14 @@ int main(int argc, char** argv) {
     if (a == "--cases" && i + 1 < argc) cases = std::atoi(argv[++i]);
     if (a == "--seed" && i + 1 < argc) seed = std::strtoull(argv[++i], nullptr, 10);
     if (a == "--kind" && i + 1 < argc) kind = argv[++i];
+    if (a == "--strength" && i + 1 < argc) rule = zerodrift::proof::strength_rule_from(argv[++i]).value_or(rule);
     if (a == "--verbose") verbose = true;
     if (a == "--oracle") oracle = true;
     if (a == "--write" && i + 1 < argc) folder = argv[++i];
   }
   zerodrift::proof::Score score;
   for (int i = 0; i < cases; ++i) {
-    const Case one = zerodrift::proof::make_case(seed + static_cast<std::uint64_t>(i), kind);
+    const Case one = zerodrift::proof::make_case(seed + static_cast<std::uint64_t>(i), kind, rule);
     auto machine = zerodrift::physics::machine_from_json(one.machine, one.name);
     if (!machine) {
       fmt::print("{}: {}\n", one.name, zerodrift::describe(machine.error()));
@@ -143,7 +145,7 @@ int main(int argc, char** argv) {
                d->mismatch.channels.empty() ? "-" : d->mismatch.channels[0], one.worst_channel, d->seconds, rivals);
     std::fflush(stdout);
   }
-  fmt::print("seed {}\n{}", seed, score.text());
+  fmt::print("seed {}, strength {}\n{}", seed, zerodrift::proof::name_of(rule), score.text());
   if (oracle) {
     fmt::print("of those not right, undecidable even when told: {}, pairs among them {}\n", undecidable,
                undecidable_pairs);

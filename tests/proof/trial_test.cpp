@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 
 #include "app/proof/concealed_case.h"
 #include "app/proof/diagnose_files.h"
 #include "app/proof/oracle.h"
+#include "app/proof/strength.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/json.h"
@@ -28,6 +31,34 @@ TEST(ConcealedCase, IsRepeatableUnderItsSeedAndSealedAnew) {
   EXPECT_EQ(opened->words(), "sensor_lag");
   EXPECT_EQ(opened->effects[0].channel, opened->worst_channel);
   EXPECT_EQ(opened->floor.count("T1_C"), 1u);
+}
+
+TEST(ConcealedCase, WhatARefitTakesInIsNoStrength) {
+  const ConcealedCase painted = draw_case(8, 6, "radiation", false);
+  EXPECT_GT(painted.truth.strength, 10.0);
+  EXPECT_LT(painted.truth.left, 0.1 * painted.truth.strength);
+  const ConcealedCase slow = draw_case(8, 7, "sensor_lag", false, StrengthRule::left);
+  EXPECT_GE(slow.truth.left, 2.5);
+  EXPECT_LE(slow.truth.left, slow.truth.strength);
+  EXPECT_EQ(slow.seal.answer, draw_case(8, 7, "sensor_lag", false, StrengthRule::left).seal.answer);
+}
+
+TEST(Strength, ARefitLeavesWhatNoNumberExplains) {
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(200, 0.0, 1.0);
+  const Rival rival = [&](const Eigen::VectorXd& z) {  // not linear in its numbers
+    Eigen::MatrixXd seen(200, 2);
+    seen.col(0) = 50.0 * std::exp(0.1 * z[0]) * time;
+    seen.col(1) = 50.0 * std::exp(0.1 * z[0] + 0.1 * z[1]) * time.cwiseAbs2();
+    return seen;
+  };
+  const Eigen::MatrixXd zero = rival(Eigen::Vector2d::Zero());
+  const Eigen::MatrixXd slopes = sensitivities_of(rival, 2, zero);
+  const Eigen::MatrixXd other = rival(Eigen::Vector2d(2.0, -3.0));
+  EXPECT_GT(largest_rms(other - zero), 5.0);
+  EXPECT_LT(largest_rms(left_after_refit(other, rival, zero, slopes)), 0.1);
+  Eigen::MatrixXd wave = other;
+  wave.col(1) += 4.0 * (40.0 * time).array().sin().matrix();
+  EXPECT_NEAR(largest_rms(left_after_refit(wave, rival, zero, slopes)), 4.0 / std::sqrt(2.0), 0.2);
 }
 
 TEST(ConcealedCase, AMachineMayHideTwoEffects) {
@@ -159,7 +190,7 @@ TEST(ConcealedCase, WhatOneRecordingLeavesInDoubtTwoMayShow) {
 
 TEST(Trial, PromisesFirstAndOpensEverySealAfterwards) {
   const fs::path folder = fs::path(testing::TempDir()) / ("zd_trial_" + std::to_string(::getpid()));
-  TrialOptions options{2, 12, folder};
+  TrialOptions options{2, 12, folder, StrengthRule::raw};
   TaskContext context;
   bool promised_first = true;
   double last_fraction = 0.0;

@@ -19,6 +19,7 @@ struct ProveArguments {
   std::optional<std::uint64_t> seed;
   std::string out;
   std::string kind;
+  std::string strength = std::string(proof::name_of(proof::StrengthRule::left));
   int experiments = 0;
 };
 
@@ -36,6 +37,7 @@ Result<CommandOutput> run_prove(const ProveArguments& arguments, const TaskConte
   options.seed = arguments.seed ? *arguments.seed : std::random_device{}();
   options.folder = arguments.out;
   options.kind = arguments.kind;
+  options.strength = *proof::strength_rule_from(arguments.strength);
   ZD_TRY(const proof::Trial trial, proof::run_trial(options, context));
   context.progress(0.99, "report");
   std::optional<proof::ExperimentTrial> experiments;
@@ -72,6 +74,12 @@ void add_prove(Cli& cli) {
       ->add_option("--hide", arguments->kind,
                    "What every case hides: an effect's id, none, pair or unlisted; without it a mixture")
       ->check(CLI::IsMember(hideable()));
+  command
+      ->add_option("--strength", arguments->strength,
+                   "What of a hidden effect reaches 2.5 noise widths at least: what a re-fit without it leaves (left), "
+                   "or its whole change (raw), as in trials before this choice")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"left", "raw"}));
   command
       ->add_option("--experiments", arguments->experiments,
                    "Ambiguous cases on which the proposed run is tried against a random one")
