@@ -80,6 +80,11 @@ constexpr std::array rows = {
     Row{ErrorCode::template_without_texture,
         QT_TRANSLATE_NOOP("errors", "The region of the template {file} shows nothing that could be followed."),
         QT_TRANSLATE_NOOP("errors", "Choose a region with the target in it; check light and focus.")},
+    Row{ErrorCode::pattern_repeats,
+        QT_TRANSLATE_NOOP("errors",
+                          "The pattern of {file} repeats itself beyond the region: one period further it looks "
+                          "the same, and a shift by one period could not be told from none."),
+        QT_TRANSLATE_NOOP("errors", "Choose a region with the edge of the pattern or a mark in it.")},
     Row{ErrorCode::camera_unreachable, QT_TRANSLATE_NOOP("errors", "The camera at {url} does not answer ({detail})."),
         QT_TRANSLATE_NOOP("errors", "Check that it is switched on, connected and the address is right.")},
     Row{ErrorCode::camera_silent,

@@ -135,7 +135,13 @@ Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string
          {"found", fmt::format("{:g},{:g}", p->x_px, p->y_px)},
          {"expected", fmt::format("a point of {}, {} x {} pixels", name, picture.image.width, picture.image.height)}});
   }
-  return Target::create(picture.image, region, choice.point, name);
+  ZD_TRY(Target target, Target::create(picture.image, region, choice.point, name));
+  if (const Region& used = target.region(); used.width != region.width || used.height != region.height) {
+    warn(warnings, fmt::format("the pattern goes on beyond the region and repeats itself: {},{},{},{} shows where it "
+                               "ends and is used",
+                               used.x, used.y, used.width, used.height));
+  }
+  return target;
 }
 
 Result<std::vector<ViewRow>> read_views(const fs::path& file) {

@@ -16,15 +16,19 @@ constexpr double searched_px = 56.0;       // the larger side of the picture in 
 constexpr double least_overlap = 0.4;      // of each side
 constexpr double least_correlation = 0.7;  // rings and spokes stay below half of it
 constexpr int least_shift = 2;             // px of that picture: nearer it is the pattern's own smoothness
-constexpr std::size_t most_periods = 8;    // beside their opposites
+constexpr std::size_t most_periods = 40;   // beside their opposites
 
 constexpr int samples_a_side = 80;
 constexpr int window_samples = 9;
+constexpr double even_share = 0.05;  // of the target's variance: a window with less shows nothing
 constexpr int saturated_level = 252;
 constexpr int bright_margin_px = 7;   // what a saturated spot's edge spoils
-constexpr double least_lost = 0.25;   // of what a period takes away where all is seen; true places keep 0.4 and more
-constexpr double seen_whole = 0.93;   // inliers, of all pixels
+constexpr double least_lost = 0.25;   // of the lead where all is seen, for a place to be told from another
+constexpr double sure_lost = 0.6;     // the same, where the lead at what both foretell decides alone
+constexpr double sure_lead = 0.3;     // of the region: more than the covers beside which a target is measured
 constexpr double bad_residual = 6.0;  // standard deviations of shot noise: a bad fit has no outliers
+constexpr double least_told = 0.015;  // of the region, by which it must differ from itself a period further
+constexpr std::array grown = {0.0, 0.125, 0.25, 0.375, 0.5, 0.75};  // of the region's larger side, on each side
 
 /// Normalized correlation of the picture with itself, shifted; 0 where either part is even.
 double likeness(const cv::Mat1f& picture, int dx, int dy) {
@@ -41,7 +45,7 @@ double likeness(const cv::Mat1f& picture, int dx, int dy) {
   return square_a > 1.0 && square_b > 1.0 ? product / std::sqrt(square_a * square_b) : 0.0;
 }
 
-/// Peaks of the correlation of the region with itself over the overlap, the most alike first; of two opposites one.
+/// Peaks of the correlation of the region with itself over the overlap, the nearest first; of two opposites one.
 std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
   const double shrink = std::max(1.0, std::max(region.cols, region.rows) / searched_px);
   const cv::Size size(static_cast<int>(std::lround(region.cols / shrink)),
@@ -56,11 +60,7 @@ std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
       map(far_y + dy, far_x + dx) = map(far_y - dy, far_x - dx) = likeness(picture, dx, dy);
     }
   }
-  struct Peak {
-    double correlation;
-    int dx, dy;
-  };
-  std::vector<Peak> peaks;
+  std::vector<std::array<int, 2>> peaks;
   for (int dy = 0; dy <= far_y; ++dy) {
     for (int dx = -far_x; dx <= far_x; ++dx) {
       const double here = map(far_y + dy, far_x + dx);
@@ -71,15 +71,17 @@ std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
           highest = highest && map(far_y + y, far_x + x) <= here;
         }
       }
-      if (highest) peaks.push_back({here, dx, dy});
+      if (highest) peaks.push_back({dx, dy});
     }
   }
-  std::sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.correlation > b.correlation; });
+  std::stable_sort(peaks.begin(), peaks.end(), [](const std::array<int, 2>& a, const std::array<int, 2>& b) {
+    return a[0] * a[0] + a[1] * a[1] < b[0] * b[0] + b[1] * b[1];
+  });
   if (peaks.size() > most_periods) peaks.resize(most_periods);
   std::vector<std::array<int, 2>> periods;
-  for (const Peak& peak : peaks) {
-    periods.push_back({static_cast<int>(std::lround(peak.dx * static_cast<double>(region.cols) / size.width)),
-                       static_cast<int>(std::lround(peak.dy * static_cast<double>(region.rows) / size.height))});
+  for (const std::array<int, 2>& peak : peaks) {
+    periods.push_back({static_cast<int>(std::lround(peak[0] * static_cast<double>(region.cols) / size.width)),
+                       static_cast<int>(std::lround(peak[1] * static_cast<double>(region.rows) / size.height))});
   }
   return periods;
 }
@@ -103,6 +105,12 @@ Eigen::Vector2d refined(const cv::Mat1f& region, std::array<int, 2> period) {
     return bend < 0.0 ? std::clamp((before - after) / (2.0 * bend), -0.5, 0.5) : 0.0;
   };
   return {period[0] + between(at(-1, 0), at(1, 0)), period[1] + between(at(0, -1), at(0, 1))};
+}
+
+double variance_of(const cv::Mat1f& levels) {
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(levels, mean, deviation);
+  return deviation[0] * deviation[0];
 }
 
 FloatImage smoothed(const GrayImage& image, int step_px) {
@@ -133,8 +141,8 @@ RepeatingTarget::RepeatingTarget(const GrayImage& image, const Region& region, c
   const std::vector<std::array<int, 2>> rough = rough_periods(inside);
   if (rough.empty()) return;
   const FloatImage picture = smoothed(image, m_step_px);
-  m_template = m_energy = m_usable = FloatImage(region.width / m_step_px, region.height / m_step_px);
-  cv::Mat1f levels = mat_view(m_template), energy = mat_view(m_energy), use = mat_view(m_usable);
+  m_template = m_usable = FloatImage(region.width / m_step_px, region.height / m_step_px);
+  cv::Mat1f levels = mat_view(m_template), use = mat_view(m_usable);
   for (int row = 0; row < levels.rows; ++row) {
     for (int column = 0; column < levels.cols; ++column) {
       const int x = column * m_step_px;
@@ -143,34 +151,23 @@ RepeatingTarget::RepeatingTarget(const GrayImage& image, const Region& region, c
       use(row, column) = usable[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1.0f : 0.0f;
     }
   }
-  cv::Mat1f along_x, along_y;
-  cv::Sobel(levels, along_x, CV_32F, 1, 0, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-  cv::Sobel(levels, along_y, CV_32F, 0, 1, 3, 1.0, 0.0, cv::BORDER_REPLICATE);
-  double all = 1e-9;
-  for (int row = 0; row < levels.rows; ++row) {
-    for (int column = 0; column < levels.cols; ++column) {
-      const float x = along_x(row, column);
-      const float y = along_y(row, column);
-      all += energy(row, column) = use(row, column) * (x * x + y * y);
-    }
-  }
-  for (float& one : m_energy.values) one /= static_cast<float>(all);
   Registration itself;
   itself.contrast = 1.0;
   const FloatImage visible = visible_in(image);
-  const double whole = balance(picture, visible, itself, Eigen::Vector2d::Zero());
+  m_even_variance = even_share * variance_of(levels);
+  const FloatImage here = likeness(picture, visible, itself, Eigen::Vector2d::Zero());
   for (const std::array<int, 2>& one : rough) {
     const Eigen::Vector2d there = refined(inside, one);
     for (const Eigen::Vector2d& shift_px : {there, Eigen::Vector2d(-there)}) {
-      m_periods.push_back({shift_px, whole - balance(picture, visible, itself, shift_px)});
+      m_periods.push_back({shift_px, lead(here, likeness(picture, visible, itself, shift_px), shift_px)});
     }
   }
 }
 
 // Window by window, since light is even over a window: what correlates there with the target is explained, what does
 // not is a contradiction unless nothing can be seen there.
-double RepeatingTarget::balance(const FloatImage& frame, const FloatImage& visible, const Registration& found,
-                                const Eigen::Vector2d& shift_px) const {
+FloatImage RepeatingTarget::likeness(const FloatImage& frame, const FloatImage& visible, const Registration& found,
+                                     const Eigen::Vector2d& shift_px) const {
   cv::Mat1f map_x(m_template.height, m_template.width), map_y(m_template.height, m_template.width);
   const Eigen::Vector2d point(m_point.x_px, m_point.y_px);
   for (int row = 0; row < map_x.rows; ++row) {
@@ -185,21 +182,72 @@ double RepeatingTarget::balance(const FloatImage& frame, const FloatImage& visib
   cv::remap(mat_view(frame), mat_view(seen), map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::remap(mat_view(visible), mat_view(weight), map_x, map_y, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 0);
   for (std::size_t k = 0; k < weight.values.size(); ++k) weight.values[k] *= m_usable.values[k];
-  const FloatImage likeness = window_likeness(m_template, seen, weight, window_samples, found.contrast);
-  double out = 0.0;
-  for (std::size_t k = 0; k < likeness.values.size(); ++k) out += likeness.values[k] * m_energy.values[k];
+  return window_likeness(m_template, seen, weight, window_samples, found.contrast, m_even_variance);
+}
+
+// What neither place explains is a cover and speaks for none of them.
+RepeatingTarget::Lead RepeatingTarget::lead(const FloatImage& here, const FloatImage& there,
+                                            const Eigen::Vector2d& shift_px) const {
+  const int right = static_cast<int>(std::lround(shift_px(0) / m_step_px));
+  const int down = static_cast<int>(std::lround(shift_px(1) / m_step_px));
+  Lead out;
+  for (int row = std::min(0, down); row < m_template.height + std::max(0, down); ++row) {
+    for (int column = std::min(0, right); column < m_template.width + std::max(0, right); ++column) {
+      const auto within = [&](int x, int y) {
+        return x >= 0 && y >= 0 && x < m_template.width && y < m_template.height;
+      };
+      const bool in_here = within(column, row), in_there = within(column - right, row - down);
+      const bool against_here = in_here && here.row(row)[column] < 0.0f;
+      const bool against_there = in_there && there.row(row - down)[column - right] < 0.0f;
+      if (against_here == against_there) continue;
+      const double share = (against_there ? 1.0 : -1.0) / static_cast<double>(m_template.values.size());
+      out.in_all += share;
+      if (in_here && in_there) out.where_both_tell += share;
+    }
+  }
   return out;
 }
 
-bool RepeatingTarget::may_be_elsewhere(const GrayImage& frame, const Registration& found) const {
-  if (!repeats() || (found.inlier_share > seen_whole && found.residual < bad_residual)) return false;
-  if (found.residual >= bad_residual) return true;
+RepeatingTarget::Doubt RepeatingTarget::doubt(const GrayImage& frame, const Registration& found) const {
+  Doubt out;
+  if (!repeats()) return out;
   const FloatImage picture = smoothed(frame, m_step_px);
   const FloatImage visible = visible_in(frame);
-  const double here = balance(picture, visible, found, Eigen::Vector2d::Zero());
-  return std::any_of(m_periods.begin(), m_periods.end(), [&](const Period& period) {
-    return here - balance(picture, visible, found, period.shift_px) < least_lost * period.lost;
-  });
+  const FloatImage here = likeness(picture, visible, found, Eigen::Vector2d::Zero());
+  const auto unlike = std::count_if(here.values.begin(), here.values.end(), [](float one) { return one < 0.0f; });
+  out.unlike = static_cast<double>(unlike) / static_cast<double>(here.values.size());
+  out.may_be_elsewhere = found.residual >= bad_residual;
+  if (out.unlike < least_lost * told_apart()) return out;  // elsewhere more would be
+  double least = 0.0;
+  for (const Period& period : m_periods) {
+    const Lead leads = lead(here, likeness(picture, visible, found, period.shift_px), period.shift_px);
+    const double in_all = leads.in_all / period.lost.in_all;
+    const double both = leads.where_both_tell / std::max(period.lost.where_both_tell, least_told);
+    if (leads.in_all > sure_lead || both > sure_lost || std::min(in_all, both) > least_lost) continue;
+    out.may_be_elsewhere = true;
+    if (leads.where_both_tell >= least) continue;
+    least = leads.where_both_tell;
+    out.likelier_px = found.linear * period.shift_px;
+  }
+  return out;
+}
+
+double RepeatingTarget::told_apart() const {
+  double least = 1.0;
+  for (const Period& period : m_periods) least = std::min(least, period.lost.in_all);
+  return least;
+}
+
+std::optional<Region> region_that_tells(const GrayImage& image, const Region& region) {
+  for (const double part : grown) {
+    const int more = static_cast<int>(std::lround(part * std::max(region.width, region.height)));
+    const int left = std::max(region.x - more, 0), top = std::max(region.y - more, 0);
+    const Region larger{left, top, std::min(region.x + region.width + more, image.width) - left,
+                        std::min(region.y + region.height + more, image.height) - top};
+    const std::vector<std::uint8_t> all(static_cast<std::size_t>(larger.width) * larger.height, 1);
+    if (RepeatingTarget(image, larger, centre_of(larger), all).told_apart() > least_told) return larger;
+  }
+  return std::nullopt;
 }
 
 }  // namespace zerodrift::vision

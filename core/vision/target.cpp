@@ -22,6 +22,7 @@ constexpr double rival_merit = 0.75;           // of the best glance: the candid
 constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
 constexpr int candidates_glanced = 8;
+constexpr int most_periods_off = 6;         // that a pattern which repeats is followed back to its place
 constexpr double rival_correlation = 0.3;   // a candidate further behind the best is not looked at, and half of it
 constexpr double clear_correlation = 0.85;  // when the best is above this
 constexpr double sure_correlation = 0.98;   // of the best candidate with its rivals far behind: they need no look
@@ -230,13 +231,15 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
                                           {"expected", fmt::format("at least {0}x{0}", smallest_region_px)}});
   }
   const PixelPoint named = point.value_or(centre_of(region));
+  const std::optional<Region> telling = region_that_tells(image, region);
+  if (!telling) return fail(ErrorCode::pattern_repeats, {{"file", name}});
   if (!std::isfinite(named.x_px) || !std::isfinite(named.y_px) || std::abs(named.x_px) > 1e5 ||
       std::abs(named.y_px) > 1e5) {
     return fail(ErrorCode::bad_argument,
                 {{"what", "the named point"}, {"found", "not a place"}, {"expected", "X,Y in pixels"}});
   }
-  std::vector<std::uint8_t> usable = usable_pixels(image, region);
-  auto impl = std::make_shared<const Impl>(image, region, named, std::move(usable));
+  std::vector<std::uint8_t> usable = usable_pixels(image, *telling);
+  auto impl = std::make_shared<const Impl>(image, *telling, named, std::move(usable));
   const TemplateModel& model = impl->fine.model();
   if (model.gradient_energy < least_energy || model.pixels < 200) {
     return fail(ErrorCode::template_without_texture, {{"file", name}});
@@ -275,6 +278,19 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
     if (judge(best, best_coarse) != Refusal::none || best.correlation <= sure_correlation) continue;
     if (best.inlier_share > clear_inliers) break;
   }
+  RepeatingTarget::Doubt doubt;
+  if (best.converged) doubt = m_impl->repeating.doubt(frame, best);
+  for (int step = 0; doubt.likelier_px && step < most_periods_off; ++step) {
+    const Eigen::Vector2d there = best.displacement_px + *doubt.likelier_px;
+    const Registration found =
+        m_impl->fine.run(frame, static_cast<int>(std::lround(there(0))), static_cast<int>(std::lround(there(1))),
+                         m_lens, residual_map != nullptr);
+    if (!found.converged || (found.displacement_px - there).norm() > 0.25 * doubt.likelier_px->norm()) break;
+    const RepeatingTarget::Doubt left = m_impl->repeating.doubt(frame, found);
+    if (left.unlike >= doubt.unlike) break;
+    best = found;
+    doubt = left;
+  }
   out.correlation = best.correlation;
   out.inlier_share = best.inlier_share;
   out.contrast = best.contrast;
@@ -288,7 +304,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
-  if (m_impl->repeating.may_be_elsewhere(frame, best)) return refuse(Refusal::ambiguous);
+  if (doubt.may_be_elsewhere) return refuse(Refusal::ambiguous);
   out.ok = true;
   out.refusal = Refusal::none;
   out.x_px = best.displacement_px(0);

@@ -53,8 +53,9 @@ struct Location {
 
 class Target {
  public:
-  /// `name` is the file's, for messages. Without a point the centre of the region is measured.
-  /// Errors: region_outside_image, template_without_texture, bad_argument.
+  /// `name` is the file's, for messages. Without a point the centre of the region is measured. A region within a
+  /// pattern that repeats is made larger until it shows the pattern's end.
+  /// Errors: region_outside_image, template_without_texture, pattern_repeats, bad_argument.
   static Result<Target> create(const GrayImage& image, const Region& region, std::optional<PixelPoint> point,
                                const std::string& name);
 

@@ -17,7 +17,7 @@ constexpr double least_variance = 1e-3;     // grey levels^2
 }  // namespace
 
 FloatImage window_likeness(const FloatImage& in_template, const FloatImage& in_frame, const FloatImage& weight,
-                           int window_px, double contrast) {
+                           int window_px, double contrast, double even_variance) {
   const cv::Mat1f t = mat_view(in_template), g = mat_view(in_frame), w = mat_view(weight);
   const auto mean = [&](const cv::Mat1f& values) {
     cv::Mat1f out;
@@ -44,8 +44,9 @@ FloatImage window_likeness(const FloatImage& in_template, const FloatImage& in_f
       const double square_g = std::max(gg(row, column) / n - level_g * level_g, least_variance);
       const double both = tg(row, column) / n - level_t * level_g;
       const double gain = both / square_t / std::max(contrast, 1e-3);
-      const bool alike = both > least_correlation * std::sqrt(square_t * square_g) && gain < largest_gain_ratio &&
-                         gain > 1.0 / largest_gain_ratio;
+      const bool even = square_t < even_variance && square_g < even_variance * contrast * contrast;
+      const bool alike = even || (both > least_correlation * std::sqrt(square_t * square_g) &&
+                                  gain < largest_gain_ratio && gain > 1.0 / largest_gain_ratio);
       out.row(row)[column] = alike ? 1.0f : -1.0f;
     }
   }

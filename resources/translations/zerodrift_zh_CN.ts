@@ -3998,8 +3998,12 @@
         <translation>%1：写入补偿表时机床超出建模时的范围</translation>
     </message>
     <message>
+        <source>the pattern goes on beyond the region and repeats itself: %1,%2,%3,%4 shows where it ends and is used</source>
+        <translation>图案延伸到区域之外并且重复：改用 %1,%2,%3,%4，它包含图案的边缘</translation>
+    </message>
+    <message>
         <source>%1: in the verification, the machine went outside the range the model was made in</source>
-        <translation>%1：验证运行中机床超出建模时的范围</translation>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -4531,6 +4535,14 @@
     <message>
         <source>Look at what is named; positions are in mm, apart and not on one line, each with its own picture.</source>
         <translation>请检查所指出的问题；各位置以 mm 为单位，彼此分开且不在一条直线上，每个位置各有一幅图像。</translation>
+    </message>
+    <message>
+        <source>The pattern of {file} repeats itself beyond the region: one period further it looks the same, and a shift by one period could not be told from none.</source>
+        <translation>{file} 的图案在区域之外继续重复：移过一个周期看上去完全相同，无法区分移动了一个周期与没有移动。</translation>
+    </message>
+    <message>
+        <source>Choose a region with the edge of the pattern or a mark in it.</source>
+        <translation>请选择包含图案边缘或标记的区域。</translation>
     </message>
 </context>
 <context>

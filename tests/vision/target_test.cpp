@@ -109,6 +109,60 @@ TEST(Target, APatternThatRepeatsIsNotTakenForItselfAPeriodFurther) {
   EXPECT_NEAR(beside.y_px, moved.dy, 4.0 * beside.sigma_y_px);
 }
 
+/// Dots 24 px apart over `left` .. `right`, one row higher than wide, but for those in `missing`.
+Speckle lattice(int left, int right, const std::vector<std::array<int, 2>>& missing = {}) {
+  Speckle dots(1);
+  dots.dots.clear();
+  for (int y = 20; y <= 460; y += 24) {
+    for (int x = left; x <= right; x += 24) {
+      const bool gone = std::any_of(missing.begin(), missing.end(),
+                                    [&](const std::array<int, 2>& one) { return one[0] == x && one[1] == y; });
+      if (!gone) dots.dots.push_back({double(x), double(y), 4.0, 110.0});
+    }
+  }
+  return dots;
+}
+
+// What goes on beyond the region and repeats itself is told by its end, if the picture shows one.
+TEST(Target, ARegionWithinAPatternThatRepeatsIsMadeLarger) {
+  const auto endless = Target::create(render(lattice(-4, 644)), target_region, {}, "plate.png");
+  ASSERT_FALSE(endless);
+  EXPECT_EQ(endless.error().code, ErrorCode::pattern_repeats);
+
+  Speckle plate = lattice(224, 416);
+  std::erase_if(plate.dots, [](const auto& dot) { return dot.y < 140.0 || dot.y > 340.0; });
+  const auto target = Target::create(render(plate), target_region, {}, "plate.png");
+  ASSERT_TRUE(target);
+  EXPECT_GT(target->region().width, target_region.width);
+  EXPECT_EQ(target->point().x_px, centre_of(target_region).x_px);
+  for (const Pose& moved : {Pose{.dx = 24.3, .dy = 1.2}, Pose{.dx = -3.4, .dy = -24.0}, Pose{.dx = 0.4, .dy = 0.3}}) {
+    const Location at = target->locate(render(plate, moved, {.noise = 1.0, .seed = 3}));
+    ASSERT_TRUE(at.ok) << at.reason;
+    EXPECT_NEAR(at.x_px, moved.dx, 0.02);
+    EXPECT_NEAR(at.y_px, moved.dy, 0.02);
+  }
+}
+
+// Two dots that are missing tell where the grid is; where a cover leaves room for doubt nothing is told.
+TEST(Target, AMarkInAGridTellsItsPlace) {
+  const Speckle marked = lattice(-4, 644, {{332, 236}, {284, 284}});
+  const Target target = target_of(marked, 1.0);
+  int measured = 0;
+  for (int k = 0; k < 8; ++k) {
+    const Pose moved{.dx = -9.0 + 2.3 * k, .dy = 8.0 - 2.1 * k};
+    GrayImage frame = render(marked, moved, {.noise = 1.0, .seed = 40u + static_cast<unsigned>(k)});
+    const int hidden = 10 * k;
+    if (k % 4 == 1) paint(frame, {0, 0, 240 + hidden, 480}, 90);
+    if (k % 4 == 3) paint(frame, {0, 0, 640, 160 + hidden}, 140);
+    const Location at = target.locate(frame);
+    if (!at.ok) continue;
+    ++measured;
+    EXPECT_NEAR(at.x_px, moved.dx, 0.05) << k;
+    EXPECT_NEAR(at.y_px, moved.dy, 0.05) << k;
+  }
+  EXPECT_GE(measured, 4);
+}
+
 /// With edges as wide as a lens makes them and noise of 1 grey level at most.
 GrayImage photographed(const GrayImage& sharp, unsigned random = 1) {
   GrayImage image = sharp;
