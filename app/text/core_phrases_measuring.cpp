@@ -144,7 +144,9 @@ constexpr std::array<const char*, 190> measuring = {{
     QT_TRANSLATE_NOOP("core", "a folder without pictures"),
     QT_TRANSLATE_NOOP("core", "a folder of PNG, JPEG, BMP or TIFF pictures"),
     QT_TRANSLATE_NOOP("core", "%1 was left out: %2"),
-    QT_TRANSLATE_NOOP("core", "the pattern goes on beyond the region and repeats itself: %1,%2,%3,%4 shows where it ends and is used"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "the pattern goes on beyond the region and repeats itself: %1,%2,%3,%4 shows where it ends and is used"),
     QT_TRANSLATE_NOOP("core", "no region was given: %1,%2,%3,%4 shows the most pattern and is used"),
     QT_TRANSLATE_NOOP("core", "%1: %2x%3 pixels, the template has %4x%5"),
     QT_TRANSLATE_NOOP("core", "camera %1: %2"),

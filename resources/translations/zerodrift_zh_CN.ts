@@ -4003,7 +4003,7 @@
     </message>
     <message>
         <source>%1: in the verification, the machine went outside the range the model was made in</source>
-        <translation type="unfinished"></translation>
+        <translation>%1：验证运行中机床超出建模时的范围</translation>
     </message>
 </context>
 <context>
