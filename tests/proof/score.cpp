@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   int cases = 40;
   std::uint64_t seed = 1;
   std::string kind;
-  zerodrift::proof::StrengthRule rule = zerodrift::proof::StrengthRule::left;
+  zerodrift::proof::StrengthRule rule = zerodrift::proof::StrengthRule::raw;
   bool verbose = false;
   bool oracle = false;
   int undecidable = 0, undecidable_pairs = 0;

@@ -19,7 +19,7 @@ struct ProveArguments {
   std::optional<std::uint64_t> seed;
   std::string out;
   std::string kind;
-  std::string strength = std::string(proof::name_of(proof::StrengthRule::left));
+  std::string strength = std::string(proof::name_of(proof::StrengthRule::raw));
   int experiments = 0;
 };
 
