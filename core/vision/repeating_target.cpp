@@ -24,7 +24,6 @@ constexpr double even_share = 0.05;  // of the target's variance: a window with 
 constexpr int saturated_level = 252;
 constexpr int bright_margin_px = 7;   // what a saturated spot's edge spoils
 constexpr double least_lost = 0.25;   // of the lead where all is seen, for a place to be told from another
-constexpr double sure_lost = 0.6;     // the same, where the lead at what both foretell decides alone
 constexpr double sure_lead = 0.3;     // of the region: more than the covers beside which a target is measured
 constexpr double bad_residual = 6.0;  // standard deviations of shot noise: a bad fit has no outliers
 constexpr double least_told = 0.015;  // of the region, by which it must differ from itself a period further
@@ -223,7 +222,7 @@ RepeatingTarget::Doubt RepeatingTarget::doubt(const GrayImage& frame, const Regi
     const Lead leads = lead(here, likeness(picture, visible, found, period.shift_px), period.shift_px);
     const double in_all = leads.in_all / period.lost.in_all;
     const double both = leads.where_both_tell / std::max(period.lost.where_both_tell, least_told);
-    if (leads.in_all > sure_lead || both > sure_lost || std::min(in_all, both) > least_lost) continue;
+    if (leads.in_all > sure_lead || std::min(in_all, both) > least_lost) continue;
     out.may_be_elsewhere = true;
     if (leads.where_both_tell >= least) continue;
     least = leads.where_both_tell;
