@@ -76,8 +76,8 @@ void add_prove(Cli& cli) {
       ->check(CLI::IsMember(hideable()));
   command
       ->add_option("--strength", arguments->strength,
-                   "What of a hidden effect reaches 2.5 noise widths at least: what a re-fit without it leaves (left), "
-                   "or its whole change (raw), as in trials before this choice")
+                   "What of a hidden effect reaches 2.5 noise widths at least: its whole change (raw), or what a re-fit "
+                   "without it leaves (left)")
       ->capture_default_str()
       ->check(CLI::IsMember({"left", "raw"}));
   command
