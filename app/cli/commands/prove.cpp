@@ -75,9 +75,10 @@ void add_prove(Cli& cli) {
                    "What every case hides: an effect's id, none, pair or unlisted; without it a mixture")
       ->check(CLI::IsMember(hideable()));
   command
-      ->add_option("--strength", arguments->strength,
-                   "What of a hidden effect reaches 2.5 noise widths at least: its whole change (raw), or what a re-fit "
-                   "without it leaves (left)")
+      ->add_option(
+          "--strength", arguments->strength,
+          "What of a hidden effect reaches 2.5 noise widths at least: its whole change (raw), or what a re-fit "
+          "without it leaves (left)")
       ->capture_default_str()
       ->check(CLI::IsMember({"left", "raw"}));
   command
