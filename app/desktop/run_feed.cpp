@@ -320,6 +320,11 @@ void RunFeed::showPicture() {
   if (states.empty() || states.front().frame == nullptr) return;
   const auto& view = states.front();
   ui::CameraMarks marks;
+  for (std::size_t k = 0; k < view.marks.size(); ++k) {
+    const auto& at = view.marks[k];
+    const bool lost = k < view.references.size() && !view.references[k].ok;
+    marks.references.append({QRectF(at.x, at.y, at.width, at.height), std::nullopt, lost});
+  }
   if (view.location.ok) {
     marks.target = QPointF(view.location.point.x_px, view.location.point.y_px);
     marks.sigmaMajor_px = std::max(view.location.sigma_x_px, view.location.sigma_y_px);
@@ -330,7 +335,8 @@ void RunFeed::showPicture() {
       marks.trail.append(QPointF(view.location.point.x_px - view.location.x_px + point.x_px,
                                  view.location.point.y_px - view.location.y_px + point.y_px));
     }
-    marks.judgement = ui::Judgement::ok;
+    marks.message = coreText(view.lost_marks);
+    marks.judgement = view.lost_marks.empty() ? ui::Judgement::ok : ui::Judgement::warn;
   } else {
     marks.message = coreText(view.problem);
     marks.judgement = ui::Judgement::warn;

@@ -61,20 +61,23 @@ json sensors_json() {
   return sensors;
 }
 
-/// A box of 160 px about where the spindle's target stands, and one about the left mark of the table's target.
+/// A box of 160 px about where the spindle's target stands, and one about each of the table's marks.
 json camera_json(View view, const Endpoints& endpoints) {
   const ViewOptions options = view_options(view, 1);
   constexpr int target_px = 160;
   constexpr int mark_px = 120;
-  const PixelPosition mark = options.reference_marks_px[0];
+  json marks = json::array();
+  for (const PixelPosition& mark : options.reference_marks_px) {
+    marks.push_back(
+        {static_cast<int>(mark.x_px) - mark_px / 2, static_cast<int>(mark.y_px) - mark_px / 2, mark_px, mark_px});
+  }
   return {{"id", name_of(view)},
           {"url", fmt::format("http://{}:{}/{}.mjpg", endpoints.host, endpoints.camera_port, name_of(view))},
           {"axes", {view == View::front ? "X" : "Y", "Z"}},
           {"um_per_px_nominal", 12.0},
           {"target_roi_px",
            {(options.width_px - target_px) / 2, (options.height_px - target_px) / 2, target_px, target_px}},
-          {"reference_roi_px",
-           {static_cast<int>(mark.x_px) - mark_px / 2, static_cast<int>(mark.y_px) - mark_px / 2, mark_px, mark_px}},
+          {"reference_roi_px", std::move(marks)},
           {"pixel_size_known", false}};
 }
 

@@ -18,6 +18,11 @@ constexpr double bracket_memory_s = 1500.0;
 constexpr double camera_self_heat_K = 1.2;
 constexpr double wander_sigma_um = 0.25;
 constexpr double bracket_wander_memory_s = 900.0;
+// It is warmer on the camera's side, so it bends; and it brings the camera nearer.
+constexpr double roll_urad_per_K = 80.0;
+constexpr double scale_ppm_per_K = 40.0;
+constexpr double roll_wander_urad = 10.0;
+constexpr double scale_wander_ppm = 5.0;
 
 }  // namespace
 
@@ -25,7 +30,8 @@ Machine::Machine(const MachineParameters& parameters)
     : m_parameters(parameters),
       m_thermal(m_parameters),
       m_board(m_parameters),
-      m_bracket_noise(m_parameters.seed * 7919 + 3) {
+      m_bracket_noise(m_parameters.seed * 7919 + 3),
+      m_turn_noise(m_parameters.seed * 7919 + 5) {
   convert_temperatures();
 }
 
@@ -74,8 +80,15 @@ void Machine::advance_cameras() {
   const double goal_K = m_thermal.room_C() - m_parameters.room_start_C + camera_self_heat_K;
   m_bracket_K += (goal_K - m_bracket_K) * (1.0 - std::exp(-step_s / bracket_memory_s));
   const double memory = std::exp(-step_s / bracket_wander_memory_s);
+  const double fresh = std::sqrt(1.0 - memory * memory);
   for (double& wander : m_bracket_wander_um) {
-    wander = memory * wander + wander_sigma_um * std::sqrt(1.0 - memory * memory) * m_bracket_noise.normal();
+    wander = memory * wander + wander_sigma_um * fresh * m_bracket_noise.normal();
+  }
+  for (std::size_t view = 0; view < view_count; ++view) {
+    double& roll_urad = m_roll_wander_urad[view];
+    double& scale_ppm = m_scale_wander_ppm[view];
+    roll_urad = memory * roll_urad + roll_wander_urad * fresh * m_turn_noise.normal();
+    scale_ppm = memory * scale_ppm + scale_wander_ppm * fresh * m_turn_noise.normal();
   }
 }
 
@@ -133,6 +146,9 @@ CameraScene Machine::scene(View view) const {
   scene.machine_time_s = m_time_s;
   scene.camera_drift_right_um = -0.4 * bracket_um_per_K * m_bracket_K + m_bracket_wander_um[across];
   scene.camera_drift_up_um = bracket_um_per_K * m_bracket_K + m_bracket_wander_um[2];
+  const std::size_t camera = view == View::front ? 0 : 1;
+  scene.camera_roll_urad = roll_urad_per_K * m_bracket_K + m_roll_wander_urad[camera];
+  scene.camera_scale_ppm = scale_ppm_per_K * m_bracket_K + m_scale_wander_ppm[camera];
   return scene;
 }
 

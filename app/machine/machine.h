@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/machine/camera/scene.h"
+#include "app/machine/camera/view.h"
 #include "app/machine/compensator.h"
 #include "app/machine/motion.h"
 #include "app/machine/sensors.h"
@@ -94,6 +95,9 @@ class Machine {
   double m_bracket_K = 0.0;  // temperature of the cameras' bracket against the start
   Axes m_bracket_wander_um{};
   Noise m_bracket_noise;
+  std::array<double, view_count> m_roll_wander_urad{};
+  std::array<double, view_count> m_scale_wander_ppm{};
+  Noise m_turn_noise;
 };
 
 }  // namespace zerodrift::machine

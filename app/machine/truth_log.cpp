@@ -17,7 +17,8 @@ std::string header() {
   std::string line =
       "time_s,dX_um,dY_um,dZ_um,thermal_dX_um,thermal_dY_um,thermal_dZ_um,tilt_X_urad,tilt_Y_urad,"
       "applied_X_um,applied_Y_um,applied_Z_um,front_camera_drift_right_um,front_camera_drift_up_um,"
-      "side_camera_drift_right_um,side_camera_drift_up_um,X_mm,Y_mm,Z_mm,spindle_rpm,spindle_load_W,coolant_on,"
+      "front_camera_roll_urad,front_camera_scale_ppm,side_camera_drift_right_um,side_camera_drift_up_um,"
+      "side_camera_roll_urad,side_camera_scale_ppm,X_mm,Y_mm,Z_mm,spindle_rpm,spindle_load_W,coolant_on,"
       "compensation_on,spindle_growth_um,ambient_C";
   for (int sensor = 1; sensor <= sensor_count; ++sensor) line += fmt::format(",T{}_C", sensor);
   return line + "\n";
@@ -36,6 +37,8 @@ std::string row(const Machine& machine, double time_s) {
     const CameraScene scene = machine.scene(view);
     add(scene.camera_drift_right_um);
     add(scene.camera_drift_up_um);
+    add(scene.camera_roll_urad);
+    add(scene.camera_scale_ppm);
   }
   for (const double position : machine.motion().position_mm()) add(position);
   add(machine.speed_rpm());

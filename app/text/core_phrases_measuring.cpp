@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 190> measuring = {{
+constexpr std::array<const char*, 197> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -150,6 +150,10 @@ constexpr std::array<const char*, 190> measuring = {{
     QT_TRANSLATE_NOOP("core", "no region was given: %1,%2,%3,%4 shows the most pattern and is used"),
     QT_TRANSLATE_NOOP("core", "%1: %2x%3 pixels, the template has %4x%5"),
     QT_TRANSLATE_NOOP("core", "camera %1: %2"),
+    QT_TRANSLATE_NOOP("core", "reference: %1"),
+    QT_TRANSLATE_NOOP("core", "reference %1: %2"),
+    QT_TRANSLATE_NOOP("core", "%1 (reference %2)"),
+    QT_TRANSLATE_NOOP("core", "%1 was measured without %2"),
     QT_TRANSLATE_NOOP("core", "the target was found in %1 of %2 views (the first without it is %3)"),
     QT_TRANSLATE_NOOP("core", "the file does not exist"),
     QT_TRANSLATE_NOOP("core", "target missing"),
@@ -204,6 +208,9 @@ constexpr std::array<const char*, 190> measuring = {{
     QT_TRANSLATE_NOOP("core", "measuring model data (compensation %1)"),
     QT_TRANSLATE_NOOP("core", "sign %1"),
     QT_TRANSLATE_NOOP("core", "the region"),
+    QT_TRANSLATE_NOOP("core", "the reference mark"),
+    QT_TRANSLATE_NOOP("core", "over the target's region or another mark"),
+    QT_TRANSLATE_NOOP("core", "a place beside them"),
     QT_TRANSLATE_NOOP("core", "%1 temperatures and %2 errors, %3 values each"),
     QT_TRANSLATE_NOOP("core", "%1 values each"),
     QT_TRANSLATE_NOOP("core", "%1 temperatures and %2"),

@@ -147,6 +147,11 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors",
                           "The target before camera {view} is partly occluded: {percent} % of it is measured."),
         QT_TRANSLATE_NOOP("errors", "The numbers hold, with their uncertainty; wipe the target at the next stop.")},
+    Row{ErrorCode::reference_lost, QT_TRANSLATE_NOOP("errors", "A reference mark is not seen: {reason}."),
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "The measurement goes on with the other mark and a larger uncertainty; wipe the mark, or take "
+            "away what covers it.")},
     Row{ErrorCode::sensor_dead, QT_TRANSLATE_NOOP("errors", "The temperature sensor {sensor} gives no value."),
         QT_TRANSLATE_NOOP("errors", "Check its plug and cable, or leave it out of the model.")},
     Row{ErrorCode::sensor_stuck,

@@ -34,6 +34,7 @@ constexpr std::array rows = {
     Row{"camera_unreachable", QT_TRANSLATE_NOOP("happenings", "camera not reachable")},
     Row{"target_refused", QT_TRANSLATE_NOOP("happenings", "measurement refused")},
     Row{"target_partly_covered", QT_TRANSLATE_NOOP("happenings", "target partly occluded")},
+    Row{"reference_lost", QT_TRANSLATE_NOOP("happenings", "reference mark not seen")},
     Row{"disk_full", QT_TRANSLATE_NOOP("happenings", "disk full")},
 };
 

@@ -36,8 +36,7 @@ ControllerSettings read_controller(JsonObject& o) {
   return c;
 }
 
-std::array<int, 4> read_region(JsonObject& o, const char* key) {
-  const auto numbers = o.numbers(key, 4);
+std::array<int, 4> region_of(const JsonObject& o, const std::string& key, const std::vector<double>& numbers) {
   std::array<int, 4> region{};
   for (std::size_t i = 0; i < 4; ++i) {
     if (numbers[i] < 0 || numbers[i] > 100000 || (i > 1 && numbers[i] < 1)) {
@@ -48,6 +47,28 @@ std::array<int, 4> read_region(JsonObject& o, const char* key) {
   return region;
 }
 
+/// Fixed marks: one region, or a list of regions.
+std::vector<std::array<int, 4>> read_marks(JsonObject& o, const char* key) {
+  const nlohmann::json* marks = o.raw(key);
+  if (marks == nullptr) return {};
+  if (!marks->is_array() || marks->empty() || !marks->front().is_array()) {
+    return {region_of(o, key, o.numbers(key, 4))};
+  }
+  std::vector<std::array<int, 4>> regions;
+  for (std::size_t k = 0; k < marks->size(); ++k) {
+    const nlohmann::json& mark = (*marks)[k];
+    const std::string name = fmt::format("{}[{}]", key, k);
+    std::vector<double> numbers;
+    const bool list = mark.is_array() && mark.size() == 4;
+    for (std::size_t i = 0; list && i < 4; ++i) {
+      if (mark[i].is_number()) numbers.push_back(mark[i].get<double>());
+    }
+    if (numbers.size() != 4) o.reject(name, json_text(mark), "x, y, width and height in pixels");
+    regions.push_back(region_of(o, name, numbers));
+  }
+  return regions;
+}
+
 CameraProfile read_camera(JsonObject& o) {
   CameraProfile camera;
   camera.id = o.text("id");
@@ -56,8 +77,8 @@ CameraProfile read_camera(JsonObject& o) {
   if (axes.size() != 2) o.reject("axes", fmt::format("{} axes", axes.size()), "two axes, right and up in the image");
   camera.axes = {axes[0], axes[1]};
   camera.um_per_px_nominal = o.number_or("um_per_px_nominal", 0.0, not_negative);
-  camera.target_roi_px = read_region(o, "target_roi_px");
-  if (o.has("reference_roi_px")) camera.reference_roi_px = read_region(o, "reference_roi_px");
+  camera.target_roi_px = region_of(o, "target_roi_px", o.numbers("target_roi_px", 4));
+  camera.reference_rois_px = read_marks(o, "reference_roi_px");
   camera.pixel_size_known = o.flag_or("pixel_size_known", true);
   return camera;
 }

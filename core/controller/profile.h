@@ -40,8 +40,8 @@ struct CameraProfile {
   std::string url;
   std::array<std::string, 2> axes;  // machine axes along the image's right and up
   double um_per_px_nominal = 0.0;
-  std::array<int, 4> target_roi_px{};  // x, y, width, height
-  std::optional<std::array<int, 4>> reference_roi_px;
+  std::array<int, 4> target_roi_px{};                 // x, y, width, height
+  std::vector<std::array<int, 4>> reference_rois_px;  // fixed marks, in the order of the file; may be none
   bool pixel_size_known = true;
 };
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/report/camera_marks.h"
+
 namespace zerodrift::report {
 
 using nlohmann::json;
@@ -16,6 +18,7 @@ constexpr double axis_error_um = 1.0;           // of the machine's axes over th
 constexpr double holder_mm = 100.0;             // between spindle nose and target, or camera and its foot
 constexpr double holder_expansion_1_K = 12e-6;  // steel
 constexpr double camera_expansion_1_K = 23e-6;  // aluminium
+constexpr double camera_turn = 1e-4;            // rad, and as a change of scale: a holder warmer on one side
 // ISO/TR 230-9, annex C: an expansion coefficient from a handbook is within 2 µm/(m K).
 constexpr double expansion_error_1_K = 2e-6;
 constexpr double default_accuracy_C = 0.1;
@@ -135,7 +138,14 @@ Budget budget_of_measurement(const Source& source) {
          return rectangular(axis_error_um) / (1000.0 * span_mm) * peak_um(source, axis);
        });
   const double room_K = room_range_K(source);
-  if (!calibration->body.value("reference_target", false)) {
+  const CameraMarks marks = camera_marks(calibration->body);
+  if (marks.taken_off == CameraMarks::TakenOff::shift && std::isfinite(marks.distance_mm)) {
+    part("camera_turn", source.say("Turn and change of scale of the camera, which one reference mark does not show"),
+         source.tell("assumed: within 0.1 mrad and 1 in 10 000 over {} mm, rectangular", shown(marks.distance_mm, 1)),
+         'B', source.at("calibration", "/cameras"),
+         [&](const std::string&) { return rectangular(1000.0 * marks.distance_mm * camera_turn); });
+  }
+  if (marks.taken_off == CameraMarks::TakenOff::nothing) {
     part("camera_drift", source.say("Drift of camera and foot, no reference target in view"),
          source.tell("assumed: {} mm of aluminium, room changed by {} K, rectangular", shown(holder_mm, 0),
                      shown(room_K, 1)),

@@ -54,9 +54,12 @@ CameraErrorSource::CameraErrorSource(std::vector<ErrorView> views, MeasureOption
   for (std::size_t k = 0; k < m_views.size(); ++k) m_states[k].id = m_views[k].id;
 }
 
-Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskContext& context) const {
+Result<ViewState> CameraErrorSource::look(const ErrorView& view, const CameraTurn& turn,
+                                          const TaskContext& context) const {
   ViewState state;
   state.id = view.id;
+  state.turn = turn;
+  for (const Target& reference : view.references) state.marks.push_back(reference.region());
   std::vector<Location> locations;
   const Camera::Time begin = std::chrono::steady_clock::now();
   Camera::Time::duration since_begin{0};
@@ -66,7 +69,10 @@ Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskConte
     // Only the first frame can have been on its way when the machine came to stand; the others follow it.
     after = state.frame->arrived - std::chrono::milliseconds(1);
     since_begin += state.frame->arrived - begin;
-    locations.push_back(locate_against(*view.target, view.references, state.frame->image, &state.references));
+    locations.push_back(
+        locate_against(*view.target, view.references, state.frame->image, &state.references, &state.turn));
+    const std::string lost = marks_not_seen(state.references);
+    if (locations.back().ok && !lost.empty()) state.lost_marks = lost;
   }
   state.seen = begin + since_begin / std::max(m_options.frames, 1);
   for (const Location& one : locations) {
@@ -84,12 +90,15 @@ Result<ViewState> CameraErrorSource::look(const ErrorView& view, const TaskConte
 
 std::vector<Result<ViewState>> CameraErrorSource::look_all(const TaskContext& context) const {
   // All cameras at the same time: the machine drifts while it is looked at.
+  std::vector<CameraTurn> turns;
+  for (const ViewState& state : states()) turns.push_back(state.turn);
   std::vector<std::future<Result<ViewState>>> pending;
   for (std::size_t k = 1; k < m_views.size(); ++k) {
-    pending.push_back(std::async(std::launch::async, [this, k, &context] { return look(m_views[k], context); }));
+    pending.push_back(
+        std::async(std::launch::async, [this, k, &turns, &context] { return look(m_views[k], turns[k], context); }));
   }
   std::vector<Result<ViewState>> looks;
-  if (!m_views.empty()) looks.push_back(look(m_views[0], context));
+  if (!m_views.empty()) looks.push_back(look(m_views[0], turns[0], context));
   for (auto& one : pending) looks.push_back(one.get());
   return looks;
 }
@@ -115,6 +124,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
   std::optional<Error> dead;
   std::size_t dead_count = 0;
   std::vector<Camera::Time> seen;
+  std::string lost;
   auto looks = look_all(context);
   for (std::size_t k = 0; k < m_views.size(); ++k) {
     const ErrorView& view = m_views[k];
@@ -143,6 +153,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
         const std::string percent = std::to_string(static_cast<int>(100.0 * state.least_share));
         sample.remark = Error{ErrorCode::target_partly_covered, {{"view", view.id}, {"percent", percent}}};
       }
+      if (!state.lost_marks.empty()) lost += (lost.empty() ? "" : "; ") + in_view(view, state.lost_marks);
     } else {
       state.error = {nan_value, nan_value, nan_value, nan_value};
       sample.problems.push_back(in_view(view, state.problem));
@@ -153,6 +164,7 @@ Result<acquisition::ErrorSample> CameraErrorSource::measure(const TaskContext& c
     m_states[k] = std::move(state);
   }
   if (dead && dead_count == m_views.size()) return fail(*dead);
+  if (!lost.empty()) sample.remark = Error{ErrorCode::reference_lost, {{"reason", lost}}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool measured = combined[axis].weight > 0.0;
     sample.error_um[axis] = measured ? combined[axis].sum / combined[axis].weight : nan_value;

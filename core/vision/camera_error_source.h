@@ -37,7 +37,10 @@ struct ViewState {
   std::string id;
   std::shared_ptr<const CameraFrame> frame;
   Location location;                 // of the mean, camera motion taken off
+  std::vector<Region> marks;         // where the references stood in the template
   std::vector<Location> references;  // in the last frame
+  std::string lost_marks;            // marks_not_seen() of the last frame that was measured without one of them
+  CameraTurn turn;                   // of the camera, when enough references were last seen
   Camera::Time seen{};               // mean arrival of the frames
   int good_frames = 0;
   int refused_frames = 0;
@@ -70,7 +73,7 @@ class CameraErrorSource : public acquisition::ErrorSource {
   struct Zero {
     double x_px = 0.0, y_px = 0.0, sigma_x_px = 0.0, sigma_y_px = 0.0;
   };
-  Result<ViewState> look(const ErrorView& view, const TaskContext& context) const;
+  Result<ViewState> look(const ErrorView& view, const CameraTurn& turn, const TaskContext& context) const;
   std::vector<Result<ViewState>> look_all(const TaskContext& context) const;
 
   std::vector<ErrorView> m_views;

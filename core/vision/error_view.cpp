@@ -1,5 +1,7 @@
 #include "core/vision/error_view.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -9,8 +11,9 @@
 namespace zerodrift::vision {
 namespace {
 
-constexpr double least_spacing_px = 120.0;  // marks closer than this cannot tell roll and scale better than none
-
+// How far roll (rad) and scale (relative) may have gone where they are not seen, as a standard uncertainty: a holder of
+// 100 mm of aluminium that is some K warmer on one side.
+constexpr double unseen_turn = 1e-4;
 constexpr int mark_margin_px = 40;  // a fixed mark moves by the camera's own drift only
 
 /// The frame with everything beyond the mark's surroundings made even: marks of one plate look alike, and the one that
@@ -40,59 +43,123 @@ Location refused(Location location, std::string reason) {
   return location;
 }
 
-// The camera's motion at a point of the image, with covariance, from what the marks do.
+double spacing_px(const std::vector<PixelPoint>& marks) {
+  double spacing = 0.0;
+  for (const PixelPoint& a : marks) {
+    for (const PixelPoint& b : marks) spacing = std::max(spacing, std::hypot(a.x_px - b.x_px, a.y_px - b.y_px));
+  }
+  return spacing;
+}
+
+struct SeenMark {
+  PixelPoint place;  // of the template
+  Location now;
+};
+
+/// The camera's motion at a point of the image, with covariance, from what the marks do.
 struct CameraMotion {
   Eigen::Vector2d shift_px;
   Eigen::Matrix2d covariance_px2;
+  double unseen_px = 0.0;  // standard uncertainty by a turn and scale that the marks do not show
+  CameraTurn turn;
 };
 
-CameraMotion motion_at(const PixelPoint& point, const std::vector<Target>& marks, const std::vector<Location>& found) {
-  double spacing = 0.0;
-  for (const Target& a : marks) {
-    for (const Target& b : marks) {
-      spacing = std::max(spacing, std::hypot(a.point().x_px - b.point().x_px, a.point().y_px - b.point().y_px));
-    }
-  }
-  const bool similarity = marks.size() >= 2 && spacing >= least_spacing_px;
-  // Parameters: shift x, shift y and, with spaced marks, scale and roll about the point.
-  const int unknowns = similarity ? 4 : 2;
+/// What a turn and a change of scale about the point move at a place.
+Eigen::Matrix2d of_scale_and_roll(const PixelPoint& place, const PixelPoint& point) {
+  const double x = place.x_px - point.x_px;
+  const double y = place.y_px - point.y_px;
+  Eigen::Matrix2d moved;
+  moved << x, -y, y, x;
+  return moved;
+}
+
+CameraMotion motion_at(const PixelPoint& point, const std::vector<SeenMark>& marks, bool with_turn,
+                       const CameraTurn& last) {
+  // Parameters: shift x, shift y and, with spaced marks, scale and roll about the point, of 1 in 100 each.
+  constexpr double unit = 0.01;
+  const int unknowns = with_turn ? 4 : 2;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
-  for (std::size_t k = 0; k < marks.size(); ++k) {
-    const double x = (marks[k].point().x_px - point.x_px) / 100.0;
-    const double y = (marks[k].point().y_px - point.y_px) / 100.0;
+  PixelPoint middle{0.0, 0.0};
+  for (const SeenMark& mark : marks) {
+    const Eigen::Matrix2d turning = of_scale_and_roll(mark.place, point);
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, unknowns);
     rows.leftCols(2).setIdentity();
-    if (similarity) rows.rightCols(2) << x, -y, y, x;
-    const Eigen::Vector2d weight(1.0 / (found[k].sigma_x_px * found[k].sigma_x_px),
-                                 1.0 / (found[k].sigma_y_px * found[k].sigma_y_px));
+    Eigen::Vector2d moved(mark.now.x_px, mark.now.y_px);
+    if (with_turn) {
+      rows.rightCols(2) = unit * turning;
+    } else {
+      moved -= turning * Eigen::Vector2d(last.scale, last.roll_rad);
+    }
+    const Eigen::Vector2d weight(1.0 / (mark.now.sigma_x_px * mark.now.sigma_x_px),
+                                 1.0 / (mark.now.sigma_y_px * mark.now.sigma_y_px));
     normal += rows.transpose() * weight.asDiagonal() * rows;
-    right += rows.transpose() * weight.cwiseProduct(Eigen::Vector2d(found[k].x_px, found[k].y_px));
+    right += rows.transpose() * weight.cwiseProduct(moved);
+    middle.x_px += mark.place.x_px / static_cast<double>(marks.size());
+    middle.y_px += mark.place.y_px / static_cast<double>(marks.size());
   }
   const Eigen::MatrixXd covariance = normal.inverse();
   const Eigen::VectorXd solved = covariance * right;
-  return {solved.head<2>(), covariance.topLeftCorner<2, 2>()};
+  CameraMotion motion{solved.head<2>(), covariance.topLeftCorner<2, 2>(), 0.0, last};
+  if (with_turn) {
+    motion.turn = {unit * solved(2), unit * solved(3)};
+  } else {
+    motion.unseen_px = unseen_turn * std::hypot(middle.x_px - point.x_px, middle.y_px - point.y_px);
+  }
+  return motion;
 }
 
 }  // namespace
 
+TakenOff taken_off_by(const std::vector<PixelPoint>& marks) {
+  if (marks.empty()) return TakenOff::nothing;
+  return spacing_px(marks) >= least_mark_spacing_px ? TakenOff::shift_turn_scale : TakenOff::shift;
+}
+
+TakenOff taken_off_by(const std::vector<Region>& marks) {
+  std::vector<PixelPoint> centres;
+  for (const Region& mark : marks) centres.push_back(centre_of(mark));
+  return taken_off_by(centres);
+}
+
+std::string marks_not_seen(const std::vector<Location>& references) {
+  std::string text;
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    if (references[k].ok) continue;
+    if (!text.empty()) text += "; ";
+    text += references.size() == 1 ? "reference: " + references[k].reason
+                                   : fmt::format("reference {}: {}", k + 1, references[k].reason);
+  }
+  return text;
+}
+
 Location locate_against(const Target& target, const std::vector<Target>& references, const GrayImage& frame,
-                        std::vector<Location>* reference_locations) {
+                        std::vector<Location>* reference_locations, CameraTurn* turn) {
   Location at = target.locate(frame);
   std::vector<Location> found;
+  std::vector<SeenMark> seen;
+  std::vector<PixelPoint> places, seen_places;
   for (const Target& reference : references) {
     found.push_back(reference.locate(surroundings_of(reference, frame)));
+    places.push_back(reference.point());
+    if (!found.back().ok) continue;
+    seen.push_back({reference.point(), found.back()});
+    seen_places.push_back(reference.point());
   }
   if (reference_locations != nullptr) *reference_locations = found;
   if (!at.ok || references.empty()) return at;
-  for (const Location& one : found) {
-    if (!one.ok) return refused(std::move(at), "reference: " + one.reason);
-  }
-  const CameraMotion motion = motion_at(at.point, references, found);
+  if (seen.empty()) return refused(std::move(at), marks_not_seen(found));
+  const bool with_turn = taken_off_by(seen_places) == TakenOff::shift_turn_scale;
+  const bool expected = taken_off_by(places) == TakenOff::shift_turn_scale;
+  const CameraTurn last = expected && turn != nullptr ? *turn : CameraTurn{};
+  const CameraMotion motion = motion_at(at.point, seen, with_turn, last);
+  if (turn != nullptr) *turn = motion.turn;
+  // With no more than one mark from the start, what remains is said once, beside all figures.
+  if (expected) at.shared_sigma_px = motion.unseen_px;
   at.x_px -= motion.shift_px(0);
   at.y_px -= motion.shift_px(1);
-  at.sigma_x_px = std::sqrt(at.sigma_x_px * at.sigma_x_px + motion.covariance_px2(0, 0));
-  at.sigma_y_px = std::sqrt(at.sigma_y_px * at.sigma_y_px + motion.covariance_px2(1, 1));
+  at.sigma_x_px = std::hypot(at.sigma_x_px, std::sqrt(motion.covariance_px2(0, 0)), at.shared_sigma_px);
+  at.sigma_y_px = std::hypot(at.sigma_y_px, std::sqrt(motion.covariance_px2(1, 1)), at.shared_sigma_px);
   at.covariance_xy_px2 += motion.covariance_px2(0, 1);
   return at;
 }
@@ -100,7 +167,7 @@ Location locate_against(const Target& target, const std::vector<Target>& referen
 MeanLocation mean_of(const std::vector<Location>& locations) {
   MeanLocation out;
   std::map<std::string, int> reasons;
-  double sx = 0.0, sy = 0.0, vx = 0.0, vy = 0.0, vxy = 0.0;
+  double sx = 0.0, sy = 0.0, vx = 0.0, vy = 0.0, vxy = 0.0, shared = 0.0;
   for (const Location& one : locations) {
     if (!one.ok) {
       ++out.refused;
@@ -111,8 +178,9 @@ MeanLocation mean_of(const std::vector<Location>& locations) {
     ++out.good;
     sx += one.x_px;
     sy += one.y_px;
-    vx += one.sigma_x_px * one.sigma_x_px;
-    vy += one.sigma_y_px * one.sigma_y_px;
+    vx += one.sigma_x_px * one.sigma_x_px - one.shared_sigma_px * one.shared_sigma_px;
+    vy += one.sigma_y_px * one.sigma_y_px - one.shared_sigma_px * one.shared_sigma_px;
+    shared += one.shared_sigma_px;
     vxy += one.covariance_xy_px2;
   }
   const double n = out.good;
@@ -141,13 +209,14 @@ MeanLocation mean_of(const std::vector<Location>& locations) {
   const auto sigma_of_mean = [&](double stated_variance, double scatter) {
     // The scatter sees vibration and lamp flicker, the stated uncertainty sees what all frames share: the larger holds.
     const double from_scatter = out.good > 2 ? scatter / std::sqrt(n) : 0.0;
-    return std::max(std::sqrt(stated_variance / n / n), from_scatter);
+    return std::hypot(std::max(std::sqrt(stated_variance / n / n), from_scatter), shared / n);
   };
   Location& mean = out.location;
   mean.point.x_px += sx / n - mean.x_px;
   mean.point.y_px += sy / n - mean.y_px;
   mean.x_px = sx / n;
   mean.y_px = sy / n;
+  mean.shared_sigma_px = shared / n;
   mean.sigma_x_px = sigma_of_mean(vx, out.scatter_x_px);
   mean.sigma_y_px = sigma_of_mean(vy, out.scatter_y_px);
   mean.covariance_xy_px2 = vxy / n / n;

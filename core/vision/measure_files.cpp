@@ -224,7 +224,10 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
       warn(warnings, position.frame + ": " + position.location.reason);
     } else {
       if (!picture->note.empty()) warn(warnings, position.frame + ": " + picture->note);
-      position.location = locate_against(taught, request.references, picture->image);
+      std::vector<Location> marks;
+      position.location = locate_against(taught, request.references, picture->image, &marks);
+      const std::string lost = marks_not_seen(marks);
+      if (position.location.ok && !lost.empty()) warn(warnings, position.frame + " was measured without " + lost);
       if (position.location.refusal == Refusal::other_size) {
         warn(warnings, fmt::format("{}: {}x{} pixels, the template has {}x{}", position.frame, picture->image.width,
                                    picture->image.height, target.image().width, target.image().height));

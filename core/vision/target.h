@@ -41,7 +41,8 @@ struct Location {
   double sigma_x_px = 0.0;  // standard uncertainty
   double sigma_y_px = 0.0;
   double covariance_xy_px2 = 0.0;
-  PixelPoint point;  // where the named point is in the frame (for the drawing; best guess when refused)
+  double shared_sigma_px = 0.0;  // the part of both sigmas that further frames do not average away
+  PixelPoint point;              // where the named point is in the frame (for the drawing; best guess when refused)
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();  // rotation, scale and shear since the template
   double correlation = 0.0;                              // of frame and template after registration, weighted
   double inlier_share = 0.0;

@@ -49,6 +49,16 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::ui::CalibratePage</name>
+    <message numerus="yes">
+        <source>%n reference mark(s)</source>
+        <translation>
+            <numerusform>%n reference mark</numerusform>
+            <numerusform>%n reference marks</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::MachinePage</name>
     <message numerus="yes">
         <source>%n to check</source>

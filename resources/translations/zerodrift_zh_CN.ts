@@ -4005,6 +4005,34 @@
         <source>%1: in the verification, the machine went outside the range the model was made in</source>
         <translation>%1：验证运行中机床超出建模时的范围</translation>
     </message>
+    <message>
+        <source>reference: %1</source>
+        <translation>参考标记：%1</translation>
+    </message>
+    <message>
+        <source>reference %1: %2</source>
+        <translation>参考标记 %1：%2</translation>
+    </message>
+    <message>
+        <source>%1 (reference %2)</source>
+        <translation>%1（参考标记 %2）</translation>
+    </message>
+    <message>
+        <source>%1 was measured without %2</source>
+        <translation>%1 在缺少以下标记时测得：%2</translation>
+    </message>
+    <message>
+        <source>over the target&apos;s region or another mark</source>
+        <translation>与靶标区域或另一标记重叠</translation>
+    </message>
+    <message>
+        <source>a place beside them</source>
+        <translation>它们旁边的位置</translation>
+    </message>
+    <message>
+        <source>the reference mark</source>
+        <translation>参考标记</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -4544,6 +4572,14 @@
         <source>Choose a region with the edge of the pattern or a mark in it.</source>
         <translation>请选择包含图案边缘或标记的区域。</translation>
     </message>
+    <message>
+        <source>The measurement goes on with the other mark and a larger uncertainty; wipe the mark, or take away what covers it.</source>
+        <translation>测量以另一标记继续进行，不确定度增大；请擦净标记，或移开遮挡物。</translation>
+    </message>
+    <message>
+        <source>A reference mark is not seen: {reason}.</source>
+        <translation>有一个参考标记未被识别：{reason}。</translation>
+    </message>
 </context>
 <context>
     <name>happenings</name>
@@ -4638,6 +4674,10 @@
     <message>
         <source>%1, asked again</source>
         <translation>%1，已重新询问</translation>
+    </message>
+    <message>
+        <source>reference mark not seen</source>
+        <translation>参考标记未识别</translation>
     </message>
 </context>
 <context>
@@ -6381,14 +6421,6 @@
         <translation>实时图像</translation>
     </message>
     <message>
-        <source>reference target found</source>
-        <translation>已找到参考靶标</translation>
-    </message>
-    <message>
-        <source>no reference target</source>
-        <translation>没有参考靶标</translation>
-    </message>
-    <message>
         <source>Draw region</source>
         <translation>画区域</translation>
     </message>
@@ -6443,10 +6475,6 @@
     <message>
         <source>Dashed: field of view. Blue: expected drift; the positions must enclose it.</source>
         <translation>虚线：视场。蓝色：预期漂移；各位置必须将其包围。</translation>
-    </message>
-    <message>
-        <source>Without a reference target the camera&apos;s own drift stays in the errors: some 2 µm for each K that 100 mm of its aluminium bracket warm up.</source>
-        <translation>没有参考靶标时，相机自身的漂移会留在误差中：100 mm 长的铝支架每升温 1 K 约 2 µm。</translation>
     </message>
     <message>
         <source>%1 µm</source>
@@ -6528,6 +6556,64 @@
         <source>Measuring positions</source>
         <translation>测量位置</translation>
     </message>
+    <message>
+        <source>Without a reference mark the camera&apos;s own drift stays in the errors: some 2 µm for each K that 100 mm of its aluminium bracket warm up.</source>
+        <translation>没有参考标记时，相机自身的漂移会留在误差中：100 mm 长的铝支架每升温 1 K 约 2 µm。</translation>
+    </message>
+    <message>
+        <source>The reference marks take out that the camera shifts, turns or changes its scale. What stays is a mark that moves itself.</source>
+        <translation>参考标记可消除相机的平移、转动和比例变化。仍会留下的是标记自身的移动。</translation>
+    </message>
+    <message>
+        <source>That it turns or changes its scale stays in the errors.</source>
+        <translation>相机的转动或比例变化仍留在误差中。</translation>
+    </message>
+    <message>
+        <source>That it turns or changes its scale stays in the errors: %1 µm for 0.1 mrad or 1 in 10 000.</source>
+        <translation>相机的转动或比例变化仍留在误差中：每 0.1 mrad 或万分之一为 %1 µm。</translation>
+    </message>
+    <message>
+        <source>The reference mark takes out that the camera shifts.</source>
+        <translation>参考标记可消除相机的平移。</translation>
+    </message>
+    <message>
+        <source>The reference marks stand too close together: they take out only that the camera shifts.</source>
+        <translation>参考标记相距太近：只能消除相机的平移。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n reference mark(s)</source>
+        <translation>
+            <numerusform>%n 个参考标记</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Marks</source>
+        <translation>标记</translation>
+    </message>
+    <message>
+        <source>Fixed marks on the table, which show the camera&apos;s own drift; two, well apart, show its turn too</source>
+        <translation>工作台上的固定标记，显示相机自身的漂移；两个相距较远的标记还能显示其转动</translation>
+    </message>
+    <message>
+        <source>Add a mark</source>
+        <translation>添加标记</translation>
+    </message>
+    <message>
+        <source>Remove the mark</source>
+        <translation>移除标记</translation>
+    </message>
+    <message>
+        <source>Remove mark %1</source>
+        <translation>移除标记 %1</translation>
+    </message>
+    <message>
+        <source>draw a box around the mark</source>
+        <translation>请框选标记</translation>
+    </message>
+    <message>
+        <source>no reference mark</source>
+        <translation>无参考标记</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::CameraView</name>
@@ -6541,7 +6627,7 @@
     </message>
     <message>
         <source>Reference</source>
-        <translation>参考靶标</translation>
+        <translation>参考标记</translation>
     </message>
     <message>
         <source>Target</source>
@@ -6554,6 +6640,14 @@
     <message>
         <source>± %1 px, drawn %2 ×</source>
         <translation>± %1 px，放大 %2 倍绘制</translation>
+    </message>
+    <message>
+        <source>Reference %1</source>
+        <translation>参考标记 %1</translation>
+    </message>
+    <message>
+        <source>%1: not seen</source>
+        <translation>%1：未识别</translation>
     </message>
 </context>
 <context>

@@ -274,7 +274,7 @@ class LanguageTest : public QObject {
     for (const ErrorCode code :
          {ErrorCode::sensor_dead, ErrorCode::sensor_stuck, ErrorCode::sensor_spiking, ErrorCode::sensor_jumped,
           ErrorCode::sensor_swapped, ErrorCode::camera_frozen, ErrorCode::camera_silent, ErrorCode::camera_unreachable,
-          ErrorCode::target_refused, ErrorCode::target_partly_covered}) {
+          ErrorCode::target_refused, ErrorCode::target_partly_covered, ErrorCode::reference_lost}) {
       const std::string name(name_of(code));
       const QString happened = textOf({name, {}, 2, false});
       QVERIFY2(!happened.contains(latin), qPrintable(happened));

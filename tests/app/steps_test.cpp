@@ -15,6 +15,7 @@
 #include "core/flow/steps/verify_step.h"
 #include "core/recording/csv.h"
 #include "tests/app/test_home.h"
+#include "ui/pages/calibrate_page.h"
 #include "ui/pages/fit_page.h"
 #include "ui/pages/verify_page.h"
 
@@ -179,6 +180,43 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(verified(5.5, 86.0));
     QVERIFY2(standing().words.contains(QStringLiteral("limit")), qPrintable(standing().words));
     QCOMPARE(standing().state, zerodrift::ui::StepState::ready);
+  }
+
+  /// The profile's marks stand until a person draws others; each change can be taken back.
+  void marksAreAddedRemovedAndTakenBack() {
+    Application application(m_theme);
+    QVERIFY(recorded(application));
+    QVERIFY(application.bench().loadProfile(*zerodrift::find_resource("profiles/virtual-five-axis.json")).has_value());
+    auto* presenter = application.presenter(QStringLiteral("calibrate"));
+    auto* page = qobject_cast<zerodrift::ui::CalibratePage*>(presenter->page());
+    using zerodrift::ui::MarksTakeOff;
+    presenter->refresh();
+    QCOMPARE(page->state().marks, 2);
+    QCOMPARE(page->state().takeOff, MarksTakeOff::shiftTurnScale);
+    Q_EMIT page->markRemoved(0);
+    QCOMPARE(page->state().marks, 1);
+    QCOMPARE(page->state().takeOff, MarksTakeOff::shift);
+    QVERIFY(std::abs(page->state().markDistance_mm - 3.0) < 0.1);
+    Q_EMIT page->markRemoved(0);
+    QCOMPARE(page->state().takeOff, MarksTakeOff::nothing);
+    Q_EMIT page->markDrawn(QRectF(30, 20, 80, 70));
+    QCOMPARE(page->state().marks, 1);
+    Q_EMIT page->markDrawn(QRectF(300, 200, 60, 60));  // in the target
+    QCOMPARE(page->state().marks, 1);
+    QVERIFY(!page->problem().sentence.isEmpty());
+    Q_EMIT page->markDrawn(QRectF(120, 20, 60, 60));  // too near for the turn
+    QCOMPARE(page->state().marks, 2);
+    QCOMPARE(page->state().takeOff, MarksTakeOff::shift);
+    for (int marks : {1, 0, 1, 2}) {
+      presenter->undo();
+      QCOMPARE(page->state().marks, marks);
+    }
+    presenter->undo();
+    QCOMPARE(page->state().marks, 2);
+    // The other camera keeps its own.
+    Q_EMIT page->markRemoved(1);
+    Q_EMIT page->cameraChosen(1);
+    QCOMPARE(page->state().marks, 2);
   }
 
   /// What failed is kept as code and facts, once, and said on the page.

@@ -122,6 +122,28 @@ TEST(CameraRenderer, CameraDriftMovesBothTargetsTheOtherWay) {
   }
 }
 
+TEST(CameraRenderer, CameraTurnAndScaleMoveThePictureAboutItsMiddle) {
+  ViewOptions view = plain_view();
+  view.rotation_rad = 0.0;
+  const CameraRenderer renderer(view);
+  CameraScene turned;
+  turned.camera_roll_urad = 300.0;
+  turned.camera_scale_ppm = 200.0;
+  const auto before = renderer.render_levels({}, 0, quiet);
+  const auto after = renderer.render_levels(turned, 0, quiet);
+  const auto moved = [&](Box box) {
+    const PixelPosition a = centre_of_gravity(before, before[0], box);
+    const PixelPosition b = centre_of_gravity(after, after[0], box);
+    return PixelPosition{b.x_px - a.x_px, b.y_px - a.y_px};
+  };
+  EXPECT_NEAR(moved(around_target).x_px, 0.0, 1e-4);
+  EXPECT_NEAR(moved(around_target).y_px, 0.0, 1e-4);
+  // The mark is 220 px left of and 120 px below the middle. A camera turned counter-clockwise sees what is below move
+  // to the left, and what is at the left move up.
+  EXPECT_NEAR(moved(around_left_mark).x_px, -120.0 * 300e-6 - 220.0 * 200e-6, 1e-4);
+  EXPECT_NEAR(moved(around_left_mark).y_px, -220.0 * 300e-6 + 120.0 * 200e-6, 1e-4);
+}
+
 TEST(CameraRenderer, ReferenceMarksStayWhenTheSpindleMoves) {
   const CameraRenderer renderer(view_options(View::side, 1));
   const auto before = renderer.render_levels(target_at(-800.0, -800.0), 0, quiet);

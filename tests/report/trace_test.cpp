@@ -120,6 +120,49 @@ TEST(ReportTrace, TheBudgetAddsUp) {
   EXPECT_GT(after.combined_um().at("Z"), budget.combined_um().at("Z"));
 }
 
+/// What of the cameras' own drift remains possible, without a mark, with one, with two.
+TEST(ReportTrace, WhatTheReferenceMarksLeaveIsSaid) {
+  const auto said = [](const nlohmann::json& marks, const char* takes_off, std::set<std::string>& parts) {
+    RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    const auto kept = rich.job().latest("calibration").value();
+    nlohmann::json body = kept->document().value();
+    body["reference_target"] = !marks.is_null();
+    for (auto& camera : body["cameras"]) {
+      camera["roi"] = {240, 160, 160, 160};
+      if (!marks.is_null()) camera["reference_roi"] = marks;
+      if (takes_off != nullptr) camera["takes_off"] = takes_off;
+    }
+    rich.put("calibration", body);
+    for (const auto& part : budget_of_measurement(*Source::load(rich.job(), {})).parts) {
+      parts.insert(part.id);
+      if (part.id != "camera_turn") continue;
+      // 1 in 10 000 of 220 and 120 px of 12 um; of 120 px from the middle of two.
+      const double mm = marks.front().is_array() ? 1.44 : 3.007;
+      EXPECT_NEAR(part.u_um.at("Z"), 0.1 * mm / std::sqrt(3.0), 1e-3);
+    }
+    std::string all;
+    const auto report = build_report(rich.job()).value();
+    for (const auto& section : report.sections) {
+      for (const auto& block : section.blocks) {
+        if (const auto* text = std::get_if<Text>(&block)) all += text->text + "\n";
+      }
+    }
+    return all;
+  };
+  std::set<std::string> none, one, two, close;
+  EXPECT_NE(said(nullptr, nullptr, none).find("no fixed reference target"), std::string::npos);
+  EXPECT_TRUE(none.contains("camera_drift") && !none.contains("camera_turn"));
+  const std::string shift = said({40, 300, 120, 120}, nullptr, one);
+  EXPECT_NE(shift.find("remains possible: 0.30 µm for 0.1 mrad or 1 in 10 000, over the 3.0 mm"), std::string::npos)
+      << shift;
+  EXPECT_TRUE(!one.contains("camera_drift") && one.contains("camera_turn"));
+  const auto pair = nlohmann::json::array({{40, 300, 120, 120}, {480, 300, 120, 120}});
+  EXPECT_NE(said(pair, "turn", two).find("shifts, turns and changes its scale"), std::string::npos);
+  EXPECT_TRUE(!two.contains("camera_drift") && !two.contains("camera_turn"));
+  EXPECT_NE(said(pair, "shift", close).find("That it turns or changes its scale remains"), std::string::npos);
+  EXPECT_TRUE(close.contains("camera_turn"));
+}
+
 TEST(ReportTrace, WhoDidItIsAskedFor) {
   RichJob nobody({"VMC", "17", "", "", ""});
   RichJob somebody({"VMC", "17", "", "A. Keller", ""});

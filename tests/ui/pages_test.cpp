@@ -40,6 +40,7 @@ class PagesTest : public QObject {
   void columnsAreTold();
   void compensationOnLocksStart();
   void calibrationNeedsConfirmation();
+  void marksAreDrawnAndRemoved();
   void planIsEditedByFieldsAndTimeline();
   void warmupButtonsFollowThePhase();
   void everyDirectionIsSeenInALowWindow();
@@ -230,6 +231,68 @@ void PagesTest::calibrationNeedsConfirmation() {
   state.rms_um = 5.0;
   page.setState(state);
   QVERIFY(!page.primaryAction().enabled);  // the residual is above its limit
+}
+
+void PagesTest::marksAreDrawnAndRemoved() {
+  CalibratePage page;
+  shown(&page);
+  samples::fillCalibrate(&page, "planned");
+  CalibrateState state = page.state();
+  state.running = false;
+  page.setState(state);
+  auto* view = page.findChild<CameraView*>();
+  auto* menu = page.findChild<QPushButton*>("marks")->menu();
+  const auto actions = [&] {
+    Q_EMIT menu->aboutToShow();
+    return menu->actions();
+  };
+  const auto notes = [&] {
+    QString all;
+    for (const auto* label : page.findChildren<QLabel*>()) all += label->text() + '\n';
+    return all;
+  };
+  const auto draw = [&] {
+    const QPoint from = view->rect().center() - QPoint(60, 60);
+    QTest::mousePress(view, Qt::LeftButton, {}, from);
+    QTest::mouseMove(view, from + QPoint(20, 20));
+    QTest::mouseMove(view, from + QPoint(60, 60));
+    QTest::mouseRelease(view, Qt::LeftButton, {}, from + QPoint(60, 60));
+  };
+  QSignalSpy region(&page, &CalibratePage::regionDrawn);
+  QSignalSpy mark(&page, &CalibratePage::markDrawn);
+  QSignalSpy removed(&page, &CalibratePage::markRemoved);
+  QCOMPARE(actions().size(), 2);
+  QVERIFY(notes().contains("0.30 µm for 0.1 mrad"));  // what stays with one mark
+  menu->actions().at(0)->trigger();
+  QVERIFY(actions().at(0)->isChecked());
+  draw();
+  QCOMPARE(mark.count(), 1);
+  QCOMPARE(region.count(), 0);
+  QVERIFY(!actions().at(0)->isChecked());
+  draw();  // one box, one mark
+  QCOMPARE(mark.count(), 1);
+  // The box of the target is drawn as before, also when a mark was meant first.
+  menu->actions().at(0)->trigger();
+  page.findChild<QPushButton*>("drawRegion")->click();
+  draw();
+  QCOMPARE(mark.count(), 1);
+  QCOMPARE(region.count(), 1);
+  state.marks = 2;
+  state.takeOff = MarksTakeOff::shiftTurnScale;
+  page.setState(state);
+  QVERIFY(notes().contains("shifts, turns or changes its scale"));
+  QCOMPARE(actions().size(), 3);
+  menu->actions().at(2)->trigger();
+  QCOMPARE(removed.count(), 1);
+  QCOMPARE(removed.first().first().toInt(), 1);
+  state.marks = 0;
+  state.takeOff = MarksTakeOff::nothing;
+  page.setState(state);
+  QVERIFY(notes().contains("no reference mark"));
+  QVERIFY(notes().contains("the camera's own drift stays"));
+  state.running = true;
+  page.setState(state);
+  QVERIFY(!page.findChild<QPushButton*>("marks")->isEnabled());
 }
 
 void PagesTest::planIsEditedByFieldsAndTimeline() {

@@ -67,6 +67,12 @@ Card* CalibratePage::makeImageCard() {
   m_region->setObjectName("drawRegion");
   m_region->setCheckable(true);
   m_imageCard->tools()->addWidget(m_region);
+  m_marks = new QPushButton(m_imageCard);
+  m_marks->setObjectName("marks");
+  m_marksMenu = new QMenu(m_marks);
+  m_marks->setMenu(m_marksMenu);
+  connect(m_marksMenu, &QMenu::aboutToShow, this, &CalibratePage::fillMarksMenu);
+  m_imageCard->tools()->addWidget(m_marks);
   m_imageCard->tools()->addWidget(m_camera);
   m_view = new CameraView(m_imageCard);
   m_focus = new LevelBar(m_imageCard);
@@ -78,12 +84,29 @@ Card* CalibratePage::makeImageCard() {
   m_imageCard->body()->addWidget(m_view, 1);
   m_imageCard->body()->addLayout(bars);
   connect(m_camera, &ToggleSegment::currentChanged, this, &CalibratePage::cameraChosen);
-  connect(m_region, &QPushButton::toggled, m_view, &CameraView::setRegionEditable);
+  connect(m_region, &QPushButton::toggled, this, [this](bool on) {
+    if (on || m_drawing == CameraView::Drawing::target) {
+      setDrawing(on ? CameraView::Drawing::target : CameraView::Drawing::none);
+    }
+  });
   connect(m_view, &CameraView::regionDrawn, this, [this](const QRectF& region) {
-    m_region->setChecked(false);
-    Q_EMIT regionDrawn(region);
+    const bool mark = m_drawing == CameraView::Drawing::reference;
+    setDrawing(CameraView::Drawing::none);
+    if (mark) {
+      Q_EMIT markDrawn(region);
+    } else {
+      Q_EMIT regionDrawn(region);
+    }
   });
   return m_imageCard;
+}
+
+void CalibratePage::setDrawing(CameraView::Drawing drawing) {
+  m_drawing = drawing;
+  m_view->setDrawing(drawing);
+  const QSignalBlocker quiet(m_region);
+  m_region->setChecked(drawing == CameraView::Drawing::target);
+  renderMarks();
 }
 
 Card* CalibratePage::makePlanCard() {
@@ -233,7 +256,6 @@ void CalibratePage::render() {
   showContent();
   setFigures(figures());
   m_imageCard->setTitle(tr("Live image"));
-  m_imageCard->setSubtitle(m_state.referenceFound ? tr("reference target found") : tr("no reference target"));
   {
     const QSignalBlocker quiet(m_camera);
     m_camera->setItems(m_state.cameras);
@@ -247,6 +269,7 @@ void CalibratePage::render() {
   m_planCard->setTitle(m_planView->currentIndex() == 1 ? tr("Residuals") : tr("Measuring positions"));
   m_planCard->setSubtitle(QStringLiteral("mm"));
   m_planView->setItems({tr("Plan"), tr("Residuals")});
+  renderMarks();
   renderPlan();
   renderResiduals();
   renderQuality();
@@ -288,13 +311,8 @@ void CalibratePage::renderResiduals() {
   m_residuals->clear();
   m_residuals->setPlaceholder(tr("Shown when the positions are measured"));
   const bool shown = m_planView->currentIndex() == 1;
-  QString note = tr("Dashed: field of view. Blue: expected drift; the positions must enclose it.");
-  if (!m_state.referenceFound) {
-    note +=
-        QLatin1Char(' ') + tr("Without a reference target the camera's own drift stays in the errors: some 2 µm for "
-                              "each K that 100 mm of its aluminium bracket warm up.");
-  }
-  m_planNote->setText(note);
+  m_planNote->setText(
+      sentencesText({tr("Dashed: field of view. Blue: expected drift; the positions must enclose it."), ownDrift()}));
   if (!m_state.solved || m_state.points.isEmpty()) return;
   double largest_um = 1e-6;
   double extent_mm = 1e-6;
@@ -320,7 +338,57 @@ void CalibratePage::renderResiduals() {
         {p.up_mm, p.up_mm + factor * p.residualUp_um / 1000.0}, lineStyle(tr("Residual"), colors().bad, false));
   }
   m_residuals->setPart("points", x, y, pointStyle(tr("Position"), colors().ok, false, 7), words);
-  if (shown) m_planNote->setText(tr("Residual vectors drawn %1 times larger.").arg(factor, 0, 'f', 0));
+  if (shown) {
+    m_planNote->setText(
+        sentencesText({tr("Residual vectors drawn %1 times larger.").arg(factor, 0, 'f', 0), ownDrift()}));
+  }
+}
+
+/// What the fixed marks take out of the camera's own drift, and what stays.
+QString CalibratePage::ownDrift() const {
+  if (m_state.takeOff == MarksTakeOff::nothing) {
+    return tr(
+        "Without a reference mark the camera's own drift stays in the errors: some 2 µm for each K that 100 mm of "
+        "its aluminium bracket warm up.");
+  }
+  if (m_state.takeOff == MarksTakeOff::shiftTurnScale) {
+    return tr(
+        "The reference marks take out that the camera shifts, turns or changes its scale. What stays is a mark "
+        "that moves itself.");
+  }
+  const QString stays = std::isnan(m_state.markDistance_mm)
+                            ? tr("That it turns or changes its scale stays in the errors.")
+                            : tr("That it turns or changes its scale stays in the errors: %1 µm for 0.1 mrad or 1 in "
+                                 "10 000.")
+                                  .arg(fixedText(0.1 * m_state.markDistance_mm, 2));
+  return sentencesText({m_state.marks == 1 ? tr("The reference mark takes out that the camera shifts.")
+                                           : tr("The reference marks stand too close together: they take out only that "
+                                                "the camera shifts."),
+                        stays});
+}
+
+void CalibratePage::renderMarks() {
+  const bool drawing = m_drawing == CameraView::Drawing::reference;
+  m_imageCard->setSubtitle(drawing              ? tr("draw a box around the mark")
+                           : m_state.marks == 0 ? tr("no reference mark")
+                                                : tr("%n reference mark(s)", "", m_state.marks));
+  m_marks->setText(tr("Marks"));
+  m_marks->setToolTip(
+      tr("Fixed marks on the table, which show the camera's own drift; two, well apart, show its turn too"));
+  m_marks->setEnabled(!m_state.running);
+}
+
+void CalibratePage::fillMarksMenu() {
+  using Drawing = CameraView::Drawing;
+  m_marksMenu->clear();
+  auto* add = m_marksMenu->addAction(tr("Add a mark"));
+  add->setCheckable(true);
+  add->setChecked(m_drawing == Drawing::reference);
+  connect(add, &QAction::triggered, this, [this](bool on) { setDrawing(on ? Drawing::reference : Drawing::none); });
+  for (int k = 0; k < m_state.marks; ++k) {
+    const QString text = m_state.marks == 1 ? tr("Remove the mark") : tr("Remove mark %1").arg(k + 1);
+    m_marksMenu->addAction(text, this, [this, k] { Q_EMIT markRemoved(k); });
+  }
 }
 
 void CalibratePage::renderQuality() {

@@ -9,6 +9,7 @@
 
 class QCheckBox;
 class QLabel;
+class QMenu;
 class QPushButton;
 class QStackedWidget;
 
@@ -36,6 +37,13 @@ struct CalibrationPoint {
   QString reason{};  // why it was refused
 };
 
+/// What of the camera's own motion the fixed marks take off.
+enum class MarksTakeOff {
+  nothing,
+  shift,
+  shiftTurnScale,
+};
+
 struct CalibrateState {
   QString offline{};  // why nothing can be measured now; empty: it can
   QString blocked{};  // why the page cannot be used yet; empty: it can
@@ -44,7 +52,9 @@ struct CalibrateState {
   QString axisRight = "X";
   QString axisUp = "Z";
   bool templateTaken = false;
-  bool referenceFound = false;
+  int marks = 0;  // fixed ones beside the target
+  MarksTakeOff takeOff = MarksTakeOff::nothing;
+  double markDistance_mm = std::numeric_limits<double>::quiet_NaN();  // of the target from the middle of the marks
   bool running = false;
   bool waiting = false;  // running, and a person has to agree before the axes move again
   /// The moves that come next: which camera they are for, its place in the sequence, what moves and where it starts.
@@ -104,6 +114,8 @@ class CalibratePage : public Page {
  Q_SIGNALS:
   void cameraChosen(int index);
   void regionDrawn(const QRectF& region_px);
+  void markDrawn(const QRectF& region_px);
+  void markRemoved(int index);
 
  protected:
   void render() override;
@@ -117,6 +129,10 @@ class CalibratePage : public Page {
   void renderResiduals();
   void renderQuality();
   void renderMoves();
+  void renderMarks();
+  void fillMarksMenu();
+  void setDrawing(CameraView::Drawing drawing);
+  QString ownDrift() const;
   QVector<Figure> figures() const;
   int measured() const;
 
@@ -128,6 +144,9 @@ class CalibratePage : public Page {
   CameraView* m_view;
   ToggleSegment* m_camera;
   QPushButton* m_region;
+  QPushButton* m_marks;
+  QMenu* m_marksMenu;
+  CameraView::Drawing m_drawing = CameraView::Drawing::none;
   LevelBar* m_focus;
   LevelBar* m_exposure;
   ToggleSegment* m_planView;

@@ -31,6 +31,7 @@ void label(QPainter& painter, const QPointF& at, const QString& text, const QCol
 
 const QColor targetColor("#5CC8FF");
 const QColor referenceColor("#FFC857");
+const QColor lostColor("#FF9DA9");
 const QColor trailColor("#7CF2B0");
 
 }  // namespace
@@ -66,9 +67,9 @@ void CameraView::setPlaceholder(const QString& text) {
   update();
 }
 
-void CameraView::setRegionEditable(bool editable) {
-  m_regionEditable = editable;
-  setCursor(editable ? Qt::CrossCursor : Qt::ArrowCursor);
+void CameraView::setDrawing(Drawing drawing) {
+  m_drawing = drawing;
+  setCursor(drawing == Drawing::none ? Qt::ArrowCursor : Qt::CrossCursor);
 }
 
 void CameraView::fit() {
@@ -142,8 +143,16 @@ void CameraView::paintRegions(QPainter& painter, const QTransform& view) const {
     // In a thumbnail the words would cover what they name.
     if (width() > 360) label(painter, view.mapRect(region).bottomLeft() + QPointF(0, 4), name, color);
   };
-  box(m_marks.referenceRegion, referenceColor, tr("Reference"));
-  box(m_drawn.isEmpty() ? m_marks.targetRegion : view.inverted().mapRect(m_drawn), targetColor, tr("Target"));
+  const qsizetype count = m_marks.references.size();
+  for (qsizetype k = 0; k < count; ++k) {
+    const ReferenceMark& mark = m_marks.references[k];
+    const QString name = count == 1 ? tr("Reference") : tr("Reference %1").arg(k + 1);
+    box(mark.region, mark.lost ? lostColor : referenceColor, mark.lost ? tr("%1: not seen").arg(name) : name);
+  }
+  const bool drawing = !m_drawn.isEmpty();
+  const QRectF drawn = view.inverted().mapRect(m_drawn);
+  if (drawing && m_drawing == Drawing::reference) box(drawn, referenceColor, tr("Reference %1").arg(count + 1));
+  box(drawing && m_drawing == Drawing::target ? drawn : m_marks.targetRegion, targetColor, tr("Target"));
 }
 
 void CameraView::paintTrail(QPainter& painter, const QTransform& view) const {
@@ -185,7 +194,9 @@ void CameraView::paintTarget(QPainter& painter, const QTransform& view) const {
     path.lineTo(at + QPointF(0, 9));
     strokeOnImage(painter, color, 1.4, path);
   };
-  if (m_marks.reference) cross(*m_marks.reference, referenceColor);
+  for (const ReferenceMark& mark : m_marks.references) {
+    if (mark.at) cross(*mark.at, referenceColor);
+  }
   if (!m_marks.target) return;
   cross(*m_marks.target, targetColor);
   if (m_marks.sigmaMajor_px <= 0.0) return;
@@ -220,7 +231,7 @@ void CameraView::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - m_pressed;
   if (moved.manhattanLength() > 4) m_dragging = true;
   if (!m_dragging) return;
-  if (m_regionEditable) {
+  if (m_drawing != Drawing::none) {
     m_drawn = QRectF(m_pressed, event->position()).normalized();
   } else if (m_zoom > 1.0) {
     m_centre = m_centrePressed - moved / toScreen().m11();
@@ -231,7 +242,7 @@ void CameraView::mouseMoveEvent(QMouseEvent* event) {
 void CameraView::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || m_image.isNull()) return;
   const QTransform toImage = toScreen().inverted();
-  if (m_regionEditable && !m_drawn.isEmpty()) {
+  if (m_drawing != Drawing::none && !m_drawn.isEmpty()) {
     const QRectF region = toImage.mapRect(m_drawn).intersected(QRectF(m_image.rect()));
     m_drawn = {};
     if (region.width() >= 8 && region.height() >= 8) Q_EMIT regionDrawn(region);

@@ -15,12 +15,18 @@
 
 namespace zerodrift::ui {
 
+/// A fixed mark that shows the camera's own drift.
+struct ReferenceMark {
+  QRectF region{};
+  std::optional<QPointF> at{};  // where it was found
+  bool lost = false;            // looked for, and not found
+};
+
 struct CameraMarks {
-  QRectF targetRegion{};     // where the target is searched; empty: none
-  QRectF referenceRegion{};  // the fixed target that shows the camera's own drift
-  QPolygonF outline{};       // of the target as found
+  QRectF targetRegion{};  // where the target is searched; empty: none
+  QVector<ReferenceMark> references{};
+  QPolygonF outline{};  // of the target as found
   std::optional<QPointF> target;
-  std::optional<QPointF> reference;
   double sigmaMajor_px = 0.0;  // semi-axes of the standard uncertainty ellipse
   double sigmaMinor_px = 0.0;
   double sigmaAngle_deg = 0.0;  // major axis against x, clockwise on the screen
@@ -40,8 +46,13 @@ class CameraView : public QWidget {
   void setMarks(const CameraMarks& marks);
   /// Shown while there is no image.
   void setPlaceholder(const QString& text);
-  /// Lets the user draw the target's region with the mouse.
-  void setRegionEditable(bool editable);
+  enum class Drawing {
+    none,
+    target,
+    reference,
+  };
+  /// Lets the user draw a region with the mouse: the target's, or that of a further fixed mark.
+  void setDrawing(Drawing drawing);
   void fit();
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -69,7 +80,7 @@ class CameraView : public QWidget {
   QImage m_image;
   CameraMarks m_marks;
   QString m_placeholder;
-  bool m_regionEditable = false;
+  Drawing m_drawing = Drawing::none;
   double m_zoom = 1.0;  // relative to the fitted image
   QPointF m_centre;     // image px in the middle of the widget, relative to the image's centre
   QPointF m_pressed;

@@ -134,7 +134,8 @@ void add_locate(Cli& cli) {
       ->check(check_point);
   command
       ->add_option("--reference-roi", options->references,
-                   "Region of a fixed mark whose motion is taken off; may be given more than once")
+                   "Region of a fixed mark whose motion is taken off; two, 120 px apart or more, take turn and scale "
+                   "off as well")
       ->check(check_region);
   command->add_option("--frames", options->frames, "Folder of pictures")->required();
   command->add_option("--calibration", options->calibration, "Calibration file: adds the error in um");

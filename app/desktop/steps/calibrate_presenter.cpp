@@ -7,6 +7,7 @@
 #include "app/desktop/pin_dialog.h"
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
+#include "core/flow/flow.h"
 #include "core/report/limits.h"
 #include "core/vision/calibration.h"
 #include "core/vision/image_quality.h"
@@ -25,9 +26,14 @@ constexpr double drift_margin = 1.5;       // of the calibrated area over what h
 constexpr double sharp_px = 1.0;           // sigma of the blur that pixels of a well set lens show
 constexpr double trail_enlargement = 1.0;
 constexpr int smallest_region_px = 24;
+constexpr std::size_t undo_depth = 100;
 
 QRectF rect_of(const std::array<int, 4>& box) {
   return QRectF(box[0], box[1], box[2], box[3]);
+}
+
+std::array<int, 4> box_of(const QRect& rect) {
+  return {rect.x(), rect.y(), rect.width(), rect.height()};
 }
 
 }  // namespace
@@ -56,35 +62,103 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
     if (action == QStringLiteral("repeat")) confirmed();
   });
   connect(page, &ui::CalibratePage::regionDrawn, this, &CalibratePresenter::useRegion);
+  connect(page, &ui::CalibratePage::markDrawn, this, &CalibratePresenter::addMark);
+  connect(page, &ui::CalibratePage::markRemoved, this, &CalibratePresenter::removeMark);
 }
 
-QRectF CalibratePresenter::regionOf(const std::string& camera) {
-  if (const auto drawn = m_regions.find(camera); drawn != m_regions.end()) return rect_of(drawn->second);
+std::string CalibratePresenter::cameraShown() const {
+  const auto& profile = bench().profile();
+  if (!profile || m_camera >= static_cast<int>(profile->cameras.size())) return {};
+  return profile->cameras[static_cast<std::size_t>(m_camera)].id;
+}
+
+const json* CalibratePresenter::calibrationOf(const std::string& camera) const {
   const json& body = bench().body("calibration");
-  if (body.is_object() && body.contains("cameras")) {
-    for (const auto& one : body["cameras"]) {
-      if (one.at("id") == camera) return rect_of(one.at("roi").get<std::array<int, 4>>());
-    }
+  if (!m_current || !body.is_object() || !body.contains("cameras")) return nullptr;
+  for (const auto& one : body["cameras"]) {
+    if (one.at("id") == camera) return &one;
   }
+  return nullptr;
+}
+
+CalibratePresenter::Box CalibratePresenter::regionOf(const std::string& camera) const {
+  if (const auto drawn = m_drawn.regions.find(camera); drawn != m_drawn.regions.end()) return drawn->second;
+  if (const json* made = calibrationOf(camera)) return made->at("roi").get<Box>();
   for (const auto& one : bench().profile()->cameras) {
-    if (one.id == camera) return rect_of(one.target_roi_px);
+    if (one.id == camera) return one.target_roi_px;
   }
   return {};
 }
 
+std::vector<CalibratePresenter::Box> CalibratePresenter::marksOf(const std::string& camera) const {
+  if (const auto drawn = m_drawn.marks.find(camera); drawn != m_drawn.marks.end()) return drawn->second;
+  if (const json* made = calibrationOf(camera)) return flow::marks_of(*made);
+  for (const auto& one : bench().profile()->cameras) {
+    if (one.id == camera) return one.reference_rois_px;
+  }
+  return {};
+}
+
+void CalibratePresenter::keepForUndo() {
+  m_undo.push_back(m_drawn);
+  if (m_undo.size() > undo_depth) m_undo.erase(m_undo.begin());
+}
+
+void CalibratePresenter::undo() {
+  if (m_running || m_undo.empty()) return;
+  m_drawn = m_undo.back();
+  m_undo.pop_back();
+  refresh();
+}
+
+bool CalibratePresenter::largeEnough(const QRect& box, const char* what) {
+  if (std::min(box.width(), box.height()) >= smallest_region_px) return true;
+  show({ErrorCode::bad_argument,
+        {{"what", what},
+         {"found", fmt::format("{}x{}", box.width(), box.height())},
+         {"expected", fmt::format("at least {0}x{0}", smallest_region_px)}}});
+  return false;
+}
+
 /// The next measurement looks for the target there; what was measured with another region no longer stands.
 void CalibratePresenter::useRegion(const QRectF& region_px) {
-  const auto& profile = bench().profile();
-  if (!profile || m_camera >= static_cast<int>(profile->cameras.size())) return;
+  const std::string camera = cameraShown();
   const QRect box = region_px.toRect();
-  if (std::min(box.width(), box.height()) < smallest_region_px) {
+  if (camera.empty() || m_running || !largeEnough(box, "the region")) return;
+  keepForUndo();
+  m_drawn.regions[camera] = box_of(box);
+  refresh();
+}
+
+/// What overlaps the target moves with it and would take out what is to be measured.
+void CalibratePresenter::addMark(const QRectF& region_px) {
+  const std::string camera = cameraShown();
+  const QRect box = region_px.toRect();
+  if (camera.empty() || m_running || !largeEnough(box, "the reference mark")) return;
+  std::vector<Box> marks = marksOf(camera);
+  std::vector<Box> others = marks;
+  others.push_back(regionOf(camera));
+  if (std::any_of(others.begin(), others.end(), [&](const Box& one) { return rect_of(one).intersects(box); })) {
     show({ErrorCode::bad_argument,
-          {{"what", "the region"},
-           {"found", fmt::format("{}x{}", box.width(), box.height())},
-           {"expected", fmt::format("at least {0}x{0}", smallest_region_px)}}});
+          {{"what", "the reference mark"},
+           {"found", "over the target's region or another mark"},
+           {"expected", "a place beside them"}}});
     return;
   }
-  m_regions[profile->cameras[static_cast<std::size_t>(m_camera)].id] = {box.x(), box.y(), box.width(), box.height()};
+  keepForUndo();
+  marks.push_back(box_of(box));
+  m_drawn.marks[camera] = std::move(marks);
+  refresh();
+}
+
+void CalibratePresenter::removeMark(int index) {
+  const std::string camera = cameraShown();
+  if (camera.empty() || m_running) return;
+  std::vector<Box> marks = marksOf(camera);
+  if (index < 0 || index >= static_cast<int>(marks.size())) return;
+  keepForUndo();
+  marks.erase(marks.begin() + index);
+  m_drawn.marks[camera] = std::move(marks);
   refresh();
 }
 
@@ -165,13 +239,19 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
     m_live->done = m_live->of = 0;
   }
   refresh();
+  Drawn shown;  // what is boxed in the picture is what is measured
+  for (const auto& camera : profile->cameras) {
+    shown.regions[camera.id] = regionOf(camera.id);
+    shown.marks[camera.id] = marksOf(camera.id);
+  }
   runStep(
       tr("Calibrating"),
-      [profile = *profile, job, permit = *permit, live = m_live, regions = m_regions, asking = m_asking,
+      [profile = *profile, job, permit = *permit, live = m_live, shown, asking = m_asking,
        span_mm = m_page->state().span_mm](const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
         flow::CalibrateOptions options;
-        options.regions = regions;
+        options.regions = shown.regions;
+        options.marks = shown.marks;
         options.span_mm = span_mm;
         options.watcher = [&](const flow::CalibrationProgress& now) {
           const std::scoped_lock lock(live->mutex);
@@ -194,7 +274,10 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
           const std::scoped_lock lock(m_live->mutex);
           m_live->agreed.clear();
         }
-        if (good) m_regions.clear();  // they are in the calibration now
+        if (good) {  // it is in the calibration now
+          m_drawn = {};
+          m_undo.clear();
+        }
         refresh();
         if (done) done(good);
       });
@@ -218,13 +301,34 @@ void CalibratePresenter::fillPoints(ui::CalibrateState& state) const {
   }
 }
 
+void CalibratePresenter::fillMarks(ui::CalibrateState& state, const std::vector<Box>& marks, const Box& region,
+                                   double umPerPx) const {
+  state.marks = static_cast<int>(marks.size());
+  switch (flow::taken_off_by(marks)) {
+    case vision::TakenOff::nothing:
+      state.takeOff = ui::MarksTakeOff::nothing;
+      break;
+    case vision::TakenOff::shift:
+      state.takeOff = ui::MarksTakeOff::shift;
+      break;
+    case vision::TakenOff::shift_turn_scale:
+      state.takeOff = ui::MarksTakeOff::shiftTurnScale;
+      break;
+  }
+  if (marks.empty() || !(umPerPx > 0.0)) return;
+  QPointF middle;
+  for (const Box& mark : marks) middle += rect_of(mark).center() / static_cast<double>(marks.size());
+  const QPointF way = rect_of(region).center() - middle;
+  state.markDistance_mm = std::hypot(way.x(), way.y()) * umPerPx / 1000.0;
+}
+
 void CalibratePresenter::fillResult(ui::CalibrateState& state, const json& camera) const {
   const auto calibration = vision::calibration_from_json(camera.at("calibration"), "calibration");
   if (!calibration) return;
   state.solved = true;
   state.accepted = true;
   state.templateTaken = true;
-  state.referenceFound = camera.contains("reference_roi");
+  fillMarks(state, flow::marks_of(camera), camera.at("roi").get<Box>(), calibration->scale_um_per_px);
   state.umPerPx = calibration->scale_um_per_px;
   state.umPerPxSigma = calibration->sigma()(0, 0);
   state.rotation_deg = calibration->rotation_deg;
@@ -301,6 +405,10 @@ void CalibratePresenter::refresh() {
   state.rmsLimit_um = report::limits::calibration_rms_um;
   state.uncertaintyLimit_um = report::limits::calibration_uncertainty_um;
   const auto& profile = bench().profile();
+  if (!m_running) {
+    m_current =
+        bench().job() != nullptr && flow::status_of(*bench().job(), "calibrate").state == flow::StepState::current;
+  }
   if (!profile || !bench().has("machine")) {
     state.blocked = tr("Connect a machine and start the commissioning first.");
     m_page->setState(state);
@@ -322,14 +430,13 @@ void CalibratePresenter::refresh() {
     state.axisUp = QString::fromStdString(camera.axes[1]);
     state.fieldRight_mm = 640 * camera.um_per_px_nominal / 1000.0;
     state.fieldUp_mm = 480 * camera.um_per_px_nominal / 1000.0;
-    state.referenceFound = camera.reference_roi_px.has_value();
+    fillMarks(state, marksOf(camera.id), regionOf(camera.id), camera.um_per_px_nominal);
     state.templateTaken = true;
   }
   fillPlan(state);
   fillPoints(state);
   const json& body = bench().body("calibration");
-  const bool drawn = m_camera < static_cast<int>(profile->cameras.size()) &&
-                     m_regions.contains(profile->cameras[static_cast<std::size_t>(m_camera)].id);
+  const bool drawn = m_drawn.regions.contains(cameraShown()) || m_drawn.marks.contains(cameraShown());
   if (!m_running && !drawn && body.is_object() && body.value("source", "") == "camera") {
     const auto& cameras = body.at("cameras");
     if (m_camera < static_cast<int>(cameras.size())) fillResult(state, cameras.at(static_cast<std::size_t>(m_camera)));
@@ -344,8 +451,8 @@ void CalibratePresenter::showPicture() {
   if (!profile || m_camera >= static_cast<int>(cameras.size())) return;
   ui::CameraMarks marks;
   const auto& camera = profile->cameras[static_cast<std::size_t>(m_camera)];
-  marks.targetRegion = regionOf(camera.id);
-  if (camera.reference_roi_px) marks.referenceRegion = rect_of(*camera.reference_roi_px);
+  marks.targetRegion = rect_of(regionOf(camera.id));
+  for (const Box& mark : marksOf(camera.id)) marks.references.append({rect_of(mark)});
   const auto frame = cameras[static_cast<std::size_t>(m_camera)]->newest();
   if (!frame) {
     marks.message = textOf(frame.error()).sentence;

@@ -28,6 +28,7 @@ class CalibratePresenter : public Presenter {
   void enter() override;
   void leave() override;
   void tour(std::function<void(bool good)> done) override;
+  void undo() override;
 
  private:
   /// What the worker thread tells while it moves; drained by the picture timer.
@@ -58,14 +59,32 @@ class CalibratePresenter : public Presenter {
 
   ui::CalibratePage* m_page;
   QTimer m_pictures;
+  using Box = std::array<int, 4>;  // x, y, width, height in px
+  /// What was drawn since the last calibration, by camera.
+  struct Drawn {
+    std::map<std::string, Box> regions;
+    std::map<std::string, std::vector<Box>> marks;
+  };
+  /// The camera that is shown; "" when there is none.
+  std::string cameraShown() const;
+  bool largeEnough(const QRect& box, const char* what);
   void useRegion(const QRectF& region_px);
+  void addMark(const QRectF& region_px);
+  void removeMark(int index);
+  void keepForUndo();
   void showQuality(const vision::GrayImage& image, const QRectF& region);
-  QRectF regionOf(const std::string& camera);
+  void fillMarks(ui::CalibrateState& state, const std::vector<Box>& marks, const Box& region, double umPerPx) const;
+  /// The camera in the calibration; null when there is none, or when it is not of the machine as it was tested last.
+  const nlohmann::json* calibrationOf(const std::string& camera) const;
+  Box regionOf(const std::string& camera) const;
+  std::vector<Box> marksOf(const std::string& camera) const;
 
-  std::string m_moveCamera;                             // id of the camera that the page asks for
-  std::map<std::string, std::array<int, 4>> m_regions;  // drawn since the last calibration, by camera
+  std::string m_moveCamera;  // id of the camera that the page asks for
+  Drawn m_drawn;
+  std::vector<Drawn> m_undo;
   int m_camera = 0;
   bool m_running = false;
+  bool m_current = false;  // the job's calibration
   bool m_asking = true;    // in the tour nobody is there to be asked
   std::string m_shownFor;  // camera whose moves were put before the person
   std::shared_ptr<Live> m_live = std::make_shared<Live>();

@@ -68,6 +68,7 @@ Paint reference_mark(double x, double y, double sigma) {
 struct Placement {
   ObjectPosition centre;
   double roll_rad;
+  double scale;
   double half_um;
   double sigma_um;
 };
@@ -82,8 +83,8 @@ void over_pixels(const ViewOptions& view, const Placement& place, At&& at) {
   const int x1 = clamp_to(middle.x_px + reach_px + 1.0, view.width_px);
   const int y0 = clamp_to(middle.y_px - reach_px, view.height_px);
   const int y1 = clamp_to(middle.y_px + reach_px + 1.0, view.height_px);
-  const double c = std::cos(place.roll_rad);
-  const double s = std::sin(place.roll_rad);
+  const double c = std::cos(place.roll_rad) / place.scale;
+  const double s = std::sin(place.roll_rad) / place.scale;
   const ObjectFromPixel seen_by(view);
   const double limit_um = place.half_um + 6.0 * place.sigma_um;
   for (int row = y0; row < y1; ++row) {
@@ -106,6 +107,16 @@ void draw(const ViewOptions& view, const Placement& place, Shape shape, std::vec
     reflectance[index] =
         static_cast<float>(reflectance[index] + paint.coverage * (paint.reflectance - reflectance[index]));
   });
+}
+
+/// Where the camera sees what stands at this place: it has shifted, turned and changed its scale by itself.
+ObjectPosition seen_from_bracket(const CameraScene& scene, const ObjectPosition& at) {
+  const double scale = 1.0 + 1e-6 * scene.camera_scale_ppm;
+  const double c = scale * std::cos(1e-6 * scene.camera_roll_urad);
+  const double s = scale * std::sin(1e-6 * scene.camera_roll_urad);
+  const double right = at.right_um - scene.camera_drift_right_um;
+  const double up = at.up_um - scene.camera_drift_up_um;
+  return {c * right + s * up, -s * right + c * up};
 }
 
 /// A dark lump with a soft edge that leaves less than half of the spindle target to be seen.
@@ -149,16 +160,17 @@ CameraRenderer::CameraRenderer(const ViewOptions& options)
 std::vector<float> CameraRenderer::render_levels(const CameraScene& scene, std::uint64_t frame,
                                                  RenderSwitches switches) const {
   std::vector<float> levels(m_light.size(), static_cast<float>(ground));
+  const double scale = 1.0 + 1e-6 * scene.camera_scale_ppm;
+  const double mark_sigma_um = m_options.reference_blur_px * m_options.um_per_px;
   for (const ObjectPosition& mark : m_marks) {
-    const ObjectPosition seen{mark.right_um - scene.camera_drift_right_um, mark.up_um - scene.camera_drift_up_um};
-    draw(m_options, {seen, 0.0, mark_half_um, m_options.reference_blur_px * m_options.um_per_px}, reference_mark,
-         levels);
+    const ObjectPosition seen = seen_from_bracket(scene, mark);
+    draw(m_options, {seen, -1e-6 * scene.camera_roll_urad, scale, mark_half_um, mark_sigma_um}, reference_mark, levels);
   }
-  const ObjectPosition target{scene.target_right_um - scene.camera_drift_right_um,
-                              scene.target_up_um - scene.camera_drift_up_um};
+  const ObjectPosition target = seen_from_bracket(scene, {scene.target_right_um, scene.target_up_um});
   const double sigma_um = m_options.blur_px * m_options.um_per_px;
-  draw(m_options, {target, scene.roll_urad * 1e-6, target_half_um, sigma_um}, spindle_target, levels);
-  if (switches.occluded) draw(m_options, {target, 0.0, 1.3 * target_half_um, sigma_um}, chip_on_target, levels);
+  const double roll_rad = 1e-6 * (scene.roll_urad - scene.camera_roll_urad);
+  draw(m_options, {target, roll_rad, scale, target_half_um, sigma_um}, spindle_target, levels);
+  if (switches.occluded) draw(m_options, {target, 0.0, 1.0, 1.3 * target_half_um, sigma_um}, chip_on_target, levels);
 
   const Lamp lamp = switches.lamp_drift ? lamp_at(m_options, scene.machine_time_s) : Lamp{1.0, 0.0, 0.0};
   const auto slope = static_cast<float>(lamp.right_per_px);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>
@@ -44,6 +45,18 @@ Result<vision::GrayImage> picture_of(const commissioning::Job& job, commissionin
   return std::move(decoded.image);
 }
 
+Result<std::vector<vision::Target>> mark_targets(const vision::GrayImage& image,
+                                                 const std::vector<std::array<int, 4>>& marks,
+                                                 const std::string& name) {
+  std::vector<vision::Target> targets;
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const std::string which = marks.size() == 1 ? name : fmt::format("{} (reference {})", name, k + 1);
+    ZD_TRY(auto target, vision::Target::create(image, region_of(marks[k]), std::nullopt, which));
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
 struct CameraCalibration {
   json body;
   std::vector<commissioning::Blob> blobs;
@@ -75,10 +88,9 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   const auto drawn = options.regions.find(profile.id);
   const std::array<int, 4> roi = drawn != options.regions.end() ? drawn->second : profile.target_roi_px;
   ZD_TRY(const auto target, vision::Target::create(image, region_of(roi), std::nullopt, without_secrets(profile.url)));
-  if (profile.reference_roi_px) {  // refuse now what could not be measured later
-    ZD_TRY([[maybe_unused]] const auto reference, vision::Target::create(image, region_of(*profile.reference_roi_px),
-                                                                         std::nullopt, without_secrets(profile.url)));
-  }
+  const auto marked = options.marks.find(profile.id);
+  const auto& marks = marked != options.marks.end() ? marked->second : profile.reference_rois_px;
+  ZD_CHECK(mark_targets(image, marks, without_secrets(profile.url)));  // refuse now what could not be measured later
   vision::CalibrationPlan plan;
   plan.axes = profile.axes;
   plan.centre_mm = devices.profile.measure_position_mm;
@@ -102,7 +114,11 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
                {"rms_um", outcome.calibration.rms_um},
                {"positions", outcome.calibration.views.size()},
                {"calibration", vision::to_json(outcome.calibration)}};
-  if (profile.reference_roi_px) made.body["reference_roi"] = *profile.reference_roi_px;
+  if (marks.size() == 1) made.body["reference_roi"] = marks.front();
+  if (marks.size() > 1) {
+    made.body["reference_roi"] = marks;
+    made.body["takes_off"] = taken_off_by(marks) == vision::TakenOff::shift_turn_scale ? "turn" : "shift";
+  }
   ZD_TRY(made.blobs.emplace_back(), picture(profile.id + "-template.png", image));
   for (std::size_t i = 0; options.keep_views && i < outcome.frames.size(); ++i) {
     ZD_TRY(made.blobs.emplace_back(), picture(fmt::format("{}-view-{}.png", profile.id, i + 1), outcome.frames[i]));
@@ -125,11 +141,7 @@ Result<vision::ErrorView> view_of(const commissioning::Job& job, const commissio
   ZD_TRY(const auto plain, vision::Target::create(image, region_of(body.at("roi").get<std::array<int, 4>>()),
                                                   std::nullopt, id + "-template.png"));
   view.target = std::make_shared<const vision::Target>(plain.learned_from(frames));
-  if (body.contains("reference_roi")) {
-    ZD_TRY(auto reference, vision::Target::create(image, region_of(body.at("reference_roi").get<std::array<int, 4>>()),
-                                                  std::nullopt, id + "-template.png"));
-    view.references.push_back(std::move(reference));
-  }
+  ZD_TRY(view.references, mark_targets(image, marks_of(body), id + "-template.png"));
   ZD_TRY(view.calibration, vision::calibration_from_json(body.at("calibration"), "calibration of " + id));
   for (int i = 0; i < 2; ++i) {
     ZD_TRY(view.axes[static_cast<std::size_t>(i)], axis_index(device.profile.axes[static_cast<std::size_t>(i)]));
@@ -146,6 +158,25 @@ Status may_move(Devices& devices, const std::string& camera, const CalibrateOpti
 }
 
 }  // namespace
+
+std::vector<std::array<int, 4>> marks_of(const json& camera) {
+  const auto found = camera.find("reference_roi");
+  if (found == camera.end() || !found->is_array() || found->empty()) return {};
+  const json list = found->front().is_array() ? *found : json::array({*found});
+  const auto number = [](const json& value) { return value.is_number(); };
+  std::vector<std::array<int, 4>> marks;
+  for (const json& mark : list) {  // a job may come from elsewhere
+    if (!mark.is_array() || mark.size() != 4 || !std::all_of(mark.begin(), mark.end(), number)) return {};
+    marks.push_back(mark.get<std::array<int, 4>>());
+  }
+  return marks;
+}
+
+vision::TakenOff taken_off_by(const std::vector<std::array<int, 4>>& marks) {
+  std::vector<vision::Region> regions;
+  for (const auto& mark : marks) regions.push_back(region_of(mark));
+  return vision::taken_off_by(regions);
+}
 
 Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,
                                              const CalibrateOptions& options, const TaskContext& context) {
@@ -166,7 +197,7 @@ Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devi
     const auto& device = devices.cameras[i];
     if (i > 0) ZD_CHECK(may_move(devices, device.profile.id, options, context));
     ZD_TRY(auto made, calibrate_camera(devices, device, templates[i], options, context));
-    if (!device.profile.reference_roi_px) body["reference_target"] = false;
+    if (marks_of(made.body).empty()) body["reference_target"] = false;
     body["cameras"].push_back(std::move(made.body));
     for (auto& blob : made.blobs) blobs.push_back(std::move(blob));
   }

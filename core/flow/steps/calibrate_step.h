@@ -1,14 +1,17 @@
 #pragma once
-// Step "calibrate" (V1, V2): at rest, for each camera the template of the target and of the fixed reference, then the
+// Step "calibrate" (V1, V2): at rest, for each camera the template of the target and of the fixed marks, then the
 // moves that give um per px. Makes the artefact "calibration":
 //   {"source": "camera", "reference_target": true,
 //    "cameras": [{"id", "axes", "roi", "reference_roi", "um_per_px", "rotation_deg", "rms_um", "positions",
 //                 "calibration": {...contract...}}]}
+// with one fixed mark "reference_roi": [x, y, w, h]; with several a list of such, and "takes_off": "shift" | "turn",
+// what of the camera's own motion they take off (turn: shift, turn and scale).
 // with the blobs "<camera>-template.png" and "<camera>-view-<n>.png" (the views teach the target's mask).
 
 #include <array>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,7 @@
 #include "core/commissioning/job.h"
 #include "core/flow/devices.h"
 #include "core/vision/calibration_run.h"
+#include "core/vision/error_view.h"
 
 namespace zerodrift::flow {
 
@@ -29,14 +33,20 @@ struct CalibrationProgress {
 
 struct CalibrateOptions {
   int per_side = 3;
-  std::map<std::string, std::array<int, 4>> regions;  // of the target, by camera; absent: the profile's
-  double span_mm = 0.0;                               // of the positions; 0: the profile's
+  std::map<std::string, std::array<int, 4>> regions;             // of the target, by camera; absent: the profile's
+  std::map<std::string, std::vector<std::array<int, 4>>> marks;  // fixed ones, by camera; absent: the profile's
+  double span_mm = 0.0;                                          // of the positions; 0: the profile's
   bool keep_views = true;  // false: a job a fifth as large, in which the target's mask is not learned
   std::function<void(const CalibrationProgress&)> watcher;
   /// Asked before each sequence of moves, with the camera it is for; it may wait for a person. An error ends the step
   /// with nothing moved any more. Absent: whoever starts the step has agreed to all of them (command line).
   std::function<Status(const std::string& camera, const TaskContext&)> may_move;
 };
+
+/// The fixed marks of a camera in the artefact; may be none.
+std::vector<std::array<int, 4>> marks_of(const nlohmann::json& camera);
+/// What marks in these regions take off of the camera's own motion.
+vision::TakenOff taken_off_by(const std::vector<std::array<int, 4>>& marks);
 
 /// Moves the machine. Refused while it is compensating: the moves would be falsified.
 Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,

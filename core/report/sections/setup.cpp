@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/report/build.h"
+#include "core/report/camera_marks.h"
 #include "core/report/pieces.h"
 
 namespace zerodrift::report {
@@ -58,6 +59,35 @@ Table cameras_of(const Source& source, const LoadedArtefact& calibration) {
   return table;
 }
 
+/// What of the cameras' own drift was taken out, and what of it remains possible.
+Text own_drift(const Source& source, const CameraMarks& marks) {
+  switch (marks.taken_off) {
+    case CameraMarks::TakenOff::nothing:
+      return {source.say("There was no fixed reference target: drift of the camera or its holder (about "
+                         "2 µm per K for 100 mm of aluminium) is part of the figures."),
+              true};
+    case CameraMarks::TakenOff::shift:
+      if (std::isfinite(marks.distance_mm)) {
+        return {source.tell("A fixed reference mark in each view takes out that the camera shifts. That it turns or "
+                            "changes its scale remains possible: {} µm for 0.1 mrad or 1 in 10 000, over the {} mm "
+                            "between mark and target. Two marks, well apart, would take that out too.",
+                            shown(0.1 * marks.distance_mm, 2), shown(marks.distance_mm, 1)),
+                false};
+      }
+      return {source.say("A fixed reference mark in each view takes out that the camera shifts. That it turns or "
+                         "changes its scale remains possible, by 0.1 µm a mm between mark and target for 0.1 mrad "
+                         "or 1 in 10 000."),
+              false};
+    case CameraMarks::TakenOff::shift_turn_scale:
+      break;
+  }
+  return {
+      source.say("Fixed reference marks, well apart in each view, take out that the camera shifts, turns and changes "
+                 "its scale. What remains possible is that a mark itself moved, or that marks and target stand at "
+                 "different distances from the camera: of its shift then remains what they differ by, 1 % for 1 %."),
+      false};
+}
+
 void add_calibration(const Source& source, Section& section) {
   const LoadedArtefact* calibration = source.find("calibration");
   if (calibration == nullptr) return;
@@ -66,12 +96,7 @@ void add_calibration(const Source& source, Section& section) {
     return;
   }
   section.blocks.emplace_back(cameras_of(source, *calibration));
-  const bool reference = calibration->body.value("reference_target", false);
-  section.blocks.emplace_back(
-      reference ? Text{source.say("A fixed reference target in each view removes the camera's own drift."), false}
-                : Text{source.say("There was no fixed reference target: drift of the camera or its holder (about "
-                                  "2 µm per K for 100 mm of aluminium) is part of the figures."),
-                       true});
+  section.blocks.emplace_back(own_drift(source, camera_marks(calibration->body)));
 }
 
 void add_health(const Source& source, Section& section) {

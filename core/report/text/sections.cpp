@@ -77,8 +77,23 @@ std::vector<TextEntry> texts_of_sections() {
       {"left out, µm", "留一法残差，µm"},
       {"positions", "位置数"},
       {"The errors were measured with displacement probes.", "误差由位移传感器测得。"},
-      {"A fixed reference target in each view removes the camera's own drift.",
-       "每个视场中都有固定参考靶标，用于消除相机自身的漂移。"},
+      {"A fixed reference mark in each view takes out that the camera shifts. That it turns or changes its scale "
+       "remains possible: {} µm for 0.1 mrad or 1 in 10 000, over the {} mm between mark and target. Two marks, well "
+       "apart, would take that out too.",
+       "每个视场中有一个固定参考标记，可消除相机的平移。相机的转动或比例变化仍可能存在：标记与靶标相距 {1} mm，对 0.1 "
+       "mrad "
+       "或 1/10 000 为 {0} µm。两个相距较远的标记可将其一并消除。"},
+      {"A fixed reference mark in each view takes out that the camera shifts. That it turns or changes its scale "
+       "remains possible, by 0.1 µm a mm between mark and target for 0.1 mrad or 1 in 10 000.",
+       "每个视场中有一个固定参考标记，可消除相机的平移。相机的转动或比例变化仍可能存在：对 0.1 mrad 或 1/10 "
+       "000，标记与靶标"
+       "之间每 mm 为 0.1 µm。"},
+      {"Fixed reference marks, well apart in each view, take out that the camera shifts, turns and changes its scale. "
+       "What remains possible is that a mark itself moved, or that marks and target stand at different distances from "
+       "the camera: of its shift then remains what they differ by, 1 % for 1 %.",
+       "每个视场中有相距较远的固定参考标记，可消除相机的平移、转动和比例变化。仍可能存在的是：标记本身发生移动，或标记"
+       "与"
+       "靶标到相机的距离不同——此时相机平移按距离之差的比例残留，相差 1 % 则残留 1 %。"},
       {"There was no fixed reference target: drift of the camera or its holder (about 2 µm per K for 100 mm of "
        "aluminium) is part of the figures.",
        "没有固定参考靶标：相机或其支架的漂移（100 mm 铝材每 K 约 2 µm）包含在数值之中。"},
@@ -114,6 +129,10 @@ std::vector<TextEntry> texts_of_sections() {
       {"Positions of the axes during the calibration", "标定时各轴的位置"},
       {"assumed: within {} µm over {} mm, rectangular", "假定：在 {1} mm 内不超过 ±{0} µm，矩形分布"},
       {"Drift of camera and foot, no reference target in view", "相机及支座的漂移，视场中无参考靶标"},
+      {"Turn and change of scale of the camera, which one reference mark does not show",
+       "相机的转动和比例变化，单个参考标记无法识别"},
+      {"assumed: within 0.1 mrad and 1 in 10 000 over {} mm, rectangular",
+       "假定：±0.1 mrad 和 ±1/10 000，距离 {} mm，矩形分布"},
       {"assumed: {} mm of aluminium, room changed by {} K, rectangular", "假定：铝材 {} mm，室温变化 {} K，矩形分布"},
       {"Expansion coefficient of the target's holder", "靶标支架的热膨胀系数"},
       {"assumed: {} mm, within {} µm/(m·K), room changed by {} K, rectangular",

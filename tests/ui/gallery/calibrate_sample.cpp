@@ -7,10 +7,9 @@ namespace zerodrift::ui::samples {
 static CameraMarks calibrationMarks() {
   CameraMarks marks;
   marks.targetRegion = {222, 132, 196, 196};
-  marks.referenceRegion = {38, 302, 130, 126};
+  marks.references = {{QRectF(38, 302, 130, 126), QPointF(102.4, 364.8)}};
   marks.outline = QPolygonF(QRectF(242, 152, 156, 156));
   marks.target = QPointF(320, 230.4);
-  marks.reference = QPointF(102.4, 364.8);
   marks.sigmaMajor_px = 0.0021;
   marks.sigmaMinor_px = 0.0014;
   marks.sigmaAngle_deg = 24;
@@ -27,7 +26,9 @@ void fillCalibrate(Page* page, const QString& scene) {
   }
   s.cameras = {"Front", "Side"};
   s.templateTaken = true;
-  s.referenceFound = true;
+  s.marks = 1;
+  s.takeOff = MarksTakeOff::shift;
+  s.markDistance_mm = 3.0;
   s.fieldRight_mm = 7.68;
   s.fieldUp_mm = 5.76;
   s.driftRight_mm = 0.25;

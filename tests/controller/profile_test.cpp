@@ -1,0 +1,89 @@
+// The fixed marks of a camera in a connection profile: none, one, several.
+
+#include "core/controller/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/json.h"
+
+namespace zerodrift::controller {
+namespace {
+
+using Marks = std::vector<std::array<int, 4>>;
+using nlohmann::json;
+
+json shipped() {
+  return *read_json_file(std::string(ZERODRIFT_SOURCE_DIR) + "/resources/profiles/virtual-five-axis.json");
+}
+
+json with_marks(const json& marks) {
+  json document = shipped();
+  document["cameras"][1]["reference_roi_px"] = marks;
+  return document;
+}
+
+Marks marks_of(const json& document) {
+  const auto profile = profile_from_json(document, "machine.json");
+  EXPECT_TRUE(profile) << describe(profile.error());
+  return profile ? profile->cameras[1].reference_rois_px : Marks{};
+}
+
+TEST(ProfileMarks, NoneOneAndSeveral) {
+  json without = shipped();
+  without["cameras"][1].erase("reference_roi_px");
+  EXPECT_EQ(marks_of(without), Marks{});
+  EXPECT_EQ(marks_of(with_marks(nullptr)), Marks{});
+  EXPECT_EQ(marks_of(with_marks({40, 300, 120, 110})), (Marks{{40, 300, 120, 110}}));
+  const json pair = json::array({{40, 300, 120, 110}, {480, 300, 120, 100}});
+  EXPECT_EQ(marks_of(with_marks(pair)), (Marks{{40, 300, 120, 110}, {480, 300, 120, 100}}));
+  EXPECT_EQ(marks_of(with_marks(json::array({{40, 300, 120, 110}}))), (Marks{{40, 300, 120, 110}}));
+  EXPECT_EQ(marks_of(shipped()).size(), 2u) << "the virtual machine's cameras see two";
+}
+
+TEST(ProfileMarks, AJobKeepsThemAsTheyWereWritten) {
+  for (const json& marks : {json{40, 300, 120, 110}, json::array({{40, 300, 120, 110}, {480, 300, 120, 100}})}) {
+    const json document = with_marks(marks);
+    const auto profile = profile_from_json(document, "machine.json");
+    ASSERT_TRUE(profile) << describe(profile.error());
+    const auto kept = document_for_job(document, *profile);
+    ASSERT_TRUE(kept) << describe(kept.error());
+    EXPECT_EQ((*kept)["cameras"][1]["reference_roi_px"], marks);
+    const auto again = profile_from_job(*kept);
+    ASSERT_TRUE(again) << describe(again.error());
+    EXPECT_EQ(again->cameras[1].reference_rois_px, profile->cameras[1].reference_rois_px);
+  }
+}
+
+TEST(ProfileMarks, WhatIsWrongIsNamedWithFileAndField) {
+  struct Case {
+    json marks;
+    const char* key;
+  };
+  const std::vector<Case> cases = {
+      {json::array(), "reference_roi_px"},
+      {"left", "reference_roi_px"},
+      {{40, 300, 120}, "reference_roi_px"},
+      {{40, 300, 0, 120}, "reference_roi_px"},
+      {{40, 300, "wide", 120}, "reference_roi_px[2]"},
+      {json::array({{40, 300, 120, 120}, {480, 300, 120}}), "reference_roi_px[1]"},
+      {json::array({{40, 300, 120, 120}, {480, 300, 120, -4}}), "reference_roi_px[1]"},
+      {json::array({{40, 300, 120, 120}, {-1, 300, 120, 120}}), "reference_roi_px[1]"},
+      {json::array({{40, 300, 120, 120}, {480, 1e9, 120, 120}}), "reference_roi_px[1]"},
+      {json::array({{40, 300, 120, 120}, 480, 300, 120, 120}), "reference_roi_px[1]"},
+      {json::array({{40, 300, 120, 120}, {480, nullptr, 120, 120}}), "reference_roi_px[1]"},
+      {json::array({40, {480, 300, 120, 120}, 300, 120}), "reference_roi_px[1]"},
+      {json::array({{{"x", 40}}, {{"x", 40}}}), "reference_roi_px"}};
+  for (const Case& one : cases) {
+    const auto profile = profile_from_json(with_marks(one.marks), "machine.json");
+    ASSERT_FALSE(profile) << one.marks.dump();
+    EXPECT_EQ(profile.error().code, ErrorCode::json_bad_value) << one.marks.dump();
+    EXPECT_EQ(profile.error().context.at("file"), "machine.json");
+    EXPECT_EQ(profile.error().context.at("key"), std::string("cameras[1].") + one.key) << one.marks.dump();
+    EXPECT_FALSE(profile.error().context.at("expected").empty());
+  }
+}
+
+}  // namespace
+}  // namespace zerodrift::controller
