@@ -24,8 +24,8 @@ constexpr std::array reply_entries{
     ReplyEntry{"drop", Kind::drop, 0, 25},
     ReplyEntry{"bytewise", Kind::bytewise, 1, 10},
 };
-constexpr std::array<std::string_view, 4> other_names{"stuck-sensor", "dead-sensor", "camera-freeze",
-                                                      "camera-occluded"};
+constexpr std::array<std::string_view, 5> other_names{"stuck-sensor", "dead-sensor", "camera-freeze", "camera-occluded",
+                                                      "mark-occluded"};
 constexpr double spell_period_s = 1800.0;
 constexpr double spell_start_s = 1500.0;
 
@@ -81,7 +81,8 @@ CameraFault camera_fault(const std::vector<Fault>& faults, double machine_time_s
     CameraFault camera;
     if (fault.name == "camera-freeze") camera.kind = CameraFault::Kind::freeze;
     if (fault.name == "camera-occluded") camera.kind = CameraFault::Kind::occluded;
-    const bool chip = camera.kind == CameraFault::Kind::occluded;
+    if (fault.name == "mark-occluded") camera.kind = CameraFault::Kind::mark_occluded;
+    const bool chip = camera.kind == CameraFault::Kind::occluded || camera.kind == CameraFault::Kind::mark_occluded;
     // A chip that lay there while the template was taken would be a part of the target and hide nothing.
     if (camera.kind == CameraFault::Kind::none || (chip && !first_turn_s)) continue;
     const double since_s = chip ? *first_turn_s : 0.0;

@@ -6561,8 +6561,8 @@
         <translation>没有参考标记时，相机自身的漂移会留在误差中：100 mm 长的铝支架每升温 1 K 约 2 µm。</translation>
     </message>
     <message>
-        <source>The reference marks take out that the camera shifts, turns or changes its scale. What stays is a mark that moves itself.</source>
-        <translation>参考标记可消除相机的平移、转动和比例变化。仍会留下的是标记自身的移动。</translation>
+        <source>The reference marks take out that the camera shifts, turns or changes its scale. A mark that itself moves would still be in the errors.</source>
+        <translation>参考标记可消除相机的平移、转动和比例变化。标记自身的移动仍会留在误差中。</translation>
     </message>
     <message>
         <source>That it turns or changes its scale stays in the errors.</source>

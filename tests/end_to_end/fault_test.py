@@ -12,7 +12,8 @@ from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
 
 at_a_time = 3
 # What a device that is broken, now and then or for good (":always"), must be called.
-BROKEN = {"stuck-sensor": "stuck", "dead-sensor": "dead", "camera-freeze": "frozen", "camera-occluded": "occluded"}
+BROKEN = {"stuck-sensor": "stuck", "dead-sensor": "dead", "camera-freeze": "frozen", "camera-occluded": "occluded",
+          "mark-occluded": "reference 2"}
 LINK_NAMES = {"busy": "machine_busy", "late": "machine_silent", "wrong-transaction": "machine_bad_reply",
               "truncated": "machine_silent", "drop": "machine_link_lost", "bytewise": "reply_in_pieces"}
 

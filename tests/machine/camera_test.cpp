@@ -11,7 +11,7 @@
 namespace zerodrift::machine {
 namespace {
 
-constexpr RenderSwitches quiet{.noise = false, .lamp_drift = false, .occluded = false};
+constexpr RenderSwitches quiet{.noise = false, .lamp_drift = false};
 
 /// Even light and no lens: then the centre of gravity of what differs from the ground is the target's place exactly.
 ViewOptions plain_view() {
@@ -180,7 +180,7 @@ TEST(CameraRenderer, NoiseHasTheSensorsVariance) {
   ViewOptions view = plain_view();
   const CameraRenderer renderer(view);
   const auto clean = renderer.render_levels({}, 0, quiet);
-  const RenderSwitches noisy{.noise = true, .lamp_drift = false, .occluded = false};
+  const RenderSwitches noisy{.noise = true, .lamp_drift = false};
   double dark_squares = 0.0;
   double light_squares = 0.0;
   double sum = 0.0;
@@ -209,7 +209,7 @@ TEST(CameraRenderer, NoiseHasTheSensorsVariance) {
 TEST(CameraRenderer, FramesAndViewsHaveUnrelatedNoise) {
   const CameraRenderer renderer(plain_view());
   const auto clean = renderer.render_levels({}, 0, quiet);
-  const RenderSwitches noisy{.noise = true, .lamp_drift = false, .occluded = false};
+  const RenderSwitches noisy{.noise = true, .lamp_drift = false};
   const auto first = renderer.render_levels({}, 0, noisy);
   const auto again = renderer.render_levels({}, 0, noisy);
   EXPECT_EQ(first, again);
@@ -257,6 +257,23 @@ TEST(CameraRenderer, ChipHidesMoreThanHalfOfTheTarget) {
     }
   }
   EXPECT_GT(changed, plate / 2);
+}
+
+TEST(CameraRenderer, ChipHidesTheRightMarkAndNothingElse) {
+  const CameraRenderer renderer(view_options(View::front, 1));
+  RenderSwitches covered = quiet;
+  covered.mark_occluded = true;
+  const auto open = renderer.render_levels({}, 0, quiet);
+  const auto hidden = renderer.render_levels({}, 0, covered);
+  int left = 0, right = 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * 640 + x;
+      if (std::abs(open[i] - hidden[i]) > 5.0F) ++(x < 430 ? left : right);
+    }
+  }
+  EXPECT_EQ(left, 0);
+  EXPECT_GT(right, 8000);
 }
 
 class CameraServerTest : public testing::Test {

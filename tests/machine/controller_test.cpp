@@ -366,6 +366,8 @@ TEST(Faults, ComeNowAndThenOrAlways) {
   EXPECT_EQ(camera_fault(named("camera-occluded"), 4000.0, std::nullopt).kind, CameraFault::Kind::none);
   EXPECT_EQ(camera_fault(named("camera-occluded"), 4000.0, 3600.0).from_machine_s, 5100.0);
   EXPECT_EQ(camera_fault(named("camera-occluded:always"), 4000.0, 3600.0).from_machine_s, 5100.0);
+  EXPECT_EQ(camera_fault(named("mark-occluded"), 4000.0, std::nullopt).kind, CameraFault::Kind::none);
+  EXPECT_EQ(camera_fault(named("mark-occluded"), 4000.0, 3600.0).kind, CameraFault::Kind::mark_occluded);
 }
 
 TEST(Motion, GeometricErrorIsZeroAtTheMeasuringPosition) {

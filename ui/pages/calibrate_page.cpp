@@ -353,8 +353,8 @@ QString CalibratePage::ownDrift() const {
   }
   if (m_state.takeOff == MarksTakeOff::shiftTurnScale) {
     return tr(
-        "The reference marks take out that the camera shifts, turns or changes its scale. What stays is a mark "
-        "that moves itself.");
+        "The reference marks take out that the camera shifts, turns or changes its scale. A mark that "
+        "itself moves would still be in the errors.");
   }
   const QString stays = std::isnan(m_state.markDistance_mm)
                             ? tr("That it turns or changes its scale stays in the errors.")

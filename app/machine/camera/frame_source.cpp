@@ -37,6 +37,7 @@ Frame FrameSource::render() {
   if (frozen && !m_last.image.empty()) return m_last;
   RenderSwitches switches;
   switches.occluded = active && m_fault.kind == CameraFault::Kind::occluded;
+  switches.mark_occluded = active && m_fault.kind == CameraFault::Kind::mark_occluded;
   m_last = {m_renderer.render(scene, m_frames++, switches), scene.machine_time_s};
   return m_last;
 }

@@ -15,8 +15,9 @@ namespace zerodrift::machine {
 struct CameraFault {
   enum class Kind {
     none,
-    freeze,    // the same picture over and over
-    occluded,  // a chip lies on the spindle target
+    freeze,         // the same picture over and over
+    occluded,       // a chip lies on the spindle target
+    mark_occluded,  // a chip lies on the right one of the table's marks
   };
   Kind kind = Kind::none;
   double from_machine_s = 0.0;

@@ -119,7 +119,7 @@ ObjectPosition seen_from_bracket(const CameraScene& scene, const ObjectPosition&
   return {c * right + s * up, -s * right + c * up};
 }
 
-/// A dark lump with a soft edge that leaves less than half of the spindle target to be seen.
+/// A dark lump with a soft edge that leaves less than half of the spindle target to be seen, and little of a mark.
 Paint chip_on_target(double x, double y, double sigma) {
   const double r = std::hypot((x - 140.0) / 1.15, y + 90.0);
   return {1.0 - edge(r - 720.0, 4.0 * sigma), chip};
@@ -165,6 +165,10 @@ std::vector<float> CameraRenderer::render_levels(const CameraScene& scene, std::
   for (const ObjectPosition& mark : m_marks) {
     const ObjectPosition seen = seen_from_bracket(scene, mark);
     draw(m_options, {seen, -1e-6 * scene.camera_roll_urad, scale, mark_half_um, mark_sigma_um}, reference_mark, levels);
+  }
+  if (switches.mark_occluded) {
+    const ObjectPosition seen = seen_from_bracket(scene, m_marks[1]);
+    draw(m_options, {seen, 0.0, 1.0, 1.3 * target_half_um, mark_sigma_um}, chip_on_target, levels);
   }
   const ObjectPosition target = seen_from_bracket(scene, {scene.target_right_um, scene.target_up_um});
   const double sigma_um = m_options.blur_px * m_options.um_per_px;

@@ -16,7 +16,8 @@ namespace zerodrift::machine {
 struct RenderSwitches {
   bool noise = true;
   bool lamp_drift = true;
-  bool occluded = false;  // a chip covers the larger part of the spindle target
+  bool occluded = false;       // a chip covers the larger part of the spindle target
+  bool mark_occluded = false;  // another one lies on the right one of the marks
 };
 
 class CameraRenderer {
