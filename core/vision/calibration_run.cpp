@@ -31,13 +31,24 @@ Result<std::vector<GrayImage>> frames_at(const Camera& camera, const Calibration
   return out;
 }
 
-MeanLocation located(const Target& target, const std::vector<GrayImage>& frames) {
+struct Pattern {
+  const Target& target;
+  const std::vector<Target>& marks;
+};
+
+MeanLocation located(const Pattern& pattern, const std::vector<GrayImage>& frames) {
   std::vector<Location> locations;
-  for (const GrayImage& frame : frames) locations.push_back(target.locate(frame));
+  for (const GrayImage& frame : frames) {
+    std::vector<Location> seen;
+    Location at = locate_against(pattern.target, pattern.marks, frame, &seen);
+    // On its way the target may hide a mark that it leaves free where errors are measured.
+    if (!at.ok && !marks_not_seen(seen).empty()) at = pattern.target.locate(frame);
+    locations.push_back(std::move(at));
+  }
   return mean_of(locations);
 }
 
-Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
+Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Pattern& pattern,
                  const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
   ZD_CHECK(machine.move_to(place(plan, at.approach_x_mm, at.approach_y_mm)));
   ZD_CHECK(machine.move_to(place(plan, at.x_mm, at.y_mm)));
@@ -51,7 +62,7 @@ Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Ta
   seen.view.image = fmt::format("position {:+.3f}, {:+.3f} mm", at.x_mm, at.y_mm);
   seen.view.x_mm = coordinate(0);
   seen.view.y_mm = coordinate(1);
-  const MeanLocation mean = located(target, seen.frames);
+  const MeanLocation mean = located(pattern, seen.frames);
   if (!mean.location.ok) {
     return fail(ErrorCode::target_refused, {{"reason", mean.location.reason + " at " + seen.view.image}});
   }
@@ -62,21 +73,21 @@ Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Ta
 
 // A picture may be spoilt by something that is over a moment later: a position where the target is refused gets a
 // second look.
-Result<Seen> see_patiently(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
+Result<Seen> see_patiently(acquisition::MachineIo& machine, const Camera& camera, const Pattern& pattern,
                            const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
-  Result<Seen> seen = see(machine, camera, target, plan, at, context);
+  Result<Seen> seen = see(machine, camera, pattern, plan, at, context);
   if (seen || seen.error().code != ErrorCode::target_refused || context.cancelled()) return seen;
-  return see(machine, camera, target, plan, at, context);
+  return see(machine, camera, pattern, plan, at, context);
 }
 
 // The positions measured with what their pictures teach together: the pixels that stand still taken out.
-CalibrationOutcome taught(const Target& target, const std::vector<Seen>& all, std::vector<CalibrationView>& views) {
-  CalibrationOutcome out{{}, target, {}};
+CalibrationOutcome taught(const Pattern& pattern, const std::vector<Seen>& all, std::vector<CalibrationView>& views) {
+  CalibrationOutcome out{{}, pattern.target, {}};
   for (const Seen& seen : all) out.frames.push_back(seen.frames.back());
-  out.target = target.learned_from(out.frames);
+  out.target = pattern.target.learned_from(out.frames);
   for (const Seen& seen : all) {
     CalibrationView view = seen.view;
-    if (const MeanLocation mean = located(out.target, seen.frames); mean.location.ok) {
+    if (const MeanLocation mean = located({out.target, pattern.marks}, seen.frames); mean.location.ok) {
       view.x_px = mean.location.x_px;
       view.y_px = mean.location.y_px;
     }
@@ -88,28 +99,29 @@ CalibrationOutcome taught(const Target& target, const std::vector<Seen>& all, st
 }  // namespace
 
 Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
-                                           const CalibrationPlan& plan, const TaskContext& context,
-                                           const CalibrationWatcher& watcher) {
+                                           const std::vector<Target>& marks, const CalibrationPlan& plan,
+                                           const TaskContext& context, const CalibrationWatcher& watcher) {
+  const Pattern pattern{target, marks};
   const std::vector<ProposedPosition> positions = propose_positions(plan.span_mm, plan.per_side, plan.approach_mm);
   const int count = static_cast<int>(positions.size());
   std::vector<Seen> all;
   for (const ProposedPosition& at : positions) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);
-    ZD_TRY(Seen seen, see_patiently(machine, camera, target, plan, at, context));
+    ZD_TRY(Seen seen, see_patiently(machine, camera, pattern, plan, at, context));
     all.push_back(std::move(seen));
     const int done = static_cast<int>(all.size());
     if (watcher) watcher(done, count, all.back().frames.back(), target.locate(all.back().frames.back()));
     context.progress(static_cast<double>(done) / count, "calibration");
   }
   std::vector<CalibrationView> views;
-  CalibrationOutcome out = taught(target, all, views);
+  CalibrationOutcome out = taught(pattern, all, views);
   Result<Calibration> calibration = calibrate(views);
   // One view that does not fit the others may be a picture of another moment: it is taken anew before all is refused.
   const std::optional<std::size_t> odd = oddest_view(views);
   if (!calibration && calibration.error().code == ErrorCode::calibration_refused && odd) {
-    ZD_TRY(all[*odd], see_patiently(machine, camera, target, plan, positions[*odd], context));
+    ZD_TRY(all[*odd], see_patiently(machine, camera, pattern, plan, positions[*odd], context));
     views.clear();
-    out = taught(target, all, views);
+    out = taught(pattern, all, views);
     calibration = calibrate(std::move(views));
   }
   ZD_CHECK(machine.move_to(place(plan, positions[0].approach_x_mm, positions[0].approach_y_mm)));

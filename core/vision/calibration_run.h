@@ -36,9 +36,10 @@ struct CalibrationOutcome {
 /// After each position: how many of how many, the frame there and what was seen.
 using CalibrationWatcher = std::function<void(int done, int of, const GrayImage& frame, const Location& location)>;
 
+/// What the fixed marks show of the camera's own drift meanwhile is taken off; a frame without them counts as it is.
 /// Errors: those of the machine and the camera, target_refused, calibration_refused, cancelled.
 Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
-                                           const CalibrationPlan& plan, const TaskContext& context,
-                                           const CalibrationWatcher& watcher = {});
+                                           const std::vector<Target>& marks, const CalibrationPlan& plan,
+                                           const TaskContext& context, const CalibrationWatcher& watcher = {});
 
 }  // namespace zerodrift::vision

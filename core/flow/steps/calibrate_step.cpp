@@ -90,7 +90,8 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   ZD_TRY(const auto target, vision::Target::create(image, region_of(roi), std::nullopt, without_secrets(profile.url)));
   const auto marked = options.marks.find(profile.id);
   const auto& marks = marked != options.marks.end() ? marked->second : profile.reference_rois_px;
-  ZD_CHECK(mark_targets(image, marks, without_secrets(profile.url)));  // refuse now what could not be measured later
+  // Refused now, too, is what could not be measured later.
+  ZD_TRY(const auto mark_patterns, mark_targets(image, marks, without_secrets(profile.url)));
   vision::CalibrationPlan plan;
   plan.axes = profile.axes;
   plan.centre_mm = devices.profile.measure_position_mm;
@@ -98,7 +99,7 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   plan.per_side = options.per_side;
   if (devices.profile.time_factor > 10.0) plan.frames = 2;
   ZD_TRY(auto outcome, vision::run_calibration(
-                           *devices.machine, *device.camera, target, plan, context,
+                           *devices.machine, *device.camera, target, mark_patterns, plan, context,
                            [&](int done, int of, const vision::GrayImage& frame, const vision::Location& location) {
                              context.progress(double(done) / of, "calibrating");
                              if (options.watcher) {
