@@ -63,7 +63,7 @@ std::vector<std::array<int, 4>> read_marks(JsonObject& o, const char* key) {
     for (std::size_t i = 0; list && i < 4; ++i) {
       if (mark[i].is_number()) numbers.push_back(mark[i].get<double>());
     }
-    if (numbers.size() != 4) o.reject(name, json_text(mark), "x, y, width and height in pixels");
+    if (numbers.size() != 4) o.reject(name, json_text(mark).substr(0, 60), "x, y, width and height in pixels");
     regions.push_back(region_of(o, name, numbers));
   }
   return regions;

@@ -58,11 +58,12 @@ def compare(name, truth, rows, template_s, verdicts):
         off = [value - truth.error(time_s, axis) for time_s, value in seen]
         zero = statistics.fmean(off)
         left = [value - zero for value in off]
+        whole = max(abs(value + truth.error(template_s, axis)) for value in off)
         drift = [truth.at(time_s, CAMERAS[axis]) for time_s, _ in seen]
         turn = [truth.at(time_s, CAMERAS[axis].split("_")[0] + "_camera_roll_urad") for time_s, _ in seen]
         print(f"{name:12} {axis}: {len(seen):4} errors, constant {zero:+.3f} um (truth at the template: "
               f"{-truth.error(template_s, axis):+.3f}), then rms {statistics.pstdev(off):.3f}, largest "
-              f"{max(map(abs, left)):.3f} um; the camera moved by {max(drift) - min(drift):.2f} um and turned by "
+              f"{max(map(abs, left)):.3f} um, {whole:.3f} with the constant; the camera moved by {max(drift) - min(drift):.2f} um and turned by "
               f"{max(turn) - min(turn):.0f} urad", flush=True)
         verdicts.append((name, axis, max(map(abs, left))))
 

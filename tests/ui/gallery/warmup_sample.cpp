@@ -54,6 +54,9 @@ static void fillRun(RunView* run, double duration_s) {
                  {0.98 * duration_s, "Coolant refilled", Judgement::none}});
   CameraMarks marks;
   marks.targetRegion = {222, 132, 196, 196};
+  marks.references = {{QRectF(38, 302, 130, 126)}, {QRectF(472, 302, 130, 126), std::nullopt, true}};
+  marks.message = "reference 2: target missing";
+  marks.judgement = Judgement::warn;
   marks.target = QPointF(320, 230.4);
   for (int i = 0; i < 60; ++i) marks.trail.append({320.0 - 0.8 * i / 60.0, 230.4 + 4.7 * (1.0 - std::exp(-i / 17.0))});
   marks.trailEnlargement = 20;
