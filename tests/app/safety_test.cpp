@@ -118,6 +118,11 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     const QRectF drawn = drawn_on_the_picture(page, wanted, {640, 480});
     QVERIFY(std::abs(drawn.left() - wanted.left()) < 3.0 && std::abs(drawn.bottom() - wanted.bottom()) < 3.0);
 
+    // Of its two fixed marks one is left out, of the other camera's none.
+    QCOMPARE(page->state().marks, 2);
+    Q_EMIT page->markRemoved(0);
+    QCOMPARE(page->state().marks, 1);
+
     const QString first = page->state().moveCamera;
     clear->setChecked(true);
     QVERIFY(page->primaryAction().enabled);
@@ -148,6 +153,13 @@ class SafetyTest : public QObject, private zerodrift::desktop::TestHome {
     const QRect used = drawn.toRect();
     const auto cameras = bench.body("calibration").at("cameras");
     QCOMPARE(cameras.at(0).at("roi") == nlohmann::json({used.x(), used.y(), used.width(), used.height()}), true);
+    const auto& marks = bench.profile()->cameras.back().reference_rois_px;
+    QCOMPARE(marks.size(), std::size_t(2));
+    QCOMPARE(cameras.at(0).at("reference_roi") == nlohmann::json(marks.back()), true);
+    QVERIFY(!cameras.at(0).contains("takes_off"));
+    QCOMPARE(cameras.at(1).at("reference_roi") == nlohmann::json(marks), true);
+    QCOMPARE(cameras.at(1).at("takes_off") == "turn", true);
+    QCOMPARE(page->state().marks, page->state().camera == 0 ? 1 : 2);
     const auto& other = bench.profile()->cameras[1].target_roi_px;
     QCOMPARE(cameras.at(1).at("roi") == nlohmann::json(other), true);
     QVERIFY(!clear->isChecked());
