@@ -23,7 +23,6 @@ using machine::HiddenEffects;
 using nlohmann::json;
 using recording::Recording;
 
-constexpr double least_strength = 2.5;
 constexpr double temperature_noise_K = 0.102;  // 0.1 C white and steps of 1/16 C
 constexpr double displacement_noise_um = 0.2;
 constexpr double no_film_W_m2K = 0.45;  // a machine without convection: what bright metal radiates
@@ -170,12 +169,16 @@ bool hide_effects(ConcealedCase& one, const std::vector<std::string>& ids, Stren
     }
     if (weakest < least_strength) continue;
     double left = weakest;
+    std::string hidden_by_refit;
     for (const auto& id : ids) {
       left = std::min(left, quiet.left_of(with, without(one.hidden, id), bare, ids.size() > 1));
-      if (rule == StrengthRule::left && left < least_strength) break;
+      if (left >= least_left(rule)) continue;
+      hidden_by_refit = id;
+      break;
     }
-    if (rule == StrengthRule::left && left < least_strength) {
-      if (left < 0.2 * least_strength) return false;  // no size that is usual of it makes up for that
+    if (!hidden_by_refit.empty()) {
+      one.truth.put_aside.push_back(hidden_by_refit);
+      if (left < 0.2 * least_left(rule)) return false;  // no size that is usual of it makes up for that
       continue;
     }
     one.truth.worst_channel = worst_channel;
@@ -209,6 +212,7 @@ void close_seal(ConcealedCase& one) {
                  {"worst_channel", one.truth.worst_channel},
                  {"strength", one.truth.strength},
                  {"left", one.truth.left},
+                 {"put_aside", one.truth.put_aside},
                  {"floor", one.truth.floor}};
   for (const auto& effect : one.truth.effects) {
     answer["effects"].push_back({{"id", effect.id},
@@ -301,6 +305,7 @@ Result<OpenedAnswer> truth_from(const std::string& sealed_text, const std::strin
   truth.worst_channel = answer.at("worst_channel");
   truth.strength = answer.at("strength");
   truth.left = answer.value("left", 0.0);
+  truth.put_aside = answer.value("put_aside", std::vector<std::string>{});
   truth.floor = answer.at("floor").get<std::map<std::string, double>>();
   for (const auto& effect : answer.at("effects")) {
     TrueEffect known{effect.at("id"), std::nullopt, effect.at("channel"), effect.at("law")};

@@ -24,8 +24,7 @@ struct ConcealedCase {
 };
 
 /// Case number `index` of a trial: nothing hidden (15 %), two effects (12 %), one that no library lists (9 %), else one
-/// of the list. Of every hidden effect at least 2.5 noise widths (rms) show in some channel of the first recording: of
-/// its whole change, or of what a re-fit of the ordinary numbers leaves. What cannot reach that is drawn anew on
+/// of the list. How strong the hidden effects are in the first recording: StrengthRule. What is not is drawn anew on
 /// another machine, of a mixed kind also with other effects. Trials up to seed 2813789501 and tests that repeat their
 /// cases are `raw`; a film that radiation raises by a third counts there, though every description is re-fitted first.
 ConcealedCase draw_case(std::uint64_t seed, int index, StrengthRule rule = StrengthRule::raw);

@@ -59,19 +59,30 @@ Section figures_section(const Trial& trial) {
   return section;
 }
 
+std::string what_is_left(const Trial& trial) {
+  const double least = least_left(trial.options.strength);
+  if (least == 0.0) return ".";
+  int count = 0;
+  std::string list;
+  for (const auto& [id, n] : trial.score.put_aside()) {
+    count += n;
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", id, n);
+  }
+  return fmt::format(
+      ", of which {} are left after the virtual machine itself has re-fitted the machine's ordinary numbers "
+      "(conductivity, capacity, expansion, film, heats, the bearings' contact) without it: what a re-fit hides from "
+      "everybody is not asked for. {} draws were put aside for that{}.",
+      least, count, list.empty() ? "" : " (" + list + ")");
+}
+
 Section method_section(const Trial& trial) {
   Section section{"method", "What was done", {}};
   section.blocks.emplace_back(Text{fmt::format(
       "{} machines were built by the virtual machine tool from seed {}. Its heat model (two bodies in rings, air gap, "
       "bearings between them, steps of 2 s) shares no code with the simulation that is judged, and the description "
       "that goes with each machine is the drawing's, not the built machine's. Each hides nothing, one effect, two, or "
-      "one that no library lists. Every hidden effect shows by at least 2.5 noise widths (rms) in some channel{}",
-      trial.score.judgements().size(), trial.options.seed,
-      trial.options.strength == StrengthRule::raw
-          ? "."
-          : ", after the machine's ordinary numbers (conductivity, capacity, expansion, film, heats, the bearings' "
-            "contact) have been re-fitted without it by the virtual machine itself: effects that a re-fit takes in, "
-            "radiation above all, are not among them.")});
+      "one that no library lists. Every hidden effect changes some channel by at least 2.5 noise widths (rms){}",
+      trial.score.judgements().size(), trial.options.seed, what_is_left(trial))});
   section.blocks.emplace_back(Text{fmt::format(
       "The answers were sealed before the first diagnosis: commitments.json holds SHA-256 of salt and answer for every "
       "case; its own SHA-256 was {}. Each case was then diagnosed from machine.json, recording.csv and second.csv "

@@ -154,6 +154,7 @@ std::string name_of(Outcome outcome) {
 }
 
 Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
+  for (const std::string& id : truth.put_aside) ++m_put_aside[id];
   Judgement judgement;
   judgement.name = truth.name;
   judgement.truth = truth.words();
@@ -188,6 +189,7 @@ Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
 }
 
 Judgement Score::add_failure(const OpenedAnswer& truth, const std::string& answer) {
+  for (const std::string& id : truth.put_aside) ++m_put_aside[id];
   Judgement judgement;
   judgement.name = truth.name;
   judgement.truth = truth.words();

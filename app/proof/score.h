@@ -26,6 +26,7 @@ struct OpenedAnswer {
   std::string worst_channel;            // which the hidden effects change most, in noise widths; empty: nothing hidden
   double strength = 0.0;                // raw, of the weakest hidden effect (strength.h)
   double left = 0.0;                    // what of it a re-fit of ordinary numbers leaves
+  std::vector<std::string> put_aside;   // drawn before it, and drawn anew because a re-fit leaves too little of them
   std::map<std::string, double> floor;  // noise of each channel in the second recording: no model can be better
   /// What the true structure, re-fitted, reaches in the second recording; empty where nobody asked.
   std::map<std::string, double> reached;
@@ -117,6 +118,8 @@ class Score {
 
   /// Cases in which the first recording could not show the effect: the second was fitted and the first held out.
   int turned_round() const { return m_turned_round; }
+  /// OpenedAnswer::put_aside of all cases: how often each effect was.
+  const std::map<std::string, int>& put_aside() const { return m_put_aside; }
 
   nlohmann::json to_json() const;
   std::string text() const;
@@ -141,6 +144,7 @@ class Score {
 
   Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel, m_location_stated;
   int m_turned_round = 0;
+  std::map<std::string, int> m_put_aside;
   std::vector<double> m_location_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;
   std::map<std::pair<std::string, bool>, Rms> m_rms;  // (kind of channel, second recording)

@@ -12,6 +12,7 @@ using nlohmann::json;
 json Score::to_json() const {
   json out = {{"cases", m_judgements.size()}, {"turned_round", m_turned_round}, {"figures", json::array()},
               {"confusion", m_confusion},     {"rmse", json::array()},          {"reliability", json::array()}};
+  out["put_aside"] = m_put_aside;
   out["not_right"] = undecidable().wrong;
   out["not_right_and_undecidable"] = undecidable().undecidable;
   out["not_named_compared"] = undecidable().compared;

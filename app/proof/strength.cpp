@@ -14,11 +14,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 std::string_view name_of(StrengthRule rule) {
-  return rule == StrengthRule::raw ? "raw" : "left";
+  return rule == StrengthRule::raw ? "raw" : rule == StrengthRule::shown ? "shown" : "left";
 }
 
 std::optional<StrengthRule> strength_rule_from(std::string_view name) {
-  for (const StrengthRule rule : {StrengthRule::raw, StrengthRule::left}) {
+  for (const StrengthRule rule : {StrengthRule::raw, StrengthRule::shown, StrengthRule::left}) {
     if (name == name_of(rule)) return rule;
   }
   return std::nullopt;

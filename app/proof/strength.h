@@ -9,11 +9,15 @@
 
 namespace zerodrift::proof {
 
-/// What of a hidden effect has to reach a generator's least strength.
-enum class StrengthRule {
-  raw,   // its change of a noise-free recording, everything else equal
-  left,  // what of that remains when the machine's ordinary numbers have been re-fitted without the effect
-};
+inline constexpr double least_strength = 2.5;
+
+/// How strong a generator's hidden effects are. `raw`: their change of a noise-free recording, everything else equal,
+/// reaches the least strength. `shown`: and when the machine's ordinary numbers have been re-fitted without them, half
+/// a noise width remains. `left`: all of the least strength remains.
+enum class StrengthRule { raw, shown, left };
+inline constexpr double least_left(StrengthRule rule) {
+  return rule == StrengthRule::raw ? 0.0 : rule == StrengthRule::shown ? 0.5 : least_strength;
+}
 std::string_view name_of(StrengthRule rule);
 std::optional<StrengthRule> strength_rule_from(std::string_view name);
 

@@ -20,7 +20,7 @@ struct TrialOptions {
   int cases = 300;
   std::uint64_t seed = 1;
   std::filesystem::path folder;
-  StrengthRule strength = StrengthRule::raw;  // what has to reach the least strength
+  StrengthRule strength = StrengthRule::shown;
   std::string kind = {};  // "" the mixture, or what every case hides: an effect's id, "none", "pair", "unlisted"
 };
 

@@ -119,13 +119,13 @@ Rival rival_with(const Truth& rest, const std::vector<std::string>& hidden, cons
 class Shown {
  public:
   Shown(const Truth& real, const std::vector<std::string>& ids, const std::string& id, const Schedule& schedule,
-        StrengthRule rule)
+        bool after_refit)
       : m_schedule(schedule) {
     std::vector<std::string> others = ids;
     std::erase(others, id);
     const Truth rest = without(real, id);
     m_bare = run(rest, schedule);
-    if (rule == StrengthRule::raw) return;
+    if (!after_refit) return;
     m_rival = rival_with(rest, others, schedule);
     m_slopes = sensitivities_of(m_rival, others.empty() ? 8 : 9, in_noise_widths(m_bare));
   }
@@ -142,15 +142,15 @@ class Shown {
   Eigen::MatrixXd m_slopes;
 };
 
-/// Sizes each hidden effect so that the channel it changes most moves by 3 to 30 noise widths (rms; by `rule`), evenly
-/// in the logarithm, as far as plausible sizes allow; false where they do not reach 2.5. Radiation is what its surface
-/// makes it.
+/// Sizes each hidden effect so that the channel it changes most moves by 3 to 30 noise widths (rms; by `left`, of what
+/// a re-fit leaves), evenly in the logarithm, as far as plausible sizes allow; false where `rule` is not reached then.
+/// Radiation is what its surface makes it.
 bool size_effects(Truth& real, const std::vector<std::string>& ids, const Schedule& schedule, StrengthRule rule,
                   Noise& noise) {
   for (const auto& id : ids) {
     if (id == "convection" || id == "radiation") continue;
     const double wanted = 3.0 * std::pow(10.0, noise.uniform());
-    const Shown shown(real, ids, id, schedule, rule);
+    const Shown shown(real, ids, id, schedule, rule == StrengthRule::left);
     double left = 1.6;  // times larger than drawn
     for (int round = 0; round < 2; ++round) {
       const double widths = shown(real);
@@ -161,8 +161,10 @@ bool size_effects(Truth& real, const std::vector<std::string>& ids, const Schedu
     }
   }
   return std::all_of(ids.begin(), ids.end(), [&](const std::string& id) {
-    const bool is_strong = id == "radiation" && rule == StrengthRule::raw;
-    return id == "convection" || Shown(real, ids, id, schedule, rule)(real) > (is_strong ? 5.0 : 2.5);
+    if (id == "convection") return true;
+    const double least = id == "radiation" && rule != StrengthRule::left ? 5.0 : least_strength;
+    if (Shown(real, ids, id, schedule, false)(real) < least) return false;
+    return rule == StrengthRule::raw || Shown(real, ids, id, schedule, true)(real) >= least_left(rule);
   });
 }
 

@@ -1,5 +1,5 @@
 // Draws concealed cases, diagnoses them, opens the answers and prints the table of the proof.
-//   proof [--cases N] [--seed S] [--kind K] [--strength left|raw] [--verbose] [--oracle] [--write DIR]
+//   proof [--cases N] [--seed S] [--kind K] [--strength raw|shown|left] [--verbose] [--oracle] [--write DIR]
 #include "app/proof/score.h"
 
 #include <fmt/format.h>

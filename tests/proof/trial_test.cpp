@@ -37,6 +37,9 @@ TEST(ConcealedCase, WhatARefitTakesInIsNoStrength) {
   const ConcealedCase painted = draw_case(8, 6, "radiation", false);
   EXPECT_GT(painted.truth.strength, 10.0);
   EXPECT_LT(painted.truth.left, 0.1 * painted.truth.strength);
+  const ConcealedCase found = draw_case(8, 7, "sensor_gain", false, StrengthRule::shown);
+  EXPECT_GE(found.truth.left, 0.5);
+  EXPECT_GE(found.truth.strength, 2.5);
   const ConcealedCase slow = draw_case(8, 7, "sensor_lag", false, StrengthRule::left);
   EXPECT_GE(slow.truth.left, 2.5);
   EXPECT_LE(slow.truth.left, slow.truth.strength);

@@ -19,7 +19,7 @@ struct ProveArguments {
   std::optional<std::uint64_t> seed;
   std::string out;
   std::string kind;
-  std::string strength = std::string(proof::name_of(proof::StrengthRule::raw));
+  std::string strength = std::string(proof::name_of(proof::StrengthRule::shown));
   int experiments = 0;
 };
 
@@ -77,10 +77,10 @@ void add_prove(Cli& cli) {
   command
       ->add_option(
           "--strength", arguments->strength,
-          "What of a hidden effect reaches 2.5 noise widths at least: its whole change (raw), or what a re-fit "
-          "without it leaves (left)")
+          "How strong hidden effects are: a change of 2.5 noise widths at least (raw), of which half a width is "
+          "left after a re-fit without them (shown), or all of it (left)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"left", "raw"}));
+      ->check(CLI::IsMember({"raw", "shown", "left"}));
   command
       ->add_option("--experiments", arguments->experiments,
                    "Ambiguous cases on which the proposed run is tried against a random one")
