@@ -13,6 +13,8 @@
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/explain.h"
+#include "core/diagnosis/locate.h"
+#include "core/diagnosis/place.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/thinning.h"
@@ -26,6 +28,10 @@ using recording::Recording;
 constexpr std::size_t most_rows = 1500;
 // Of the length: a joint is broad and conducts unevenly, so that its middle is not known better.
 constexpr double least_of_a_joint = 0.006;
+// A tenth of a cell: what is simulated knows no place better.
+constexpr double least_of_a_source = 0.0025;
+constexpr double sharp = 0.015;          // of the length: a peak so narrow stands for the whole distribution
+constexpr double widest_point_mm = 6.0;  // what is known worse is told as a stretch
 
 /// Excess of a prediction under other noise assumptions.
 Excess excess_under(const physics::Prediction& prediction, const Dataset& data) {
@@ -221,7 +227,8 @@ void Diagnoser::decide() {
     // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
     // imitated less well. The proof has the distribution of both.
     m_out.refuted = refuted();
-    const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0 || !m_selection.settling.empty();
+    const bool wrong =
+        m_out.refuted || m_selection.falling_heat > 0.0 || !m_selection.settling.empty() || only_comes_and_goes();
     // What stands for many parts as one lump each is a guess, and leaves what it leaves.
     const double left = leftover(of_best);
     const bool by_far = !m_lumps_only && left > most_left_widths;
@@ -243,15 +250,41 @@ void Diagnoser::decide() {
   m_out.refined = refined_machine(*m_used);
 }
 
+/// A draught has to explain more than a heat that comes and goes at one place: whatever wanders there looks like a door
+/// that was open at some time.
+bool Diagnoser::only_comes_and_goes() const {
+  const std::vector<std::size_t> named = m_selection.effects();
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (m_selection.best->machine().effects[named[i]].id != "draught") continue;
+    if (evidence_of_wandering_heat(*m_selection.without[i]) > m_selection.shown[i]) return true;
+  }
+  return false;
+}
+
 /// The others know the place too, each with offsets and a start of its own. What is fitted stays the first's alone.
-void Diagnoser::place_from_others(FoundEffect& found, std::size_t index) {
-  if (m_limits.others.empty()) return;
-  if (m_of_all == nullptr) m_of_all = seen_by_all(*m_selection.best, m_limits.others);
-  if (m_of_all == nullptr) return;
+void Diagnoser::tell_place(FoundEffect& found, std::size_t index) {
+  const physics::Component* rod = m_machine.find(found.component);
+  if (rod == nullptr) return;
+  const Model& best = *m_selection.best;
+  if (!m_of_others) m_of_others = seen_by_all(best, m_limits.others);
   std::map<std::string, double> sigma;
-  const physics::EffectSpec spec = fitted_effect(*m_of_all, index, &sigma);
-  found.position_mm = found.parameters["position_mm"] = spec.numbers.at("position_mm");
-  found.position_sigma_mm = found.sigma["position_mm"] = sigma["position_mm"];
+  const Model& last = m_of_others->empty() ? best : *m_of_others->back();
+  double at_mm = fitted_effect(last, index, &sigma).numbers.at("position_mm");
+  double sigma_mm = sigma["position_mm"];
+  std::optional<Place> place;
+  if (sigma_mm > sharp * rod->length_mm) place = place_of_effect(best, *m_of_others, index);
+  if (place) {
+    at_mm = place->mean_mm;
+    sigma_mm = place->sigma_mm;
+  }
+  const double least = found.id == "contact_resistance" ? least_of_a_joint : least_of_a_source;
+  found.position_mm = found.parameters["position_mm"] = at_mm;
+  found.position_sigma_mm = found.sigma["position_mm"] = std::hypot(sigma_mm, least * rod->length_mm);
+  if (found.position_sigma_mm <= widest_point_mm) return;
+  const double half_mm = 2.0 * found.position_sigma_mm;
+  const auto [from_mm, to_mm] =
+      place ? std::pair{place->from_mm, place->to_mm} : std::pair{at_mm - half_mm, at_mm + half_mm};
+  found.between_mm = {std::max(0.0, from_mm), std::min(rod->length_mm, to_mm)};
 }
 
 void Diagnoser::effects() {
@@ -272,12 +305,7 @@ void Diagnoser::effects() {
     if (spec.numbers.count("position_mm") != 0) {
       found.position_mm = spec.numbers.at("position_mm");
       found.position_sigma_mm = found.sigma["position_mm"];
-      place_from_others(found, index);
-      const physics::Component* rod = m_machine.find(found.component);
-      if (found.id == "contact_resistance" && rod != nullptr) {
-        found.position_sigma_mm = found.sigma["position_mm"] =
-            std::hypot(found.sigma["position_mm"], least_of_a_joint * rod->length_mm);
-      }
+      tell_place(found, index);
     }
     found.bounds_reached = best.bounds_reached();
     found.log_evidence_gain = m_selection.shown[i];

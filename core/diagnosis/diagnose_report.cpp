@@ -229,7 +229,9 @@ void Diagnoser::place_from_effect() {
   for (const auto& effect : m_out.effects) {
     if (!effect.position_mm) continue;
     const double half_mm = std::max(1.0, 2.0 * effect.position_sigma_mm);
-    m_out.mismatch.position_mm = {std::max(0.0, *effect.position_mm - half_mm), *effect.position_mm + half_mm};
+    m_out.mismatch.position_mm =
+        effect.between_mm.value_or(std::pair{*effect.position_mm - half_mm, *effect.position_mm + half_mm});
+    m_out.mismatch.position_mm->first = std::max(0.0, m_out.mismatch.position_mm->first);
     m_out.mismatch.best_position_mm = *effect.position_mm;
     return;
   }

@@ -31,7 +31,7 @@ class Diagnoser {
   double leftover(const physics::Prediction& prediction) const;
   void tell_tried();
   void decide();
-  void place_from_others(FoundEffect& found, std::size_t index);
+  void tell_place(FoundEffect& found, std::size_t index);
   struct Shown {
     std::string channel;
     double before = 0.0, after = 0.0;  // rms, K or um
@@ -55,6 +55,7 @@ class Diagnoser {
   void held_out();
   void slips_of_its_own(const physics::Machine& best, const recording::Recording& other, HeldOut& result) const;
   bool refuted() const;
+  bool only_comes_and_goes() const;
   void details();
   void cannot_show();
   std::vector<Sentence> far_parameters();
@@ -77,7 +78,8 @@ class Diagnoser {
   Selection m_selection;
   std::shared_ptr<Model> m_used;
   std::vector<FarParameter> m_far;  // of what explains best
-  std::shared_ptr<Model> m_of_all;  // the best with what every recording has shown of the machine; null: not asked
+  std::optional<std::vector<std::shared_ptr<Model>>>
+      m_of_others;  // the best in the others, where it fits them; once asked
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;
   std::vector<std::shared_ptr<Model>> m_rivals;

@@ -33,6 +33,7 @@ struct FoundEffect {
   std::string component;
   std::optional<double> position_mm;
   double position_sigma_mm = 0.0;
+  std::optional<std::pair<double, double>> between_mm;  // where it is known too badly for a point: 95 % lie between
   std::string channel;
   std::map<std::string, double> parameters;
   std::map<std::string, double> sigma;

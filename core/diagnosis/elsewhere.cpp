@@ -10,8 +10,8 @@ namespace {
 
 struct Elsewhere {
   double evidence = 0.0;
-  double left = 0.0;  // what is slow where it fits worst
-  ModelPtr last;      // in the last of them, with what all before have shown
+  double left = 0.0;           // what is slow where it fits worst
+  std::vector<ModelPtr> fits;  // in each of them, with what all before have shown
 };
 
 /// In another recording with what is known of the machine, at the misfit that suits it, as in the first recording.
@@ -31,10 +31,10 @@ Elsewhere elsewhere(const Model& fit, const OtherRecordings& others) {
   Elsewhere sum;
   const Model* known = &fit;
   for (const auto& usual : others) {
-    sum.last = fitted_there(fit, *known, usual);
-    sum.evidence += sum.last->log_evidence_total();
-    sum.left = std::max(sum.left, excess_of(*sum.last).largest);
-    known = sum.last.get();
+    sum.fits.push_back(fitted_there(fit, *known, usual));
+    known = sum.fits.back().get();
+    sum.evidence += known->log_evidence_total();
+    sum.left = std::max(sum.left, excess_of(*known).largest);
   }
   return sum;
 }
@@ -88,10 +88,10 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
   models.resize(kept);
 }
 
-ModelPtr seen_by_all(const Model& fit, const OtherRecordings& others) {
-  if (others.empty()) return nullptr;
-  const Elsewhere there = elsewhere(fit, others);
-  return there.left <= least_evident ? there.last : nullptr;
+std::vector<ModelPtr> seen_by_all(const Model& fit, const OtherRecordings& others) {
+  Elsewhere there = elsewhere(fit, others);
+  if (there.left > least_evident) return {};
+  return std::move(there.fits);
 }
 
 std::string moved_elsewhere(const Model& fit, const OtherRecordings& others) {

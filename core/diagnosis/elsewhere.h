@@ -27,8 +27,8 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
 std::string moved_elsewhere(const Model& fit, const OtherRecordings& others);
 /// Of the fitted recording, and of the others where they were asked.
 double evidence_of(const Model& model);
-/// The model in the last of the others, with what the fitted one and all others have shown of the machine; none where
-/// it does not fit one of them.
-ModelPtr seen_by_all(const Model& fit, const OtherRecordings& others);
+/// The model in each of the others, with what the fitted one and those before have shown of the machine; none where it
+/// does not fit one of them.
+std::vector<ModelPtr> seen_by_all(const Model& fit, const OtherRecordings& others);
 
 }  // namespace zerodrift::diagnosis

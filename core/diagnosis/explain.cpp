@@ -187,10 +187,12 @@ Sentence explain_effect(const FoundEffect& effect, double end_s, double before, 
   put_place(s, effect.channel, effect.position_mm, effect.component);
   const auto from = effect.parameters.find("from_mm");
   const auto to = effect.parameters.find("to_mm");
-  if (from != effect.parameters.end() && to != effect.parameters.end()) {
+  std::optional<std::pair<double, double>> between_mm = effect.between_mm;
+  if (from != effect.parameters.end() && to != effect.parameters.end()) between_mm = {from->second, to->second};
+  if (between_mm) {
     s.facts["where"] = "where_between";
-    s.facts["from"] = fmt::format("{:.0f}", from->second);
-    s.facts["to"] = fmt::format("{:.0f}", to->second);
+    s.facts["from"] = fmt::format("{:.0f}", between_mm->first);
+    s.facts["to"] = fmt::format("{:.0f}", between_mm->second);
   }
   return finished(std::move(s));
 }

@@ -106,6 +106,9 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
   const physics::Prediction whole = responses(nominal, component, scan.position_mm, data.time_s.front() + block_s);
   const Eigen::MatrixXd base = nominal.hessian();
   const Eigen::VectorXd base_gradient = nominal.jacobian().transpose() * nominal.residual() - nominal.z();
+  const Eigen::LDLT<Eigen::MatrixXd> without(base);
+  scan.evidence_without =
+      0.5 * base_gradient.dot(without.solve(base_gradient)) - 0.5 * without.vectorD().array().max(1e-300).log().sum();
   const Index n0 = base.rows();
   const Index nb = static_cast<Index>(blocks);
   Eigen::MatrixXd smooth = 0.05 * Eigen::MatrixXd::Identity(nb, nb);
@@ -169,6 +172,19 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
   for (std::size_t b = 0; b < blocks; ++b)
     scan.time_s.push_back(data.time_s.front() + static_cast<double>(b) * block_s);
   return scan;
+}
+
+double evidence_of_wandering_heat(const Model& model) {
+  double largest = -1e300;
+  for (const auto& component : model.machine().components) {
+    if (component.lump || component.prescribed) continue;
+    const SourceScan scan = scan_sources(model, component.id);
+    const double best = *std::max_element(scan.evidence.begin(), scan.evidence.end());
+    double sum = 0.0;  // every place is as likely
+    for (const double evidence : scan.evidence) sum += std::exp(evidence - best) / places;
+    largest = std::max(largest, best + std::log(sum) - scan.evidence_without);
+  }
+  return largest;
 }
 
 namespace {

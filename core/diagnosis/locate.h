@@ -10,7 +10,8 @@ namespace zerodrift::diagnosis {
 struct SourceScan {
   std::string component;
   std::vector<double> position_mm;
-  std::vector<double> evidence;
+  std::vector<double> evidence;   // with a source there
+  double evidence_without = 0.0;  // without any
   double best_mm = 0.0;
   double from_mm = 0.0;
   double to_mm = 0.0;
@@ -21,6 +22,8 @@ struct SourceScan {
 
 /// Linearised at the base's nominal values (every unknown at its mean): at the fitted values they absorb the place.
 SourceScan scan_sources(const Model& nominal, const std::string& component);
+/// Log evidence of a heat that comes and goes as it likes at one place of a rod, over the fitted model alone.
+double evidence_of_wandering_heat(const Model& model);
 /// "while the spindle turns", "while the coolant runs" ... the input that the missing heat follows best. `driven_by`:
 /// the channel that the named effect follows, empty: none; it is the one where the heat follows it at all.
 std::string regime_of(const SourceScan& scan, const recording::Recording& recording, const std::string& driven_by);

@@ -49,6 +49,7 @@ Status Selector::search() {
   if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= least_first(*leading.front())) {
     ask_others();
     if (m_result.best != m_result.base) align();
+    tell_apart();
     return {};
   }
   m_result.best = leading.front();
@@ -253,26 +254,56 @@ bool Selector::ask_others_for_one() {
   return true;
 }
 
+std::vector<ModelPtr> Selector::other_laws(const Model& best) const {
+  std::vector<ModelPtr> fits;
+  for (std::size_t e = m_result.described; e < best.machine().effects.size(); ++e) {
+    const physics::EffectSpec& own = best.machine().effects[e];
+    if (own.words.count("law") == 0) continue;
+    std::set<std::string> laws;
+    for (const auto& spec : physics::find_effect(own.id)->candidates(best.machine(), m_facts)) {
+      laws.insert(spec.word_or("law", ""));
+    }
+    for (const std::string& law : laws) {
+      if (law == own.word_or("law", "")) continue;
+      physics::Machine machine = best.machine();
+      machine.effects[e].words["law"] = law;
+      fits.push_back(std::make_shared<Model>(std::move(machine), best.shared_data()));
+    }
+  }
+  in_parallel(fits.size(), [&](std::size_t i) {
+    fits[i]->start_from(best, false);
+    fits[i]->fit({15, 0.05, true});
+  });
+  return fits;
+}
+
 void Selector::tell_apart() {
   constexpr double in_doubt = 8.0;
   const ModelPtr best = m_result.best;
-  if (m_options.others.empty() || !m_options.own_misfit || best == m_result.base || best->elsewhere != 0.0) return;
-  if (happened_once(*best)) return;
-  std::vector<ModelPtr> near = {best};
+  if (m_options.others.empty() || !m_options.own_misfit || best == m_result.base || happened_once(*best)) return;
+  const bool asked = best->elsewhere != 0.0;
+  const auto doubtful = [&](const ModelPtr& fit) { return best->log_evidence() - fit->log_evidence() < in_doubt; };
+  std::vector<ModelPtr> near = other_laws(*best);
+  std::erase_if(near, [&](const ModelPtr& fit) { return !doubtful(fit); });
+  const std::size_t laws = near.size();
   for (const auto& level : m_result.levels) {
     for (const auto& fit : level) {
       const bool other = last_effect(*fit).id != last_effect(*best).id && worth_naming(*fit) && !happened_once(*fit);
-      if (!other || fit->machine().effects.size() != best->machine().effects.size()) continue;
-      if (best->log_evidence() - fit->log_evidence() < in_doubt) near.push_back(fit);
+      if (asked || !other || fit->machine().effects.size() != best->machine().effects.size()) continue;
+      if (doubtful(fit)) near.push_back(fit);
     }
   }
-  if (near.size() == 1) return;
+  if (near.empty()) return;
+  const bool only_laws = near.size() == laws;
+  near.push_back(best);
   const ModelPtr less = reduced(*best, best->machine().effects.size() - 1);
   less->fit({15, 0.05, true});
   ask_elsewhere(near, *less, m_options.others);
   for (const ModelPtr& fit : near) {
     if (evidence_of(*fit) > evidence_of(*m_result.best)) m_result.best = fit;
   }
+  // Its law was in doubt, not the source.
+  if (m_result.best == best && only_laws && !asked) best->elsewhere = 0.0;
 }
 
 void Selector::align() {

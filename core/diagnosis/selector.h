@@ -88,8 +88,12 @@ class Selector {
   /// What other recordings add to one effect of an answer that they were asked about.
   double shown_elsewhere(const Model& best, const Model& without) const;
 
-  /// What this recording can hardly tell apart the others may.
+  /// What this recording can hardly tell apart the others may: families, and the laws of a source. At one speed all
+  /// laws are alike, and a wrong one is wrong about the place too.
   void tell_apart();
+
+  /// The best with another law of one of its effects, fitted.
+  std::vector<ModelPtr> other_laws(const Model& best) const;
 
   /// Base and rivals under the final model's misfit, so that they can be told against it.
   void align();
