@@ -59,12 +59,13 @@ def compare(name, truth, rows, template_s, verdicts):
         zero = statistics.fmean(off)
         left = [value - zero for value in off]
         whole = max(abs(value + truth.error(template_s, axis)) for value in off)
+        _, when_s = max(zip(map(abs, left), (time_s for time_s, _ in seen)))
         drift = [truth.at(time_s, CAMERAS[axis]) for time_s, _ in seen]
         turn = [truth.at(time_s, CAMERAS[axis].split("_")[0] + "_camera_roll_urad") for time_s, _ in seen]
         print(f"{name:12} {axis}: {len(seen):4} errors, constant {zero:+.3f} um (truth at the template: "
               f"{-truth.error(template_s, axis):+.3f}), then rms {statistics.pstdev(off):.3f}, largest "
-              f"{max(map(abs, left)):.3f} um, {whole:.3f} with the constant; the camera moved by {max(drift) - min(drift):.2f} um and turned by "
-              f"{max(turn) - min(turn):.0f} urad", flush=True)
+              f"{max(map(abs, left)):.3f} um at {when_s:.0f} s, {whole:.3f} with the constant; the camera moved by "
+              f"{max(drift) - min(drift):.2f} um and turned by {max(turn) - min(turn):.0f} urad", flush=True)
         verdicts.append((name, axis, max(map(abs, left))))
 
 

@@ -102,7 +102,13 @@ class RichJob {
                    {"lost_samples", 3},
                    {"refused", 1},
                    {"measurements", 101},
-                   {"problems", {"sensor stuck (T2_C), 2 times", "link: machine_silent, 3 times, overcome"}}});
+                   {"problems",
+                    {"sensor stuck (T2_C), 2 times",
+                     "reference lost (camera front: reference 2: target missing; camera side: reference 2: "
+                     "target occluded), once",
+                     "target refused (camera front: reference 1: target missing; reference 2: target "
+                     "occluded), once",
+                     "link: machine_silent, 3 times, overcome"}}});
     sensors();
     model();
     physics();

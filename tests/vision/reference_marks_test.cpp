@@ -8,6 +8,7 @@
 #include "core/vision/camera_error_source.h"
 #include "core/vision/error_view.h"
 #include "core/vision/image_codec.h"
+#include "core/vision/measure_files.h"
 #include "tests/vision/speckle.h"
 
 namespace zerodrift::vision {
@@ -117,6 +118,26 @@ TEST(ReferenceMarks, WithNoneNothingIsMeasured) {
   EXPECT_FALSE(at.ok);
   EXPECT_EQ(at.reason.rfind("reference 1: ", 0), 0u) << at.reason;
   EXPECT_NE(at.reason.find("; reference 2: "), std::string::npos) << at.reason;
+}
+
+TEST(ReferenceMarks, AFolderIsMeasuredWithWhatEachFrameShows) {
+  const fs::path folder = fs::temp_directory_path() / "zerodrift_reference_folder_test";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  ASSERT_TRUE(write_png(folder / "a.png", marked_scene(1.5, turned, 40)));
+  ASSERT_TRUE(write_png(folder / "b.png", marked_scene(1.5, turned, 41, 1)));
+  LocateRequest request;
+  request.references = {made(left_region), made(right_region)};
+  request.learn = false;
+  std::vector<std::string> warnings;
+  const auto found = locate_in_folder(made(target_region), request, folder, &warnings, {});
+  ASSERT_TRUE(found) << describe(found.error());
+  ASSERT_EQ(found->size(), 2u);
+  ASSERT_TRUE((*found)[0].location.ok && (*found)[1].location.ok);
+  EXPECT_GT((*found)[1].location.sigma_x_px, 4.0 * (*found)[0].location.sigma_x_px);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].rfind("b.png was measured without reference 2: ", 0), 0u) << warnings[0];
+  fs::remove_all(folder);
 }
 
 TEST(ReferenceMarks, ARunSaysWhichOneIsNotSeen) {
