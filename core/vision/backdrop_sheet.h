@@ -3,34 +3,13 @@
 // only.
 
 #include <Eigen/Core>
-#include <cmath>
-#include <limits>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <vector>
 
 #include "core/vision/backdrop.h"
+#include "core/vision/frame_light.h"
 
 namespace zerodrift::vision::backdrop {
-
-inline constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float shot_noise_grey = 128.0f;
-
-inline bool is_known(float value) {
-  return !std::isnan(value);
-}
-
-/// The light of a frame against the template's: gain, its slopes, offset.
-struct FrameLight {
-  Eigen::Vector4d factors{1.0, 0.0, 0.0, 0.0};
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-
-  float undone(double level, double x, double y) const;
-};
-
-struct LitFrame : RegisteredFrame {
-  FrameLight light;
-};
 
 /// The template's pixels with their margin, as the sheet on which everything below is drawn.
 class Sheet {
@@ -74,7 +53,4 @@ bool usable(const GrayImage& image, int x, int y);
 float middle_of(std::vector<float>& values);
 /// Standard deviation of the noise in an image of differences.
 float noise_of(const cv::Mat& difference);
-/// From what stands still beside the target in both pictures. Nothing when that has changed in itself.
-std::optional<FrameLight> light_of(const GrayImage& picture, const Region& sheet, const RegisteredFrame& frame);
-
 }  // namespace zerodrift::vision::backdrop
