@@ -250,13 +250,17 @@ void Diagnoser::decide() {
   m_out.refined = refined_machine(*m_used);
 }
 
-/// A draught has to explain more than a heat that comes and goes at one place: whatever wanders there looks like a door
-/// that was open at some time.
+/// An open door and bearings that run in have to explain more than a heat that comes and goes at one place, and to
+/// leave nothing of one: whatever wanders there looks like something that happened once.
 bool Diagnoser::only_comes_and_goes() const {
+  constexpr double least_that_counts = 3.0;  // twenty to one; right answers left 1 at most
   const std::vector<std::size_t> named = m_selection.effects();
+  const Model& best = *m_selection.best;
   for (std::size_t i = 0; i < named.size(); ++i) {
-    if (m_selection.best->machine().effects[named[i]].id != "draught") continue;
+    const std::string& id = best.machine().effects[named[i]].id;
+    if (id != "draught" && id != "bearing_run_in") continue;
     if (evidence_of_wandering_heat(*m_selection.without[i]) > m_selection.shown[i]) return true;
+    if (evidence_of_wandering_heat(best) > least_that_counts) return true;
   }
   return false;
 }

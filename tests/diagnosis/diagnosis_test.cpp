@@ -70,6 +70,11 @@ TEST(Diagnosis, GivesUpOnWhatTheLibraryLacks) {
   EXPECT_EQ(diagnosed(proof::make_case(31, "unlisted:wandering_heat")).verdict, Verdict::unexplained);
 }
 
+/// A draught explains 707 of it, a heat that comes and goes at one place 698, and 8 more beside the draught.
+TEST(Diagnosis, AHeatThatComesAndGoesIsNoOpenDoor) {
+  EXPECT_EQ(diagnosed(proof::make_case(880330022, "unlisted:wandering_heat")).verdict, Verdict::unexplained);
+}
+
 /// A camera sees the whole machine. How much of a displacement the description leaves to parts it does not hold is said
 /// in it, and is then no physics that the simulation lacks.
 TEST(Diagnosis, ADisplacementIsExplainedAsFarAsTheDescriptionSpeaksOfIt) {
