@@ -39,11 +39,11 @@ constexpr double doubtful_residual = 2.4;  // the same where not all of the targ
 constexpr double some_hidden = 0.93;       // of the pixels
 constexpr int likeness_window_px = 15;
 constexpr int largest_rounds = 6;
-constexpr int shared_patch_px = 24;  // further apart, two patches are less work than one around both
-constexpr float seen_through = 0.02f;
-constexpr int within_outline_px = 8;
+constexpr int shared_patch_px = 24;   // further apart, two patches are less work than one around both
+constexpr float seen_through = 0.5f;  // less may be the noise of what was learned
+constexpr int within_outline_px = 10;
 constexpr double straight = 0.01;      // a solve that bent the target more may have been caught by a reflection
-constexpr double outline_share = 0.7;  // of the gradient energy: then it will do alone
+constexpr double outline_share = 0.5;  // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
 double fit_of(const Registration& r) {

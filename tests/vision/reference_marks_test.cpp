@@ -24,7 +24,7 @@ struct CameraDrift {
   double roll_rad = 0.0, scale = 0.0;  // about the middle of the picture
 };
 
-constexpr Region target_region{260, 180, 120, 120};
+constexpr Region plate_region{260, 180, 120, 120};
 constexpr Region left_region{52, 302, 96, 96};
 constexpr Region right_region{492, 302, 96, 96};
 
@@ -62,7 +62,7 @@ TEST(ReferenceMarks, WhatTheyTakeOff) {
 }
 
 TEST(ReferenceMarks, ASecondOneTakesTurnAndScaleOff) {
-  const Target target = made(target_region);
+  const Target target = made(plate_region);
   const Target left = made(left_region), right = made(right_region);
   double one_px = 0.0, two_px = 0.0, two_sigmas = 0.0;
   const int frames = 6;
@@ -85,7 +85,7 @@ TEST(ReferenceMarks, ASecondOneTakesTurnAndScaleOff) {
 }
 
 TEST(ReferenceMarks, WithoutOneOfTwoTheOtherServesAndTheUncertaintySaysSo) {
-  const Target target = made(target_region);
+  const Target target = made(plate_region);
   const std::vector<Target> marks{made(left_region), made(right_region)};
   const GrayImage whole = marked_scene(1.5, turned, 20);
   const GrayImage covered = marked_scene(1.5, turned, 21, 1);
@@ -114,7 +114,7 @@ TEST(ReferenceMarks, WithoutOneOfTwoTheOtherServesAndTheUncertaintySaysSo) {
 
 TEST(ReferenceMarks, WithNoneNothingIsMeasured) {
   const std::vector<Target> marks{made(left_region), made(right_region)};
-  const Location at = locate_against(made(target_region), marks, render(Speckle(1, 320.0, 240.0, 110.0)));
+  const Location at = locate_against(made(plate_region), marks, render(Speckle(1, 320.0, 240.0, 110.0)));
   EXPECT_FALSE(at.ok);
   EXPECT_EQ(at.reason.rfind("reference 1: ", 0), 0u) << at.reason;
   EXPECT_NE(at.reason.find("; reference 2: "), std::string::npos) << at.reason;
@@ -130,7 +130,7 @@ TEST(ReferenceMarks, AFolderIsMeasuredWithWhatEachFrameShows) {
   request.references = {made(left_region), made(right_region)};
   request.learn = false;
   std::vector<std::string> warnings;
-  const auto found = locate_in_folder(made(target_region), request, folder, &warnings, {});
+  const auto found = locate_in_folder(made(plate_region), request, folder, &warnings, {});
   ASSERT_TRUE(found) << describe(found.error());
   ASSERT_EQ(found->size(), 2u);
   ASSERT_TRUE((*found)[0].location.ok && (*found)[1].location.ok);
@@ -151,7 +151,7 @@ TEST(ReferenceMarks, ARunSaysWhichOneIsNotSeen) {
     ErrorView view;
     view.id = "front";
     view.camera = std::make_shared<const Camera>((folder / name / "img_%04d.png").string());
-    view.target = std::make_shared<const Target>(made(target_region));
+    view.target = std::make_shared<const Target>(made(plate_region));
     view.references = {made(left_region), made(right_region)};
     view.calibration.um_from_px << 12.0, 0.0, 0.0, -12.0;
     return CameraErrorSource({view}, {.frames = 3});

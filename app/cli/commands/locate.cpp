@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/base/json.h"
 #include "core/vision/calibration.h"
+#include "core/vision/error_view.h"
 #include "core/vision/measure_files.h"
 #include "core/vision/target_file.h"
 
@@ -31,6 +32,19 @@ struct Prepared {
   vision::Target target;
   vision::LocateRequest request;
 };
+
+// The camera's own motion that fixed marks cannot tell; without any the user knows that there is none.
+std::string what_marks_leave(const std::vector<vision::Target>& marks) {
+  if (marks.empty()) return "";
+  std::vector<vision::PixelPoint> places;
+  for (const vision::Target& mark : marks) places.push_back(mark.point());
+  if (vision::taken_off_by(places) == vision::TakenOff::shift_turn_scale) return "";
+  const std::string left =
+      "a turn of the camera and a change of its scale stay in the positions and are not in their uncertainty";
+  return marks.size() == 1
+             ? "with one fixed mark " + left
+             : fmt::format("the fixed marks stand less than {:.0f} px apart: {}", vision::least_mark_spacing_px, left);
+}
 
 // Region, point and mask come from the calibration where the command line is silent, so that both see the same pixels.
 Result<Prepared> prepare(const Options& options, std::vector<std::string>& warnings, const TaskContext& context) {
@@ -70,6 +84,7 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
     ZD_CHECK(mark);
     request.references.push_back(*std::move(mark));
   }
+  if (const std::string left = what_marks_leave(request.references); !left.empty()) warnings.push_back(left);
   return Prepared{std::move(target), std::move(request)};
 }
 
