@@ -94,6 +94,43 @@ TEST(RenderedFrames, WhatStandsBehindABallDoesNotDrawIt) {
   EXPECT_FALSE(target->learned_from(views).backdrop());
 }
 
+// A dark ball of little contrast in a noise of 1.5 grey levels; its highlight beside where it was by `turned_px`.
+GrayImage faint_ball(double x_px, double y_px, double turned_px, unsigned seed) {
+  Noise noise(seed);
+  GrayImage out{640, 480, std::vector<std::uint8_t>(640 * 480)};
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const double behind = 90.0 + 6.0 * std::sin(x / 23.0) * std::cos(y / 31.0);
+      const double dx = x - 320.0 - x_px;
+      const double dy = y - 240.0 - y_px;
+      const double inside = 0.5 * std::erfc((std::hypot(dx, dy) - 80.0) / (std::sqrt(2.0) * 0.9));
+      const double lamp = std::hypot(dx + 25.0 - turned_px, dy + 30.0 - turned_px);
+      const double ball = 60.0 - 0.1 * dy + 130.0 * std::exp(-0.5 * lamp * lamp / 60.0);
+      const double level = (1.0 - inside) * behind + inside * ball + 1.5 * noise.normal();
+      out.pixels[static_cast<std::size_t>(y) * out.width + x] =
+          static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0)));
+    }
+  }
+  return out;
+}
+
+// What a ball shows within its outline is the lamp: turned, it must not carry the ball along, and noise must not hide
+// where the outline ends.
+TEST(RenderedFrames, ALampThatIsTurnedDoesNotMoveABallOfLittleContrast) {
+  const auto target = Target::create(faint_ball(0, 0, 0, 1), {230, 150, 180, 180}, std::nullopt, "template");
+  ASSERT_TRUE(target);
+  std::vector<GrayImage> views;
+  for (int k = 0; k < 9; ++k) views.push_back(faint_ball(22.3 * (k % 3 - 1), 21.7 * (k / 3 - 1), 0, 10 + k));
+  const Target learned = target->learned_from(views);
+  ASSERT_TRUE(learned.backdrop());
+  for (unsigned k = 0; k < 4; ++k) {
+    const Location at = learned.locate(faint_ball(3.4, -2.7, 0.15 + 0.15 * k, 30 + k));
+    if (!at.ok) continue;
+    EXPECT_NEAR(at.x_px, 3.4, 0.1);
+    EXPECT_NEAR(at.y_px, -2.7, 0.1);
+  }
+}
+
 // A region drawn too wide over rough metal: what stands still in it has more contrast than the print, so that every
 // picture of the calibration looks hidden in part until that has been learned.
 TEST(RenderedFrames, ARegionTooWideOverRoughMetalIsLearnedFromTheMoves) {
