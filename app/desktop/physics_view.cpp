@@ -396,7 +396,11 @@ void fill_explanations(const json& body, const Compared& runs, ui::PhysicsState&
     card.magnitude = magnitude_of(effect);
     if (effect["component"].is_string()) {
       card.place = coreText(effect["component"].get<std::string>());
-      if (effect["position_mm"].is_number()) {
+      if (effect.contains("between_mm")) {  // no point where the place is hardly known
+        card.place += QStringLiteral(", %1–%2 mm")
+                          .arg(effect["between_mm"][0].get<double>(), 0, 'f', 0)
+                          .arg(effect["between_mm"][1].get<double>(), 0, 'f', 0);
+      } else if (effect["position_mm"].is_number()) {
         card.place += QStringLiteral(", %1 mm").arg(effect["position_mm"].get<double>(), 0, 'f', 0);
       }
     } else if (effect["channel"].is_string()) {
