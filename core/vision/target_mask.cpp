@@ -10,7 +10,7 @@ namespace zerodrift::vision {
 namespace {
 
 constexpr int saturated_level = 252;
-constexpr int window_px = 5;             // residuals are averaged over it
+constexpr int mean_window_px = 5;        // residuals are averaged over it
 constexpr double excess_limit = 2.2;     // mean square over the noise: above it the pixel does not belong to the target
 constexpr float largest_square = 50.0f;  // a single outlier must not spoil its neighbours
 
@@ -23,8 +23,8 @@ cv::Mat local_squares(const std::vector<float>& map, const Region& region) {
     squares.ptr<float>()[k] = std::min(map[k] * map[k], largest_square);
     known.ptr<float>()[k] = 1.0f;
   }
-  cv::boxFilter(squares, squares, CV_32F, {window_px, window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::boxFilter(known, known, CV_32F, {window_px, window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(squares, squares, CV_32F, {mean_window_px, mean_window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(known, known, CV_32F, {mean_window_px, mean_window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
   return squares / known;  // 0 / 0 is NaN
 }
 
