@@ -30,7 +30,7 @@ constexpr std::size_t most_rows = 1500;
 constexpr double least_of_a_joint = 0.006;
 // A tenth of a cell: what is simulated knows no place better.
 constexpr double least_of_a_source = 0.0025;
-constexpr double sharp = 0.015;          // of the length: a peak so narrow stands for the whole distribution
+constexpr double sharp = 0.005;          // of the length: a peak so narrow stands for the whole distribution
 constexpr double widest_point_mm = 6.0;  // what is known worse is told as a stretch
 
 /// Excess of a prediction under other noise assumptions.
@@ -272,7 +272,7 @@ void Diagnoser::tell_place(FoundEffect& found, std::size_t index) {
   const Model& best = *m_selection.best;
   if (!m_of_others) m_of_others = seen_by_all(best, m_limits.others);
   std::map<std::string, double> sigma;
-  const Model& last = m_of_others->empty() ? best : *m_of_others->back();
+  const Model& last = m_of_others->fits.empty() ? best : *m_of_others->fits.back();
   double at_mm = fitted_effect(last, index, &sigma).numbers.at("position_mm");
   double sigma_mm = sigma["position_mm"];
   std::optional<Place> place;

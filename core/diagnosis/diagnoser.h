@@ -2,6 +2,7 @@
 // One diagnosis in the making: what select_effects finds is judged (diagnose.cpp) and told (diagnose_report.cpp).
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/selection.h"
 
@@ -77,9 +78,8 @@ class Diagnoser {
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;
-  std::vector<FarParameter> m_far;  // of what explains best
-  std::optional<std::vector<std::shared_ptr<Model>>>
-      m_of_others;  // the best in the others, where it fits them; once asked
+  std::vector<FarParameter> m_far;       // of what explains best
+  std::optional<SeenByAll> m_of_others;  // the best in the others, where it fits them; once asked
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;
   std::vector<std::shared_ptr<Model>> m_rivals;

@@ -15,23 +15,24 @@ struct Elsewhere {
 };
 
 /// In another recording with what is known of the machine, at the misfit that suits it, as in the first recording.
-ModelPtr fitted_there(const Model& fit, const Model& known, const std::shared_ptr<const Dataset>& usual) {
+ModelPtr fitted_there(const Model& fit, const Model& known, const std::shared_ptr<const Dataset>& usual,
+                      Sensors sensors) {
   Model there(fit.machine(), usual);
-  there.learn_from(known);
+  there.learn_from(known, sensors);
   there.fit({10, 0.1, true});
   auto suited = std::make_shared<Dataset>(with_discrepancy(*usual, ordinary_discrepancy(*usual, there.prediction())));
   auto own = std::make_shared<Model>(fit.machine(), std::move(suited));
-  own->learn_from(known);
+  own->learn_from(known, sensors);
   own->continue_from(there);
   own->fit({12, 0.05, true});
   return own;
 }
 
-Elsewhere elsewhere(const Model& fit, const OtherRecordings& others) {
+Elsewhere elsewhere(const Model& fit, const OtherRecordings& others, Sensors sensors = Sensors::anew) {
   Elsewhere sum;
   const Model* known = &fit;
   for (const auto& usual : others) {
-    sum.fits.push_back(fitted_there(fit, *known, usual));
+    sum.fits.push_back(fitted_there(fit, *known, usual, sensors));
     known = sum.fits.back().get();
     sum.evidence += known->log_evidence_total();
     sum.left = std::max(sum.left, excess_of(*known).largest);
@@ -88,15 +89,20 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
   models.resize(kept);
 }
 
-std::vector<ModelPtr> seen_by_all(const Model& fit, const OtherRecordings& others) {
-  Elsewhere there = elsewhere(fit, others);
+SeenByAll seen_by_all(const Model& fit, const OtherRecordings& others) {
+  Elsewhere anew = elsewhere(fit, others, Sensors::anew);
+  Elsewhere the_same = elsewhere(fit, others, Sensors::the_same);
+  constexpr double mounted_anew = 3.0;  // twenty to one: as a rule sensors stay where they are
+  const bool same = the_same.evidence > anew.evidence - mounted_anew;
+  Elsewhere& there = same ? the_same : anew;
   if (there.left > least_evident) return {};
-  return std::move(there.fits);
+  return {std::move(there.fits), same ? Sensors::the_same : Sensors::anew};
 }
 
 std::string moved_elsewhere(const Model& fit, const OtherRecordings& others) {
   for (const auto& usual : others) {
-    const std::vector<Discrepancy> asked = likely_discrepancy(*usual, fitted_there(fit, fit, usual)->prediction());
+    const std::vector<Discrepancy> asked =
+        likely_discrepancy(*usual, fitted_there(fit, fit, usual, Sensors::anew)->prediction());
     const std::string* moved = nullptr;
     bool warmer = false;
     for (std::size_t c = 0; c < asked.size(); ++c) {

@@ -27,8 +27,13 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
 std::string moved_elsewhere(const Model& fit, const OtherRecordings& others);
 /// Of the fitted recording, and of the others where they were asked.
 double evidence_of(const Model& model);
-/// The model in each of the others, with what the fitted one and those before have shown of the machine; none where it
-/// does not fit one of them.
-std::vector<ModelPtr> seen_by_all(const Model& fit, const OtherRecordings& others);
+/// The model in each of the others, with what the fitted one and those before have shown of the machine.
+struct SeenByAll {
+  std::vector<ModelPtr> fits;  // none where it does not fit one of them
+  Sensors sensors = Sensors::anew;
+};
+/// A sensor has the same offset in all recordings unless it was mounted anew: what the evidence says. What two
+/// recordings say of a place is not independent where one offset is in both.
+SeenByAll seen_by_all(const Model& fit, const OtherRecordings& others);
 
 }  // namespace zerodrift::diagnosis

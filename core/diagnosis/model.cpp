@@ -87,11 +87,14 @@ void Model::set_z(std::size_t i, double z) {
   m_z[at] = std::clamp(z, m_low[at], m_high[at]);
 }
 
-void Model::learn_from(const Model& other) {
+void Model::learn_from(const Model& other, Sensors sensors) {
+  constexpr double moved = 0.25;  // of an offset's sigma: how far it moves from one recording to the next
   const Index n = static_cast<Index>(m_free.size());
   std::vector<Index> mine, theirs;
   const auto is_new = [&](const physics::Parameter& p) {
-    return p.per_recording || (p.effect >= 0 && physics::happens_once(m_machine.effects[p.effect].id));
+    const bool stays = p.of_sensor && sensors == Sensors::the_same;
+    const bool once = p.effect >= 0 && physics::happens_once(m_machine.effects[p.effect].id);
+    return once || (p.per_recording && !stays);
   };
   for (std::size_t i = 0; i < unknowns(); ++i) {
     for (std::size_t k = 0; k < other.unknowns(); ++k) {
@@ -104,7 +107,11 @@ void Model::learn_from(const Model& other) {
   const Index known = static_cast<Index>(mine.size());
   const Index all = other.m_z.size();
   const Eigen::MatrixXd covariance = other.hessian().llt().solve(Eigen::MatrixXd::Identity(all, all));
-  const Eigen::MatrixXd shared = covariance(theirs, theirs);
+  Eigen::MatrixXd shared = covariance(theirs, theirs);
+  for (Index i = 0; i < known; ++i) {
+    const Index at = mine[static_cast<std::size_t>(i)];
+    if (unknown(static_cast<std::size_t>(at)).of_sensor) shared(i, i) += moved * moved;
+  }
   const Eigen::MatrixXd inverse = shared.llt().solve(Eigen::MatrixXd::Identity(known, known));
   m_learned.setIdentity(n, n);
   m_learned(mine, mine) = inverse;

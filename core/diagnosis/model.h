@@ -20,6 +20,9 @@ struct FitOptions {
   bool final_refresh = true;
 };
 
+/// Another recording's sensors: those of the first with the offsets they had there, or mounted anew.
+enum class Sensors { anew, the_same };
+
 class Model {
  public:
   /// The machine's effects with `candidate` set are the hypothesis.
@@ -49,7 +52,7 @@ class Model {
   /// The same machine in another recording: what its fit there knows about the unknowns that both share, with their
   /// uncertainties, stands in the place of the description. The evidence is then that of this recording beside the
   /// other.
-  void learn_from(const Model& other);
+  void learn_from(const Model& other, Sensors sensors = Sensors::anew);
 
   void fit(const FitOptions& options);
 

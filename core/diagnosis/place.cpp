@@ -22,16 +22,16 @@ physics::Machine with_place(physics::Machine machine, std::size_t effect, double
   return machine;
 }
 
-double evidence_at(const Model& fit, const std::vector<ModelPtr>& others, std::size_t effect, double at_mm) {
+double evidence_at(const Model& fit, const SeenByAll& others, std::size_t effect, double at_mm) {
   constexpr FitOptions brief = {8, 0.05, false};
   auto known = std::make_unique<Model>(with_place(fit.machine(), effect, at_mm), fit.shared_data());
   known->start_from(fit, true);
   known->fit(brief);
   double evidence = known->log_evidence();
-  for (const ModelPtr& other : others) {
+  for (const ModelPtr& other : others.fits) {
     auto there = std::make_unique<Model>(with_place(fit.machine(), effect, at_mm), other->shared_data());
     there->start_from(*other, true);
-    there->learn_from(*known);
+    there->learn_from(*known, others.sensors);
     there->fit(brief);
     evidence += there->log_evidence();
     known = std::move(there);
@@ -39,15 +39,18 @@ double evidence_at(const Model& fit, const std::vector<ModelPtr>& others, std::s
   return evidence;
 }
 
-/// Places to try: close ones about the fit's, by its own width, and a few all along, for other peaks.
+/// Places to try: close ones about the fit's, by its own width, and where that is wide a few all along, for other
+/// peaks.
 std::vector<double> places_about(double at_mm, double width_mm, double low_mm, double high_mm) {
   constexpr int to_a_side = 6;
   constexpr double apart = 0.65;  // of the width
   constexpr int all_along = 12;
+  constexpr double wide = 0.015;  // of all places
   std::vector<double> list;
   for (int i = -to_a_side; i <= to_a_side; ++i)
     list.push_back(std::clamp(at_mm + apart * i * width_mm, low_mm, high_mm));
-  for (int i = 0; i < all_along; ++i) list.push_back(std::lerp(low_mm, high_mm, i / (all_along - 1.0)));
+  const int further = width_mm > wide * (high_mm - low_mm) ? all_along : 0;
+  for (int i = 0; i < further; ++i) list.push_back(std::lerp(low_mm, high_mm, i / (all_along - 1.0)));
   std::sort(list.begin(), list.end());
   const double same_mm = 0.1 * width_mm;
   list.erase(std::unique(list.begin(), list.end(), [=](double a, double b) { return b - a < same_mm; }), list.end());
@@ -86,8 +89,8 @@ Place place_from(const std::vector<double>& position_mm, const std::vector<doubl
   return place;
 }
 
-std::optional<Place> place_of_effect(const Model& fit, const std::vector<ModelPtr>& others, std::size_t effect) {
-  const Model& last = others.empty() ? fit : *others.back();
+std::optional<Place> place_of_effect(const Model& fit, const SeenByAll& others, std::size_t effect) {
+  const Model& last = others.fits.empty() ? fit : *others.fits.back();
   const auto unknown = place_unknown(last, effect);
   if (!unknown) return std::nullopt;
   const physics::Parameter& place = last.unknown(*unknown);

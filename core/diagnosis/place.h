@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/diagnosis/refine.h"
+#include "core/diagnosis/elsewhere.h"
 
 namespace zerodrift::diagnosis {
 
@@ -21,6 +21,6 @@ Place place_from(const std::vector<double>& position_mm, const std::vector<doubl
 
 /// Place of an effect in `fit` and, where there are any, in the other recordings, each with what those before it have
 /// shown (elsewhere.h); everything else is fitted anew at each place. None without a place that is free.
-std::optional<Place> place_of_effect(const Model& fit, const std::vector<ModelPtr>& others, std::size_t effect);
+std::optional<Place> place_of_effect(const Model& fit, const SeenByAll& others, std::size_t effect);
 
 }  // namespace zerodrift::diagnosis

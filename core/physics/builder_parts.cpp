@@ -200,7 +200,7 @@ void NetworkBuilder::add_sensors() {
     offset.key = "offset_K";
     offset.channel = sensor.channel;
     offset.sigma = 0.5 * sensor.accuracy_C;  // as wide as the accuracy it would hide a faulty sensor
-    offset.per_recording = true;
+    offset.per_recording = offset.of_sensor = true;
     seen.offset = add_parameter(offset);
     if (component->inner) add_near_field(*component, sensor, seen);
     m_network.observations.push_back(std::move(seen));

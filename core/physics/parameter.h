@@ -21,6 +21,7 @@ struct Parameter {
   double start = 0.0;      // where the simulation stands without a fit
   bool amplitude = false;  // 0 means: the effect is absent
   bool per_recording = false;
+  bool of_sensor = false;  // per recording, but it stays with the sensor: the next recording has much the same
 
   double value_of(double z) const { return logarithmic ? mean * std::exp(sigma * z) : mean + sigma * z; }
   double z_of(double value) const { return logarithmic ? std::log(value / mean) / sigma : (value - mean) / sigma; }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/diagnosis.h"
@@ -72,6 +74,52 @@ TEST(Elsewhere, WhatWasLearnedIsKnownAtLeastAsWellThere) {
     }
   }
   EXPECT_GT(shared, 2);
+}
+
+/// How well each offset is known, K.
+std::map<std::string, double> offset_sigmas_of(const Model& model) {
+  std::map<std::string, double> list;
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    if (model.unknown(i).of_sensor) list[model.unknown(i).channel] = model.sigma(i);
+  }
+  return list;
+}
+
+TEST(Elsewhere, ASensorKeepsItsOffsetButForALittle) {
+  const proof::Case one = proof::make_case(42, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const physics::Machine bodies = with_inner_bodies(*machine);
+  Model first(bodies, dataset_of(bodies, one.recordings[0]));
+  first.fit({});
+  Model same(bodies, dataset_of(bodies, one.recordings[1]));
+  same.learn_from(first, Sensors::the_same);
+  same.fit({});
+  const auto known_K = offset_sigmas_of(first);
+  const auto kept_K = offset_sigmas_of(same);
+  ASSERT_GT(known_K.size(), 4u);
+  for (const auto& [channel, sigma_K] : known_K) {
+    const double may_move_K = 0.25 * 0.5 * machine->sensor(channel)->accuracy_C;
+    EXPECT_LT(kept_K.at(channel), std::hypot(sigma_K, may_move_K)) << channel;
+  }
+}
+
+TEST(Elsewhere, TheEvidenceTellsWhetherASensorWasMountedAnew) {
+  const proof::Case one = proof::make_case(42, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const physics::Machine bodies = with_inner_bodies(*machine);
+  Model first(bodies, dataset_of(bodies, one.recordings[0]));
+  first.fit({});
+  const SeenByAll kept = seen_by_all(first, {dataset_of(bodies, one.recordings[1])});
+  EXPECT_EQ(kept.fits.size(), 1u);
+  EXPECT_EQ(kept.sensors, Sensors::the_same);
+  recording::Recording moved = one.recordings[1];
+  for (auto& channel : moved.channels) {
+    const double by_K = channel.name == "T2_C" ? 0.15 : channel.name == "T4_C" ? -0.15 : 0.0;
+    for (double& value : channel.values) value += by_K;
+  }
+  const SeenByAll mounted = seen_by_all(first, {dataset_of(bodies, moved)});
+  EXPECT_EQ(mounted.fits.size(), 1u);
+  EXPECT_EQ(mounted.sensors, Sensors::anew);
 }
 
 /// Its offsets and temperatures fit no better with any effect of the first machine.
