@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 197> measuring = {{
+constexpr std::array<const char*, 198> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -162,6 +162,7 @@ constexpr std::array<const char*, 197> measuring = {{
     QT_TRANSLATE_NOOP("core", "too blurred"),
     QT_TRANSLATE_NOOP("core", "target out of view"),
     QT_TRANSLATE_NOOP("core", "seen in part, may be a period further"),
+    QT_TRANSLATE_NOOP("core", "parts of the region have moved apart"),
     QT_TRANSLATE_NOOP("core", "a pixel would be %1 um; are the positions really in mm?"),
     QT_TRANSLATE_NOOP("core",
                       "the positions are too close together, or not in mm: %1 um apart, with %2 um of the machine's "

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/vision/frame_patch.h"
+#include "core/vision/opencv_image.h"
 #include "core/vision/registration_solver.h"
 #include "core/vision/smooth_field.h"
 #include "core/vision/window_likeness.h"
@@ -42,8 +43,17 @@ constexpr int largest_rounds = 6;
 constexpr int shared_patch_px = 24;   // further apart, two patches are less work than one around both
 constexpr float seen_through = 0.5f;  // less may be the noise of what was learned
 constexpr int within_outline_px = 10;
-constexpr double straight = 0.01;      // a solve that bent the target more may have been caught by a reflection
-constexpr double outline_share = 0.5;  // of the gradient energy: then it will do alone
+constexpr double even_blur_px = 1.5;
+constexpr double even_noises = 3.0;
+constexpr double even_levels = 3.0;         // that light may fall off by, over the region
+constexpr double single_share = 0.98;       // of what is not beside the target, that hangs together
+constexpr double most_of_region = 0.9;      // a target that fills its region shows no outline
+constexpr double straight = 0.01;           // a solve that bent the target more may have been caught by a reflection
+constexpr double field_bias = 16.0;         // chi-square: four standard deviations, for blur's shape moves both
+constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
+constexpr double outline_known_px = 0.003;  // what stands behind is not known better, and draws the outline
+constexpr double outline_bias = 6.0;        // one frame in twenty without need: what is reflected is hardly missed
+constexpr double outline_share = 0.5;       // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
 double fit_of(const Registration& r) {
@@ -54,14 +64,15 @@ bool needs_field(const Registration& r) {
   return r.structure > structure_limit || (r.saturated_share > glare_share && r.inlier_share < clean_inliers);
 }
 
-// Hausman's test (Econometrica 46 (1978) 1251): the solve without a field is the more precise of the two, the one with
-// it the more robust. Where they differ by more than their noise allows, the first is biased. True then.
-bool biased(const Registration& without, const Registration& with_field) {
-  constexpr double limit = 16.0;  // chi-square of two numbers: four standard deviations, for blur's shape moves both
+// Hausman's test (Econometrica 46 (1978) 1251): of two solves one is the more precise, the other - with a field, or
+// with less of the target - the more robust. Where they differ by more than their noise allows, the first is biased.
+// `limit` is a chi-square of two numbers. True then.
+bool biased(const Registration& precise, const Registration& robust, double limit, double known_px = 0.0) {
   constexpr double least_share = 0.1;  // of the variance, where both hardly differ
-  const Eigen::Vector2d moved = with_field.displacement_px - without.displacement_px;
-  const Eigen::Vector2d& variance = without.noise_variance_px2;
-  const Eigen::Vector2d expected = (with_field.noise_variance_px2 - variance).cwiseMax(least_share * variance);
+  const Eigen::Vector2d moved = robust.displacement_px - precise.displacement_px;
+  const Eigen::Vector2d& variance = precise.noise_variance_px2;
+  const Eigen::Vector2d expected =
+      (robust.noise_variance_px2 - variance).cwiseMax(least_share * variance).array() + known_px * known_px;
   return (moved.cwiseAbs2().array() / expected.array()).sum() > limit;
 }
 
@@ -98,13 +109,44 @@ bool alike(const ImageSetup& a, const ImageSetup& b) {
   return a.template_blur == b.template_blur && a.frame_blur == b.frame_blur;
 }
 
+// 1 where the template shows what is beside the target: what has been learned of it or, where that could not be told
+// from the template because it is even, the even part that reaches the region's border around one thing. Empty where
+// neither is so.
+cv::Mat beside_target(const TemplateSource& source, const TemplateModel& model) {
+  if (source.backdrop && !model.shown.empty()) {
+    return cv::Mat(mat_view(source.backdrop->clear) > seen_through) / 255;
+  }
+  cv::Mat levels;
+  cv::GaussianBlur(mat_view(source.pixels), levels, {0, 0}, even_blur_px);
+  std::vector<float> border;
+  for (int x = 0; x < levels.cols; ++x)
+    border.insert(border.end(), {levels.at<float>(0, x), levels.at<float>(levels.rows - 1, x)});
+  for (int y = 0; y < levels.rows; ++y)
+    border.insert(border.end(), {levels.at<float>(y, 0), levels.at<float>(y, levels.cols - 1)});
+  std::nth_element(border.begin(), border.begin() + border.size() / 2, border.end());
+  const float level = border[border.size() / 2];
+  const double reach = even_noises * source.noise_levels + even_levels;
+  const cv::Mat even = cv::abs(levels - level) < reach;
+  cv::Mat labels, figures, centres;
+  // Around it: what is even within a ring is no surroundings.
+  cv::Mat framed;
+  cv::copyMakeBorder(even, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 255);
+  cv::connectedComponentsWithStats(framed, labels, figures, centres, 4);
+  const cv::Mat around = labels == labels.at<int>(0, 0);
+  const cv::Mat beside = around(cv::Rect(1, 1, even.cols, even.rows)).clone();
+  const int things = cv::connectedComponentsWithStats(255 - beside, labels, figures, centres, 8);
+  int largest = 0;
+  for (int k = 1; k < things; ++k) largest = std::max(largest, figures.at<int>(k, cv::CC_STAT_AREA));
+  const int all = static_cast<int>(beside.total()) - cv::countNonZero(beside);
+  const bool one_thing = largest > single_share * all && all < most_of_region * static_cast<double>(beside.total());
+  return one_thing ? cv::Mat(beside / 255) : cv::Mat();
+}
+
 // The source with what lies well within its outline left out; nothing where that would be lost too much, or
 // where there is no outline.
 std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model) {
-  if (!source.backdrop || model.shown.empty()) return std::nullopt;
-  const FloatImage& clear = source.backdrop->clear;
-  cv::Mat near(clear.height, clear.width, CV_8U);
-  for (std::size_t k = 0; k < clear.values.size(); ++k) near.data[k] = clear.values[k] > seen_through ? 1 : 0;
+  cv::Mat near = beside_target(source, model);
+  if (near.empty()) return std::nullopt;
   const int side = 2 * within_outline_px + 1;
   cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
   TemplateSource out = source;
@@ -286,75 +328,106 @@ std::vector<std::uint8_t> Registrar::unlike(const GrayImage& frame, int dx_px, i
   return out;
 }
 
-Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
-  const RegistrationStart first_start = start;
-  const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
-  ImageSetup setup = plain;
+// What goes from solve to solve: how the images are blurred, the template's model if that is not the usual one, and
+// where to start.
+struct Registrar::Course {
+  PatchOfFrame& patches;
+  RegistrationStart start;
+  ImageSetup setup;
   std::optional<TemplateModel> blurred_model;
-  const bool glare = match_blur_at_a_glance(patches, setup, blurred_model, start) > glare_share;
+  bool glare = false;
+  bool with_residual_map = false;
+};
+
+Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
+  const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
+  Course course{patches, std::move(start), plain, std::nullopt, false, with_residual_map};
+  const RegistrationStart first_start = course.start;
+  course.glare = match_blur_at_a_glance(patches, course.setup, course.blurred_model, course.start) > glare_share;
+  Registration whole = solve(m_source, m_model, first_start, course);
+  if (!outline_tells_more(whole)) return whole;
+  // What disagrees may be what is reflected within the outline, and what agrees so far may have been moved by less than
+  // the residual shows.
+  if (course.setup.with_field && whole.structure < doubtful_structure) return whole;
+  course.setup.with_field = false;
+  course.start.linear.setIdentity();
+  course.start.outline_alone = true;
+  course.blurred_model.reset();
+  Registration outline = solve(*m_outline, *m_outline_model, course.start, course);
+  if (!outline.converged) return whole;
+  const bool reflected = whole.structure > structure_limit || biased(whole, outline, outline_bias, outline_known_px);
+  return reflected ? outline : whole;
+}
+
+// Of a target that was found by all that it shows: whether it is to be found by its outline too.
+bool Registrar::outline_tells_more(const Registration& whole) const {
+  return m_outline && whole.converged && (m_outline_model->pixels < m_model.pixels || linear_change(whole) > straight);
+}
+
+Registration Registrar::solve(const TemplateSource& source, const TemplateModel& usual,
+                              const RegistrationStart& first_start, Course& course) const {
+  const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
+  ImageSetup& setup = course.setup;
+  std::optional<TemplateModel>& blurred_model = course.blurred_model;
   Registration out;
   bool field_helped = false;
   bool on_trial = false;
-  const TemplateSource* source = &m_source;
   const auto remodel = [&] {
     blurred_model.reset();
-    if (!alike(setup, plain)) blurred_model = make_template_model(*source, setup.template_blur, setup.frame_blur);
+    if (!alike(setup, plain)) blurred_model = make_template_model(source, setup.template_blur, setup.frame_blur);
   };
+  if (!blurred_model) remodel();
   for (int round = 0; round < largest_rounds; ++round) {
-    const TemplateModel& model = blurred_model ? *blurred_model : source == &m_source ? m_model : *m_outline_model;
+    const TemplateModel& model = blurred_model ? *blurred_model : usual;
     std::optional<SmoothField> field;
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
-    RegistrationSolver solver(model, patches.with(setup), field ? &*field : nullptr, start);
+    RegistrationSolver solver(model, course.patches.with(setup), field ? &*field : nullptr, course.start);
     if (!solver.run()) {
       // A first attempt without the field may fail in a strong halo; one with it is the last.
-      if (setup.with_field && (!glare || out.converged || alike(setup, plain))) break;
+      if (setup.with_field && (!course.glare || out.converged || alike(setup, plain))) break;
       // What looked like a strong blur may have been the halo.
       if (setup.with_field) {
         setup = plain;
-        start = first_start;
+        course.start = first_start;
         blurred_model.reset();
       }
       setup.with_field = true;
       continue;
     }
     Registration found = solver.fit(model.pixels);
-    const bool another = m_outline && (m_outline_model->pixels < m_model.pixels || linear_change(found) > straight);
-    if (another && source == &m_source && found.structure > doubtful_structure) {
-      // What disagrees may be what is reflected within the outline: from here on it does without.
-      source = &*m_outline;
-      match_blur(solver.extra_blur_px2(), setup);
-      remodel();
-      solver.hand_over(start);
-      start.linear.setIdentity();
-      continue;
-    }
     const bool field_is_new = setup.with_field && out.converged && !field_helped;
     if (field_is_new && found.structure > out.structure) break;  // it explained nothing
     field_helped = setup.with_field;
     if (on_trial) {
       // A trial of the field: what was found without it stands unless it was biased.
       solver.tell_uncertainty(found);
-      if (!biased(out, found)) break;
+      if (!biased(out, found, field_bias)) break;
     }
     const bool told = on_trial;
     out = found;
-    if (with_residual_map) out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
-    solver.hand_over(start);
+    if (course.with_residual_map) {
+      out.residual_map = solver.residual_map(m_source.region.width, m_source.region.height);
+    }
+    solver.hand_over(course.start);
     ImageSetup next = setup;
     const bool blurs = match_blur(solver.extra_blur_px2(), next);
-    on_trial = !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;
-    next.with_field = setup.with_field || (!blurs && (needs_field(out) || on_trial));
-    const bool last = (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
+    // The outline comes before a field.
+    const bool doubted = &source == &m_source && outline_tells_more(out) && out.structure > doubtful_structure;
+    on_trial = !doubted && !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;
+    next.with_field = setup.with_field || (!doubted && !blurs && (needs_field(out) || on_trial));
+    const bool last = doubted || (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
     // What only leads to a better matched blur need not be known so well.
     if (!told && (last || !blurs)) {
       if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
       solver.tell_uncertainty(out);
     }
+    if (doubted) setup = next;
     if (last) break;
     setup = next;
     if (blurs) remodel();
   }
   out.converged = out.converged && out.covariance_px2(0, 0) > 0.0;
+  if (m_outline && m_source.backdrop) out.covariance_px2.diagonal().array() += learned_px * learned_px;
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;
 }

@@ -65,7 +65,11 @@ class Registrar {
   const TemplateSource& source() const { return m_source; }
 
  private:
+  struct Course;
   Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
+  Registration solve(const TemplateSource& source, const TemplateModel& usual, const RegistrationStart& first_start,
+                     Course& course) const;
+  bool outline_tells_more(const Registration& whole) const;
   Region patch_at(int dx_px, int dy_px) const;
   /// 1 for each pixel of the region around which a frame does not look like the template there.
   std::vector<std::uint8_t> unlike(const GrayImage& frame, int dx_px, int dy_px) const;

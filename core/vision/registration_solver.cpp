@@ -12,6 +12,9 @@ constexpr double reach_px = 8.0;  // the coarse search is never further off
 constexpr double lens_unit = registration_lens_unit;
 constexpr double length_px = registration_length_px;
 constexpr double linear_prior = 0.02;  // standard deviation of the affine part: keeps rings, which cannot see rotation
+// An outline does not see a round target turn; what is still seen of it is reflected, and would move a point beside its
+// middle.
+constexpr double linear_prior_of_outline = 0.002;
 constexpr double linear_prior_with_field = 0.006;  // beside a free field, shape is weak evidence of the linear part
 constexpr double field_prior_levels = 60.0;
 constexpr double settled_px = 3e-5;
@@ -38,6 +41,7 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
       m_doubted(start.doubted),
       m_lens(start.lens.per_px2),
       m_prior(start.lens),
+      m_outline_alone(start.outline_alone),
       m_judge(model, model.noise_correlation) {
   const int n = model.pixels;
   m_rows.resize(row_length, n);
@@ -240,7 +244,8 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
     p.field.solve_in_place(p.field_share);
     p.normal -= cross.transpose() * p.field_share;
   }
-  const double linear = m_field != nullptr ? linear_prior_with_field : linear_prior;
+  double linear = m_field != nullptr ? linear_prior_with_field : linear_prior;
+  if (m_outline_alone) linear = linear_prior_of_outline;
   p.linear_prior = std::pow(m_scale / (length_px * linear), 2);
   p.lens_prior = std::pow(m_scale * lens_unit / m_prior.sigma_per_px2, 2);
   p.normal.diagonal().segment<4>(axx).array() += p.linear_prior;

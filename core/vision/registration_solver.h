@@ -30,6 +30,7 @@ struct RegistrationStart {
   std::optional<Eigen::Matrix<double, registration_light_count, 1>> light;  // of an earlier solve, without its blur
   // Pixels of the region that the glance alone does without, 1 each; null: none.
   const std::vector<std::uint8_t>* doubted = nullptr;
+  bool outline_alone = false;
 };
 
 class RegistrationSolver {
@@ -119,6 +120,7 @@ class RegistrationSolver {
   double m_scale = 1.0;
   double m_last_step_px = 1.0;
   LensTerm m_prior;
+  bool m_outline_alone;
   Eigen::VectorXf m_field_levels;
   Rows m_rows;
   Eigen::VectorXf m_frame, m_error;

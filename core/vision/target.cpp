@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/vision/coarse_search.h"
+#include "core/vision/moved_apart.h"
 #include "core/vision/registration.h"
 #include "core/vision/repeating_target.h"
 #include "core/vision/target_mask.h"
@@ -60,6 +61,8 @@ constexpr double another_print =
     0.5;  // of what does not fit: covers and chips stay below 0.25, other codes and letters above 0.65
 constexpr double least_seen = 0.70;
 constexpr double part_correlation = 0.98;
+constexpr double rough_correlation = 0.9;
+constexpr double rough_coarse_correlation = 0.5;
 constexpr int least_moved = 3;             // frames in which the target is elsewhere
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
@@ -135,6 +138,8 @@ std::string_view words_of(Refusal refusal) {
       return "too different from the template";
     case Refusal::ambiguous:
       return "seen in part, may be a period further";
+    case Refusal::moved_apart:
+      return "parts of the region have moved apart";
     case Refusal::other_size:
       return "another resolution than the template";
   }
@@ -248,10 +253,20 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
 }
 
 Location Target::locate(const GrayImage& frame) const {
-  return search(frame, nullptr);
+  Registration found;
+  Location out = search(frame, nullptr, &found);
+  // What stands behind it is known, or the pattern is its own rival a period further.
+  if (!out.ok || m_impl->backdrop || m_impl->repeating.repeats()) return out;
+  if (found.inlier_share + found.saturated_share > nothing_hidden) return out;
+  if (!moved_apart(m_impl->image, m_impl->region, m_impl->point, m_impl->mask, frame, found)) return out;
+  out.ok = false;
+  out.refusal = Refusal::moved_apart;
+  out.reason = words_of(out.refusal);
+  out.x_px = out.y_px = out.sigma_x_px = out.sigma_y_px = std::numeric_limits<double>::quiet_NaN();
+  return out;
 }
 
-Location Target::search(const GrayImage& frame, std::vector<float>* residual_map) const {
+Location Target::search(const GrayImage& frame, std::vector<float>* residual_map, Registration* fit) const {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Location out;
   out.point = m_impl->point;
@@ -302,6 +317,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
     out.point = {m_impl->point.x_px + best.displacement_px(0), m_impl->point.y_px + best.displacement_px(1)};
   }
   if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
+  if (fit != nullptr) *fit = best;
   const Refusal why = judge(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
   if (doubt.may_be_elsewhere) return refuse(Refusal::ambiguous);
@@ -315,14 +331,39 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   return out;
 }
 
-// Twice: the second time from where the target is found with what the first time taught.
+// Where a frame shows the target as far as can be told before anything is known of what stands behind it.
+std::optional<RegisteredFrame> Target::rough_place(const GrayImage& frame) const {
+  const Location at = search(frame);
+  if (at.ok) return RegisteredFrame{&frame, {at.x_px, at.y_px}, at.linear, at.lens};
+  RegisteredFrame out{&frame, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), {}};
+  if (at.correlation > rough_correlation && at.inlier_share > least_inliers) {
+    out.displacement_px = {at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px};
+    return out;
+  }
+  const std::vector<Candidate> places = m_impl->coarse.find(frame, 1);
+  if (places.empty() || places.front().correlation < rough_coarse_correlation) return std::nullopt;
+  out.displacement_px = {places.front().dx_px, places.front().dy_px};
+  return out;
+}
+
+// Round after round, from where the target is found with what the one before taught. Before a backdrop that hides how
+// much is like the target the first has to do with rough places.
 Target Target::learned_backdrop(const std::vector<GrayImage>& frames) const {
   Target out = *this;
-  for (int round = 0; round < 2; ++round) {
+  const auto moved = [](const RegisteredFrame& one) { return one.displacement_px.norm() > least_move_px; };
+  bool rough = false;
+  for (int round = 0; round < (rough ? 3 : 2); ++round) {
     std::vector<RegisteredFrame> registered;
     for (const GrayImage& frame : frames) {
-      const Location at = out.locate(frame);
+      const Location at = out.search(frame);
       if (at.ok) registered.push_back({&frame, {at.x_px, at.y_px}, at.linear, at.lens});
+    }
+    if (round == 0 && std::count_if(registered.begin(), registered.end(), moved) < least_moved) {
+      rough = true;
+      registered.clear();
+      for (const GrayImage& frame : frames) {
+        if (const auto place = out.rough_place(frame)) registered.push_back(*place);
+      }
     }
     const auto backdrop = learn_backdrop(m_impl->image, m_impl->region, m_impl->point, registered);
     if (!backdrop) break;
@@ -354,7 +395,7 @@ Target Target::learned_from(const std::vector<GrayImage>& frames) const {
   const Target masked = seen.learned_backdrop(frames).without_what_stands(frames, false);
   std::vector<LensTerm> lenses;
   for (const GrayImage& frame : frames) {
-    const Location at = masked.locate(frame);
+    const Location at = masked.search(frame);
     if (at.ok) lenses.push_back(at.lens);
   }
   return masked.with_lens(combined(m_lens, lenses));

@@ -27,6 +27,7 @@ enum class Refusal {
   out_of_view,
   too_different,
   ambiguous,
+  moved_apart,
   other_size
 };
 /// "target missing", "glare", ...; "" for none.
@@ -51,6 +52,8 @@ struct Location {
   double structure = 0.0;  // left in the residual, in units of its noise
   LensTerm lens;           // what is known of the lens after this frame
 };
+
+struct Registration;
 
 class Target {
  public:
@@ -85,9 +88,11 @@ class Target {
 
  private:
   struct Impl;
+  std::optional<RegisteredFrame> rough_place(const GrayImage& frame) const;
   Target learned_backdrop(const std::vector<GrayImage>& frames) const;
   Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part) const;
-  Location search(const GrayImage& frame, std::vector<float>* residual_map) const;
+  Location search(const GrayImage& frame, std::vector<float>* residual_map = nullptr,
+                  Registration* fit = nullptr) const;
   explicit Target(std::shared_ptr<const Impl> impl, LensTerm lens = {}) : m_impl(std::move(impl)), m_lens(lens) {}
   std::shared_ptr<const Impl> m_impl;
   LensTerm m_lens;

@@ -3738,6 +3738,10 @@
         <translation>轴 %1：超出补偿表自身限值 %3 um 的部分（最多 %2 um）被截去</translation>
     </message>
     <message>
+        <source>parts of the region have moved apart</source>
+        <translation>区域内各部分移动不一致</translation>
+    </message>
+    <message>
         <source>seen in part, may be a period further</source>
         <translation>仅部分可见，可能相差一个周期</translation>
     </message>

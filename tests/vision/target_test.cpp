@@ -280,6 +280,29 @@ TEST(Target, RefusesWhatIsNotTheTarget) {
   EXPECT_EQ(target.locate(GrayImage{10, 10, std::vector<std::uint8_t>(100)}).refusal, Refusal::other_size);
 }
 
+// A plate in front of a print that stands still, the region around both: of one picture nothing tells which is meant.
+TEST(Target, ARegionWhosePartsMoveApartIsRefused) {
+  const GrayImage behind = render(Speckle(31, 320.0, 240.0, 460.0));
+  const GrayImage plate = render(Speckle(32, 320.0, 240.0, 180.0));
+  const auto with_plate_at = [&](int dx, int dy, const GrayImage& shown) {
+    GrayImage out = behind;
+    for (int y = 170; y < 310; ++y) {
+      for (int x = 250; x < 390; ++x) out.at(x + dx, y + dy) = shown.at(x, y);
+    }
+    return out;
+  };
+  const auto target = Target::create(with_plate_at(0, 0, plate), {130, 50, 380, 380}, {}, "t.png");
+  ASSERT_TRUE(target);
+  EXPECT_TRUE(target->locate(with_plate_at(0, 0, plate)).ok);
+  for (const int dx : {2, 4, -7, 21}) {
+    const Location at = target->locate(with_plate_at(dx, 3, plate));
+    EXPECT_FALSE(at.ok) << dx;
+    EXPECT_EQ(at.refusal, Refusal::moved_apart) << dx << " " << at.reason;
+  }
+  // A cover with a print of its own is none of this: what it hides is nowhere else.
+  EXPECT_TRUE(target->locate(with_plate_at(4, 3, render(Speckle(33, 320.0, 240.0, 180.0)))).ok);
+}
+
 TEST(Target, RefusesRegionsThatCannotWork) {
   const GrayImage image = render(Speckle(1));
   EXPECT_EQ(Target::create(image, {600, 0, 100, 100}, {}, "t.png").error().code, ErrorCode::region_outside_image);

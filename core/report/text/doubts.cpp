@@ -143,6 +143,7 @@ std::vector<TextEntry> texts_of_doubts() {
       {"too blurred", "图像模糊"},
       {"target out of view", "靶标超出视场"},
       {"seen in part, may be a period further", "仅部分可见，可能相差一个周期"},
+      {"parts of the region have moved apart", "区域内各部分移动不一致"},
       {"too different from the template", "与模板差异过大"},
       {"another resolution than the template", "分辨率与模板不同"},
       {"target partly covered", "靶标部分被遮挡"},

@@ -1,0 +1,118 @@
+// A ball before what stands still: it shows little beside its outline, and what is reflected in it turns with the lamp.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/vision/target.h"
+
+namespace zerodrift::vision {
+namespace {
+
+struct Ball {
+  double dx = 0.0, dy = 0.0;
+  double highlight_dx = 0.0, highlight_dy = 0.0;  // of what is reflected, within the ball
+  unsigned seed = 1;
+};
+
+constexpr double radius_px = 70.0;
+const Region around_ball{240, 160, 160, 160};
+
+// Dark, with the reflection of a lamp and of a brighter floor, its outline blurred over two pixels.
+GrayImage ball_before(const GrayImage& behind, const Ball& ball) {
+  GrayImage out = behind;
+  std::mt19937 random(ball.seed);
+  std::normal_distribution<double> noise(0.0, 0.8);
+  const double x0 = 319.7 + ball.dx, y0 = 239.4 + ball.dy;
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const double shown = 0.5 * std::erfc((std::hypot(x - x0, y - y0) - radius_px) / (0.9 * M_SQRT2));
+      const double lamp = std::hypot(x - x0 - 14.0 - ball.highlight_dx, y - y0 + 11.0 - ball.highlight_dy);
+      const double own = 28.0 + 0.2 * (y - y0) + 150.0 / (1.0 + std::exp((lamp - 6.0) / 1.5));
+      const double level = shown * own + (1.0 - shown) * out.at(x, y) + noise(random);
+      out.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0l, 255l));
+    }
+  }
+  return out;
+}
+
+// Noise smoothed over some pixels, 90 +- 14 grey levels.
+GrayImage rough_casting() {
+  constexpr int width = 640, height = 480, reach = 3;
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise;
+  std::vector<double> levels(static_cast<std::size_t>(width) * height);
+  for (double& one : levels) one = noise(random);
+  for (const int step : {1, width, 1, width}) {  // along rows and columns, twice
+    std::vector<double> sums(levels.size());
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      for (int n = -reach; n <= reach; ++n) sums[k] += levels[(k + levels.size() + n * step) % levels.size()];
+    }
+    levels = sums;
+  }
+  double squares = 0.0;
+  for (const double one : levels) squares += one * one;
+  const double scale = 14.0 / std::sqrt(squares / static_cast<double>(levels.size()));
+  GrayImage out{width, height, std::vector<std::uint8_t>(levels.size())};
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    out.pixels[k] = static_cast<std::uint8_t>(std::clamp(std::lround(90.0 + scale * levels[k]), 0l, 255l));
+  }
+  return out;
+}
+
+std::vector<GrayImage> nine_views(const GrayImage& behind) {
+  std::vector<GrayImage> out;
+  for (const double dx : {-60.0, 0.0, 60.0}) {
+    for (const double dy : {-60.0, 0.0, 60.0}) {
+      out.push_back(ball_before(behind, {.dx = dx, .dy = dy, .seed = static_cast<unsigned>(100 + out.size())}));
+    }
+  }
+  return out;
+}
+
+// Much of a view does not look like the template until what stands behind is known.
+TEST(BallBeforeABackdrop, IsCalibratedAndMeasuredBeforeARoughOne) {
+  const GrayImage behind = rough_casting();
+  const auto plain = Target::create(ball_before(behind, {}), around_ball, {}, "t.png");
+  ASSERT_TRUE(plain);
+  const std::vector<GrayImage> views = nine_views(behind);
+  const Target target = plain->learned_from(views);
+  for (const GrayImage& view : views) EXPECT_TRUE(target.locate(view).ok);
+  for (const auto& [dx, dy] : {std::pair{3.3, -2.1}, {-6.7, 5.2}, {0.4, 7.9}}) {
+    const Location at = target.locate(ball_before(behind, {.dx = dx, .dy = dy, .seed = 7}));
+    ASSERT_TRUE(at.ok) << at.reason;
+    EXPECT_NEAR(at.x_px, dx, 0.05);
+    EXPECT_NEAR(at.y_px, dy, 0.05);
+  }
+}
+
+// Nothing can be learned of a backdrop without texture; what turns with the lamp must not move the ball all the same.
+TEST(BallBeforeABackdrop, ATurnedLampDoesNotMoveItBeforeAnEvenOne) {
+  const GrayImage behind{640, 480, std::vector<std::uint8_t>(640 * 480, 150)};
+  const auto plain = Target::create(ball_before(behind, {}), around_ball, {}, "t.png");
+  ASSERT_TRUE(plain);
+  const Target target = plain->learned_from(nine_views(behind));
+  double squares = 0.0;
+  int count = 0;
+  for (const double moved : {0.3, 1.0, 2.0, 4.0}) {
+    for (const double angle : {0.4, 2.5, 4.6}) {
+      const Ball ball{.dx = 2.3,
+                      .dy = -1.6,
+                      .highlight_dx = moved * std::cos(angle),
+                      .highlight_dy = moved * std::sin(angle),
+                      .seed = 9};
+      const Location at = target.locate(ball_before(behind, ball));
+      ASSERT_TRUE(at.ok) << at.reason << " at " << moved;
+      EXPECT_NEAR(at.x_px, 2.3, 0.015) << moved << " " << angle;
+      EXPECT_NEAR(at.y_px, -1.6, 0.015) << moved << " " << angle;
+      squares += std::pow((at.x_px - 2.3) / at.sigma_x_px, 2) + std::pow((at.y_px + 1.6) / at.sigma_y_px, 2);
+      count += 2;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 2.0);
+}
+
+}  // namespace
+}  // namespace zerodrift::vision
