@@ -53,6 +53,7 @@ constexpr double field_bias = 16.0;         // chi-square: four standard deviati
 constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
 constexpr double outline_known_px = 0.003;  // what stands behind is not known better, and draws the outline
 constexpr double outline_bias = 6.0;        // one frame in twenty without need: what is reflected is hardly missed
+constexpr double all_of_it = 0.98;          // of the pixels
 constexpr double outline_share = 0.5;       // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
@@ -67,13 +68,22 @@ bool needs_field(const Registration& r) {
 // Hausman's test (Econometrica 46 (1978) 1251): of two solves one is the more precise, the other - with a field, or
 // with less of the target - the more robust. Where they differ by more than their noise allows, the first is biased.
 // `limit` is a chi-square of two numbers. True then.
-bool biased(const Registration& precise, const Registration& robust, double limit, double known_px = 0.0) {
+bool biased(const Eigen::Vector2d& moved, const Eigen::Vector2d& precise_variance,
+            const Eigen::Vector2d& robust_variance, double limit, double known_px = 0.0) {
   constexpr double least_share = 0.1;  // of the variance, where both hardly differ
-  const Eigen::Vector2d moved = robust.displacement_px - precise.displacement_px;
-  const Eigen::Vector2d& variance = precise.noise_variance_px2;
   const Eigen::Vector2d expected =
-      (robust.noise_variance_px2 - variance).cwiseMax(least_share * variance).array() + known_px * known_px;
+      (robust_variance - precise_variance).cwiseMax(least_share * precise_variance).array() + known_px * known_px;
   return (moved.cwiseAbs2().array() / expected.array()).sum() > limit;
+}
+
+bool biased(const Registration& precise, const Registration& robust, double limit, double known_px = 0.0) {
+  return biased(robust.displacement_px - precise.displacement_px, precise.noise_variance_px2, robust.noise_variance_px2,
+                limit, known_px);
+}
+
+bool biased_at_middle(const Registration& precise, const Registration& robust, double limit, double known_px) {
+  return biased(robust.middle_px - precise.middle_px, precise.middle_variance_px2, robust.middle_variance_px2, limit,
+                known_px);
 }
 
 // The solve sees of a blur the part that the second derivative tells. For an edge of variance s^2 that is further
@@ -142,11 +152,16 @@ cv::Mat beside_target(const TemplateSource& source, const TemplateModel& model) 
   return one_thing ? cv::Mat(beside / 255) : cv::Mat();
 }
 
-// The source with what lies well within its outline left out; nothing where that would be lost too much, or
-// where there is no outline.
-std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model) {
+// The source with what lies well within its outline left out, and the middle of the whole from the named point; nothing
+// where that would be lost too much, or where there is no outline.
+std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model,
+                                         Eigen::Vector2d& middle_px) {
   cv::Mat near = beside_target(source, model);
   if (near.empty()) return std::nullopt;
+  const cv::Moments target = cv::moments(1 - near, true);
+  if (target.m00 <= 0.0) return std::nullopt;
+  middle_px = Eigen::Vector2d(target.m10, target.m01) / target.m00 -
+              Eigen::Vector2d(source.margin_px + source.point.x_px, source.margin_px + source.point.y_px);
   const int side = 2 * within_outline_px + 1;
   cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
   TemplateSource out = source;
@@ -200,7 +215,7 @@ Registrar::Registrar(TemplateSource source)
     m_model = make_template_model(m_source, wide, wide);
   }
   find_noise_growth(m_model);
-  m_outline = outline_of(m_source, m_model);
+  m_outline = outline_of(m_source, m_model, m_middle);
   if (!m_outline) return;
   m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
   find_noise_growth(*m_outline_model);
@@ -342,6 +357,7 @@ struct Registrar::Course {
 Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
   const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
   Course course{patches, std::move(start), plain, std::nullopt, false, with_residual_map};
+  course.start.middle_px = m_middle;
   const RegistrationStart first_start = course.start;
   course.glare = match_blur_at_a_glance(patches, course.setup, course.blurred_model, course.start) > glare_share;
   Registration whole = solve(m_source, m_model, first_start, course);
@@ -355,8 +371,17 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   course.blurred_model.reset();
   Registration outline = solve(*m_outline, *m_outline_model, course.start, course);
   if (!outline.converged) return whole;
-  const bool reflected = whole.structure > structure_limit || biased(whole, outline, outline_bias, outline_known_px);
-  return reflected ? outline : whole;
+  if (whole.structure < structure_limit && !biased_at_middle(whole, outline, outline_bias, outline_known_px)) {
+    // A print turns with the target and fits all over; what is reflected turns with the lamp and does not.
+    const bool all_fits = whole.inlier_share + whole.saturated_share > all_of_it;
+    if (all_fits || !biased(whole, outline, outline_bias, outline_known_px)) return whole;
+  }
+  // Whether it has turned is not told by a round outline, and a point beside the middle moves with it.
+  const Eigen::Vector2d lever = course.start.middle_px;
+  const Eigen::Vector2d by_turn = (whole.linear - outline.linear) * lever;
+  const double unknown_px = linear_prior_of_outline * lever.norm();
+  outline.covariance_px2.diagonal().array() += by_turn.array().square() + unknown_px * unknown_px;
+  return outline;
 }
 
 // Of a target that was found by all that it shows: whether it is to be found by its outline too.

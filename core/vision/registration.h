@@ -20,12 +20,14 @@ struct Registration {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();       // affine part
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
   Eigen::Vector2d noise_variance_px2 = Eigen::Vector2d::Zero();  // what the covariance would be by the noise alone
-  double correlation = 0.0;                                      // weighted, of frame and model
-  double inlier_share = 0.0;                                     // of the pixels, by weight over a quarter
-  double informed_share = 0.0;                                   // of the gradient energy
-  double rim_share = 1.0;                                        // the same in the outermost eighths of the region
-  double printed_otherwise = 0.0;                                // of what does not fit: shows the target's other tones
-  double seen_share = 0.0;                                       // of the pixels that lie in the frame
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // displacement of the target's middle, which no turn moves
+  Eigen::Vector2d middle_variance_px2 = Eigen::Vector2d::Zero();  // by the noise alone
+  double correlation = 0.0;                                       // weighted, of frame and model
+  double inlier_share = 0.0;                                      // of the pixels, by weight over a quarter
+  double informed_share = 0.0;                                    // of the gradient energy
+  double rim_share = 1.0;                                         // the same in the outermost eighths of the region
+  double printed_otherwise = 0.0;  // of what does not fit: shows the target's other tones
+  double seen_share = 0.0;         // of the pixels that lie in the frame
   double saturated_share = 0.0;
   double contrast = 0.0;   // gain of the frame over the template
   double blur_px2 = 0.0;   // largest change of the blur's variance since the template, px^2
@@ -83,6 +85,7 @@ class Registrar {
   // reflection of a lamp, which may have moved.
   std::optional<TemplateSource> m_outline;
   std::optional<TemplateModel> m_outline_model;
+  Eigen::Vector2d m_middle = Eigen::Vector2d::Zero();  // of the outline, from the named point
 };
 
 }  // namespace zerodrift::vision

@@ -249,6 +249,14 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   const Eigen::Matrix2d noise = growth.asDiagonal() * inverse.topLeftCorner<2, 2>() * growth.asDiagonal() * factor;
   const Eigen::Vector2d by_parts = variance_by_parts(scores) * (shrink * shrink);
   out.noise_variance_px2 = noise.diagonal();
+  Eigen::Matrix<double, 2, column_count> at_middle = Eigen::Matrix<double, 2, column_count>::Zero();
+  const Eigen::RowVector2d lever = m_middle.transpose() / registration_length_px;
+  at_middle(0, tx) = at_middle(1, ty) = 1.0;
+  at_middle.block<1, 2>(0, axx) = lever;
+  at_middle.block<1, 2>(1, ayx) = lever;
+  const Eigen::Matrix2d middle = at_middle * inverse * at_middle.transpose();
+  out.middle_variance_px2 = middle.diagonal().cwiseProduct(growth.cwiseAbs2()) * factor;
+  out.middle_px = out.displacement_px + (out.linear - Eigen::Matrix2d::Identity()) * m_middle;
   // Each axis grows to what the parts say; the correlation of the noise formula is kept.
   const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_parts(0) / noise(0, 0))),
                               std::sqrt(std::max(1.0, by_parts(1) / noise(1, 1))));

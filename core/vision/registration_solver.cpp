@@ -12,9 +12,6 @@ constexpr double reach_px = 8.0;  // the coarse search is never further off
 constexpr double lens_unit = registration_lens_unit;
 constexpr double length_px = registration_length_px;
 constexpr double linear_prior = 0.02;  // standard deviation of the affine part: keeps rings, which cannot see rotation
-// An outline does not see a round target turn; what is still seen of it is reflected, and would move a point beside its
-// middle.
-constexpr double linear_prior_of_outline = 0.002;
 constexpr double linear_prior_with_field = 0.006;  // beside a free field, shape is weak evidence of the linear part
 constexpr double field_prior_levels = 60.0;
 constexpr double settled_px = 3e-5;
@@ -42,6 +39,7 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
       m_lens(start.lens.per_px2),
       m_prior(start.lens),
       m_outline_alone(start.outline_alone),
+      m_middle(start.middle_px),
       m_judge(model, model.noise_correlation) {
   const int n = model.pixels;
   m_rows.resize(row_length, n);

@@ -22,6 +22,10 @@ inline constexpr double registration_lens_unit = 1e-8;   // of the lens column, 
 inline constexpr int registration_light_count = 7;       // gain and its plane, offset, blur
 inline constexpr int patch_margin_px = 18;               // around the region: rotation, blur and the spline's support
 
+// An outline does not see a round target turn; what is still seen of it is reflected, and would move a point beside its
+// middle.
+inline constexpr double linear_prior_of_outline = 0.002;
+
 struct RegistrationStart {
   Eigen::Vector2d whole_px = Eigen::Vector2d::Zero();  // displacement of the region to the patch's middle
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the named point from there
@@ -31,6 +35,7 @@ struct RegistrationStart {
   // Pixels of the region that the glance alone does without, 1 each; null: none.
   const std::vector<std::uint8_t>* doubted = nullptr;
   bool outline_alone = false;
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // of the target, from the named point
 };
 
 class RegistrationSolver {
@@ -121,6 +126,7 @@ class RegistrationSolver {
   double m_last_step_px = 1.0;
   LensTerm m_prior;
   bool m_outline_alone;
+  Eigen::Vector2d m_middle;
   Eigen::VectorXf m_field_levels;
   Rows m_rows;
   Eigen::VectorXf m_frame, m_error;

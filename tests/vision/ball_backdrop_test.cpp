@@ -1,4 +1,5 @@
-// A ball before what stands still: it shows little beside its outline, and what is reflected in it turns with the lamp.
+// Round targets. A ball before what stands still shows little beside its outline, and what is reflected in it turns
+// with the lamp.
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <random>
 
 #include "core/vision/target.h"
+#include "tests/vision/speckle.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -112,6 +114,32 @@ TEST(BallBeforeABackdrop, ATurnedLampDoesNotMoveItBeforeAnEvenOne) {
     }
   }
   EXPECT_LT(std::sqrt(squares / count), 2.0);
+}
+
+// What is printed on a disc does turn with it, and moves a named point beside the middle.
+TEST(BallBeforeABackdrop, ATurnOfAPrintedDiscIsNoReflection) {
+  const testing::Speckle print(51, 320.0, 240.0, 85.0);
+  const auto disc = [&](double dx, double dy, double turn_rad, unsigned seed) {
+    const testing::Pose pose{.dx = dx, .dy = dy, .rotation_rad = turn_rad};
+    GrayImage out = testing::render(print, pose, {.noise = 0.8, .seed = seed});
+    for (int y = 0; y < out.height; ++y) {
+      for (int x = 0; x < out.width; ++x) {
+        const double shown =
+            0.5 * std::erfc((std::hypot(x - 320.0 - dx, y - 240.0 - dy) - radius_px) / (0.9 * M_SQRT2));
+        out.at(x, y) = static_cast<std::uint8_t>(std::lround(shown * out.at(x, y) + (1.0 - shown) * 40.0));
+      }
+    }
+    return out;
+  };
+  const auto target = Target::create(disc(0.0, 0.0, 0.0, 1), around_ball, PixelPoint{365.0, 210.0}, "t.png");
+  ASSERT_TRUE(target);
+  for (const double turn_rad : {-0.012, 0.0, 0.004, 0.015}) {
+    const Location at = target->locate(disc(2.7, -1.4, turn_rad, 5));
+    ASSERT_TRUE(at.ok) << at.reason;
+    const double c = std::cos(turn_rad) - 1.0, s = std::sin(turn_rad);
+    EXPECT_NEAR(at.x_px, 2.7 + c * 45.0 + s * 30.0, 0.015) << turn_rad;
+    EXPECT_NEAR(at.y_px, -1.4 + s * 45.0 - c * 30.0, 0.015) << turn_rad;
+  }
 }
 
 }  // namespace
