@@ -1,5 +1,6 @@
 #include "core/vision/registration.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,7 @@ constexpr double field_bias = 16.0;         // chi-square: four standard deviati
 constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
 constexpr double outline_known_px = 0.003;  // what stands behind is not known better, and draws the outline
 constexpr double outline_bias = 6.0;        // one frame in twenty without need: what is reflected is hardly missed
+constexpr double drawn_middle_px = 5.0;     // a point further from the middle was named on purpose
 constexpr double all_of_it = 0.98;          // of the pixels
 constexpr double outline_share = 0.5;       // of the gradient energy: then it will do alone
 
@@ -152,16 +154,11 @@ cv::Mat beside_target(const TemplateSource& source, const TemplateModel& model) 
   return one_thing ? cv::Mat(beside / 255) : cv::Mat();
 }
 
-// The source with what lies well within its outline left out, and the middle of the whole from the named point; nothing
-// where that would be lost too much, or where there is no outline.
-std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model,
-                                         Eigen::Vector2d& middle_px) {
+// The source with what lies well within its outline left out; nothing where that would be lost too much, or
+// where there is no outline.
+std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model) {
   cv::Mat near = beside_target(source, model);
   if (near.empty()) return std::nullopt;
-  const cv::Moments target = cv::moments(1 - near, true);
-  if (target.m00 <= 0.0) return std::nullopt;
-  middle_px = Eigen::Vector2d(target.m10, target.m01) / target.m00 -
-              Eigen::Vector2d(source.margin_px + source.point.x_px, source.margin_px + source.point.y_px);
   const int side = 2 * within_outline_px + 1;
   cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
   TemplateSource out = source;
@@ -179,6 +176,21 @@ std::optional<TemplateSource> outline_of(const TemplateSource& source, const Tem
     kept += keep ? energy : 0.0;
   }
   return kept > outline_share * all ? std::optional(std::move(out)) : std::nullopt;
+}
+
+// About which a turn changes the target least, from the named point: the place that the gradients point to. Of a round
+// one it is the middle, however unevenly it is lit.
+Eigen::Vector2d middle_of_turn(const TemplateModel& model) {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  for (int k = 0; k < model.pixels; ++k) {
+    const Eigen::Vector2d across(-double{model.fy[k]}, double{model.fx[k]});
+    normal += across * across.transpose();
+    right += across * across.dot(Eigen::Vector2d(model.x[k], model.y[k]));
+  }
+  const Eigen::Vector2d middle = normal.ldlt().solve(right);
+  const bool within = middle.allFinite() && middle.norm() < std::max(model.width, model.height);
+  return within ? middle : Eigen::Vector2d::Zero();
 }
 
 }  // namespace
@@ -215,9 +227,10 @@ Registrar::Registrar(TemplateSource source)
     m_model = make_template_model(m_source, wide, wide);
   }
   find_noise_growth(m_model);
-  m_outline = outline_of(m_source, m_model, m_middle);
+  m_outline = outline_of(m_source, m_model);
   if (!m_outline) return;
   m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
+  m_middle = middle_of_turn(*m_outline_model);
   find_noise_growth(*m_outline_model);
 }
 
@@ -376,11 +389,14 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     const bool all_fits = whole.inlier_share + whole.saturated_share > all_of_it;
     if (all_fits || !biased(whole, outline, outline_bias, outline_known_px)) return whole;
   }
-  // Whether it has turned is not told by a round outline, and a point beside the middle moves with it.
+  // Whether it has turned is not told by a round outline, and a point beside the middle moves with it. A region drawn
+  // by hand has its own middle some pixels off: a reflection that seems to turn says nothing of that.
   const Eigen::Vector2d lever = course.start.middle_px;
-  const Eigen::Vector2d by_turn = (whole.linear - outline.linear) * lever;
   const double unknown_px = linear_prior_of_outline * lever.norm();
-  outline.covariance_px2.diagonal().array() += by_turn.array().square() + unknown_px * unknown_px;
+  outline.covariance_px2.diagonal().array() += unknown_px * unknown_px;
+  if (lever.norm() > drawn_middle_px) {
+    outline.covariance_px2.diagonal().array() += ((whole.linear - outline.linear) * lever).array().square();
+  }
   return outline;
 }
 
