@@ -83,6 +83,14 @@ void take_candidates(Model& to, const Model& from) {
   to.gain = from.gain;
 }
 
+/// Its words, and which numbers it has: where it stands is no form.
+std::string form_of(const physics::EffectSpec& spec) {
+  std::string form;
+  for (const auto& [key, word] : spec.words) form += key + '=' + word + ' ';
+  for (const auto& [key, number] : spec.numbers) form += key + ' ';
+  return form;
+}
+
 /// The last effect at the places where it scores best beside the machine as described: a machine that has bent itself
 /// round the effect shows it elsewhere.
 std::vector<ModelPtr> at_places_of_the_description(const Model& fit, const physics::RunFacts& facts) {
@@ -142,6 +150,33 @@ std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const p
   if (!own_family) std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
   if (screened.size() > 40) screened.resize(40);
   return refine(without, screened, {1, 6.0, own_family ? 8u : 6u});
+}
+
+std::vector<ModelPtr> in_other_forms(const Model& model, std::size_t effect, const physics::RunFacts& facts) {
+  constexpr FitOptions brief = {4, 0.05, false};
+  constexpr double far_behind = 60.0;
+  static constexpr const char* places[] = {"component", "channel", "region"};
+  const physics::EffectSpec& own = model.machine().effects[effect];
+  physics::Machine less = model.machine();
+  less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  std::set<std::string> seen = {form_of(own)};
+  std::vector<ModelPtr> fits;
+  for (physics::EffectSpec& spec : physics::find_effect(own.id)->candidates(less, facts)) {
+    const bool here = std::all_of(std::begin(places), std::end(places),
+                                  [&](const char* word) { return spec.word_or(word, "") == own.word_or(word, ""); });
+    if (!here || !seen.insert(form_of(spec)).second) continue;
+    for (auto& [key, number] : spec.numbers) number = own.number_or(key, number);
+    physics::Machine machine = model.machine();
+    machine.effects[effect] = std::move(spec);
+    fits.push_back(std::make_shared<Model>(std::move(machine), model.shared_data()));
+  }
+  in_parallel(fits.size(), [&](std::size_t i) {
+    fits[i]->start_from(model, true);
+    fits[i]->fit(brief);
+  });
+  std::erase_if(fits, [&](const ModelPtr& fit) { return fit->log_evidence() < model.log_evidence() - far_behind; });
+  in_parallel(fits.size(), [&](std::size_t i) { fits[i]->fit({15, 0.05, true}); });
+  return fits;
 }
 
 bool near_its_description(const Model& model) {

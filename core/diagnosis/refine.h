@@ -26,6 +26,11 @@ std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>&
 std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const physics::RunFacts& facts,
                                   bool own_family);
 
+/// One effect in its other forms - another law, bearing or driver; at the same place - fitted from where the model
+/// stands; without those that stay far behind it. Another effect's place found beside a wrong form, and the form chosen
+/// before there was another effect, keep each other: a search that leaves out one of them does not get away from there.
+std::vector<ModelPtr> in_other_forms(const Model& model, std::size_t effect, const physics::RunFacts& facts);
+
 /// The machine's own unknowns stand about where the description puts them.
 bool near_its_description(const Model& model);
 /// The same effects, with the machine's own unknowns started anew at the description. A description fitted without the

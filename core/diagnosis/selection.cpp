@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -254,56 +255,55 @@ bool Selector::ask_others_for_one() {
   return true;
 }
 
-std::vector<ModelPtr> Selector::other_laws(const Model& best) const {
-  std::vector<ModelPtr> fits;
-  for (std::size_t e = m_result.described; e < best.machine().effects.size(); ++e) {
-    const physics::EffectSpec& own = best.machine().effects[e];
-    if (own.words.count("law") == 0) continue;
-    std::set<std::string> laws;
-    for (const auto& spec : physics::find_effect(own.id)->candidates(best.machine(), m_facts)) {
-      laws.insert(spec.word_or("law", ""));
+std::vector<ModelPtr> Selector::rivals_in_doubt(const Model& best, bool asked) const {
+  constexpr double in_doubt = 8.0;
+  const std::size_t count = best.machine().effects.size();
+  const auto doubtful = [&](const ModelPtr& fit) { return best.log_evidence() - fit->log_evidence() < in_doubt; };
+  std::vector<ModelPtr> near, forms;
+  const auto add_forms = [&](const Model& of, std::size_t end) {
+    for (std::size_t e = m_result.described; e < end; ++e) {
+      for (const ModelPtr& fit : in_other_forms(of, e, m_facts)) forms.push_back(fit);
     }
-    for (const std::string& law : laws) {
-      if (law == own.word_or("law", "")) continue;
-      physics::Machine machine = best.machine();
-      machine.effects[e].words["law"] = law;
-      fits.push_back(std::make_shared<Model>(std::move(machine), best.shared_data()));
+  };
+  add_forms(best, count);
+  for (const auto& level : m_result.levels) {
+    for (const ModelPtr& fit : level) {
+      const bool other = last_effect(*fit).id != last_effect(best).id && fit->machine().effects.size() == count;
+      if (!other || happened_once(*fit) || within_tolerance(*fit) || !doubtful(fit)) continue;
+      add_forms(*fit, count - 1);
+      if (!asked && !m_options.others.empty() && worth_naming(*fit)) near.push_back(fit);
     }
   }
-  in_parallel(fits.size(), [&](std::size_t i) {
-    fits[i]->start_from(best, false);
-    fits[i]->fit({15, 0.05, true});
-  });
-  return fits;
+  std::copy_if(forms.begin(), forms.end(), std::back_inserter(near), doubtful);
+  return near;
 }
 
 void Selector::tell_apart() {
-  constexpr double in_doubt = 8.0;
   const ModelPtr best = m_result.best;
-  if (m_options.others.empty() || !m_options.own_misfit || best == m_result.base || happened_once(*best)) return;
+  if (!m_options.own_misfit || best == m_result.base || happened_once(*best)) return;
   const bool asked = best->elsewhere != 0.0;
-  const auto doubtful = [&](const ModelPtr& fit) { return best->log_evidence() - fit->log_evidence() < in_doubt; };
-  std::vector<ModelPtr> near = other_laws(*best);
-  std::erase_if(near, [&](const ModelPtr& fit) { return !doubtful(fit); });
-  const std::size_t laws = near.size();
-  for (const auto& level : m_result.levels) {
-    for (const auto& fit : level) {
-      const bool other = last_effect(*fit).id != last_effect(*best).id && worth_naming(*fit) && !happened_once(*fit);
-      if (asked || !other || fit->machine().effects.size() != best->machine().effects.size()) continue;
-      if (doubtful(fit)) near.push_back(fit);
-    }
-  }
+  std::vector<ModelPtr> near = rivals_in_doubt(*best, asked);
   if (near.empty()) return;
-  const bool only_laws = near.size() == laws;
+  const auto same_family = [&](const ModelPtr& fit) { return last_effect(*fit).id == last_effect(*best).id; };
+  const bool only_forms = std::all_of(near.begin(), near.end(), same_family);
   near.push_back(best);
-  const ModelPtr less = reduced(*best, best->machine().effects.size() - 1);
-  less->fit({15, 0.05, true});
-  ask_elsewhere(near, *less, m_options.others);
-  for (const ModelPtr& fit : near) {
+  const auto without_last = [](const Model& model) {
+    ModelPtr less = reduced(model, model.machine().effects.size() - 1);
+    less->fit({15, 0.05, true});
+    return less;
+  };
+  std::vector<ModelPtr> fit_there = near;
+  ask_elsewhere(fit_there, *without_last(*best), m_options.others);
+  // Where none fits there the fitted one decides alone.
+  for (const ModelPtr& fit : fit_there.empty() ? near : fit_there) {
     if (evidence_of(*fit) > evidence_of(*m_result.best)) m_result.best = fit;
   }
-  // Its law was in doubt, not the source.
-  if (m_result.best == best && only_laws && !asked) best->elsewhere = 0.0;
+  Model& told = *m_result.best;
+  if (only_forms && !asked && told.log_evidence() >= best->log_evidence()) {
+    told.elsewhere = 0.0;  // its form was in doubt, not the effect
+  } else if (m_result.best != best) {
+    told.elsewhere = shown_elsewhere(told, *without_last(told));
+  }
 }
 
 void Selector::align() {

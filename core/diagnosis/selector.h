@@ -88,12 +88,14 @@ class Selector {
   /// What other recordings add to one effect of an answer that they were asked about.
   double shown_elsewhere(const Model& best, const Model& without) const;
 
-  /// What this recording can hardly tell apart the others may: families, and the laws of a source. At one speed all
-  /// laws are alike, and a wrong one is wrong about the place too.
+  /// What this recording can hardly tell apart the others may: families, and the forms of each effect. At one speed all
+  /// laws are alike, and a source stands elsewhere beside one bearing that is wrong than beside both. Without others,
+  /// or where none of that fits there, this one decides alone.
   void tell_apart();
 
-  /// The best with another law of one of its effects, fitted.
-  std::vector<ModelPtr> other_laws(const Model& best) const;
+  /// What comes near the best: of it, and beside the last effects of other families, each effect in its other forms;
+  /// and, unless the others were asked already, those families.
+  std::vector<ModelPtr> rivals_in_doubt(const Model& best, bool asked) const;
 
   /// Base and rivals under the final model's misfit, so that they can be told against it.
   void align();
