@@ -10,15 +10,15 @@
 namespace zerodrift::vision {
 namespace {
 
-constexpr int step_px = 2;               // of the samples
-constexpr int apart_window = 9;          // samples
-constexpr int searched_samples = 40;     // each way
-constexpr double even_part = 0.05;       // of the region's variance: a window with less shows nothing
-constexpr double least_part = 0.08;      // of the region: what is reflected in a ball moves with the lamp, and is less
-constexpr double least_found = 0.5;      // of what does not fit, that is seen elsewhere and was not there before
-constexpr double least_alike = 0.5;      // correlation of what does not fit with where it is looked for
-constexpr double least_across = 0.1;     // of a window's squared gradients along the strongest direction, across it
-constexpr double least_both_ways = 0.3;  // of what is seen elsewhere: such windows
+constexpr int sample_step_px = 2;      // of the samples
+constexpr int apart_window = 9;        // samples
+constexpr int searched_samples = 40;   // each way
+constexpr double even_part = 0.05;     // of the region's variance: a window with less shows nothing
+constexpr double least_part = 0.08;    // of the region: what is reflected in a ball moves with the lamp, and is less
+constexpr double least_found = 0.5;    // of what does not fit, that is seen elsewhere and was not there before
+constexpr double least_alike = 0.5;    // correlation of what does not fit with where it is looked for
+constexpr double least_across = 0.1;   // of a window's squared gradients along the strongest direction, across it
+constexpr double least_swapped = 0.3;  // of what is seen elsewhere: such windows
 constexpr double clipped = 252.0;
 
 // The frame as it would be with the target at rest, sampled over the region and around it.
@@ -28,8 +28,8 @@ cv::Mat1f put_back(const GrayImage& frame, const Region& region, const PixelPoin
   const Eigen::Vector2d point(named.x_px, named.y_px);
   for (int row = 0; row < map_x.rows; ++row) {
     for (int column = 0; column < map_x.cols; ++column) {
-      const Eigen::Vector2d at(region.x + (column - searched_samples) * step_px,
-                               region.y + (row - searched_samples) * step_px);
+      const Eigen::Vector2d at(region.x + (column - searched_samples) * sample_step_px,
+                               region.y + (row - searched_samples) * sample_step_px);
       const Eigen::Vector2d there = point + found.displacement_px + found.linear * (at - point);
       map_x(row, column) = static_cast<float>(there(0));
       map_y(row, column) = static_cast<float>(there(1));
@@ -37,7 +37,7 @@ cv::Mat1f put_back(const GrayImage& frame, const Region& region, const PixelPoin
   }
   cv::Mat1f smooth, out;
   mat_view(frame).convertTo(smooth, CV_32F);
-  cv::blur(smooth, smooth, {step_px, step_px}, {-1, -1}, cv::BORDER_REPLICATE);
+  cv::blur(smooth, smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
   cv::remap(smooth, out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return out;
 }
@@ -74,14 +74,14 @@ bool tells_both_ways(const cv::Mat1f& picture, const cv::Mat& there) {
       both += middle - half_spread > least_across * (middle + half_spread) ? 1 : 0;
     }
   }
-  return both > least_both_ways * cv::countNonZero(there);
+  return both > least_swapped * cv::countNonZero(there);
 }
 
 }  // namespace
 
 bool moved_apart(const GrayImage& image, const Region& region, const PixelPoint& point,
                  const std::vector<std::uint8_t>& usable, const GrayImage& frame, const Registration& found) {
-  const cv::Size samples(region.width / step_px, region.height / step_px);
+  const cv::Size samples(region.width / sample_step_px, region.height / sample_step_px);
   Registration still;
   still.contrast = 1.0;
   const cv::Mat1f wide_then = put_back(image, region, point, still, samples);
@@ -90,7 +90,7 @@ bool moved_apart(const GrayImage& image, const Region& region, const PixelPoint&
   cv::Mat1f use(samples);
   for (int row = 0; row < use.rows; ++row) {
     for (int column = 0; column < use.cols; ++column) {
-      const std::size_t k = static_cast<std::size_t>(row * step_px) * region.width + column * step_px;
+      const std::size_t k = static_cast<std::size_t>(row * sample_step_px) * region.width + column * sample_step_px;
       use(row, column) = usable[k] != 0 ? 1.0f : 0.0f;
     }
   }

@@ -4,11 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "core/vision/frame_patch.h"
-#include "core/vision/opencv_image.h"
+#include "core/vision/outline.h"
 #include "core/vision/registration_solver.h"
 #include "core/vision/smooth_field.h"
 #include "core/vision/window_likeness.h"
@@ -41,14 +40,7 @@ constexpr double doubtful_residual = 2.4;  // the same where not all of the targ
 constexpr double some_hidden = 0.93;       // of the pixels
 constexpr int likeness_window_px = 15;
 constexpr int largest_rounds = 6;
-constexpr int shared_patch_px = 24;   // further apart, two patches are less work than one around both
-constexpr float seen_through = 0.5f;  // less may be the noise of what was learned
-constexpr int within_outline_px = 10;
-constexpr double even_blur_px = 1.5;
-constexpr double even_noises = 3.0;
-constexpr double even_levels = 3.0;         // that light may fall off by, over the region
-constexpr double single_share = 0.98;       // of what is not beside the target, that hangs together
-constexpr double most_of_region = 0.9;      // a target that fills its region shows no outline
+constexpr int shared_patch_px = 24;         // further apart, two patches are less work than one around both
 constexpr double straight = 0.01;           // a solve that bent the target more may have been caught by a reflection
 constexpr double field_bias = 16.0;         // chi-square: four standard deviations, for blur's shape moves both
 constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
@@ -56,7 +48,6 @@ constexpr double outline_known_px = 0.003;  // what stands behind is not known b
 constexpr double outline_bias = 6.0;        // one frame in twenty without need: what is reflected is hardly missed
 constexpr double drawn_middle_px = 5.0;     // a point further from the middle was named on purpose
 constexpr double all_of_it = 0.98;          // of the pixels
-constexpr double outline_share = 0.5;       // of the gradient energy: then it will do alone
 
 // More of the target explained, and to a smaller residual.
 double fit_of(const Registration& r) {
@@ -121,78 +112,6 @@ bool alike(const ImageSetup& a, const ImageSetup& b) {
   return a.template_blur == b.template_blur && a.frame_blur == b.frame_blur;
 }
 
-// 1 where the template shows what is beside the target: what has been learned of it or, where that could not be told
-// from the template because it is even, the even part that reaches the region's border around one thing. Empty where
-// neither is so.
-cv::Mat beside_target(const TemplateSource& source, const TemplateModel& model) {
-  if (source.backdrop && !model.shown.empty()) {
-    return cv::Mat(mat_view(source.backdrop->clear) > seen_through) / 255;
-  }
-  cv::Mat levels;
-  cv::GaussianBlur(mat_view(source.pixels), levels, {0, 0}, even_blur_px);
-  std::vector<float> border;
-  for (int x = 0; x < levels.cols; ++x)
-    border.insert(border.end(), {levels.at<float>(0, x), levels.at<float>(levels.rows - 1, x)});
-  for (int y = 0; y < levels.rows; ++y)
-    border.insert(border.end(), {levels.at<float>(y, 0), levels.at<float>(y, levels.cols - 1)});
-  std::nth_element(border.begin(), border.begin() + border.size() / 2, border.end());
-  const float level = border[border.size() / 2];
-  const double reach = even_noises * source.noise_levels + even_levels;
-  const cv::Mat even = cv::abs(levels - level) < reach;
-  cv::Mat labels, figures, centres;
-  // Around it: what is even within a ring is no surroundings.
-  cv::Mat framed;
-  cv::copyMakeBorder(even, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 255);
-  cv::connectedComponentsWithStats(framed, labels, figures, centres, 4);
-  const cv::Mat around = labels == labels.at<int>(0, 0);
-  const cv::Mat beside = around(cv::Rect(1, 1, even.cols, even.rows)).clone();
-  const int things = cv::connectedComponentsWithStats(255 - beside, labels, figures, centres, 8);
-  int largest = 0;
-  for (int k = 1; k < things; ++k) largest = std::max(largest, figures.at<int>(k, cv::CC_STAT_AREA));
-  const int all = static_cast<int>(beside.total()) - cv::countNonZero(beside);
-  const bool one_thing = largest > single_share * all && all < most_of_region * static_cast<double>(beside.total());
-  return one_thing ? cv::Mat(beside / 255) : cv::Mat();
-}
-
-// The source with what lies well within its outline left out; nothing where that would be lost too much, or
-// where there is no outline.
-std::optional<TemplateSource> outline_of(const TemplateSource& source, const TemplateModel& model) {
-  cv::Mat near = beside_target(source, model);
-  if (near.empty()) return std::nullopt;
-  const int side = 2 * within_outline_px + 1;
-  cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
-  TemplateSource out = source;
-  for (int y = 0; y < source.region.height; ++y) {
-    for (int x = 0; x < source.region.width; ++x) {
-      const bool keep = near.at<std::uint8_t>(y + source.margin_px, x + source.margin_px) != 0;
-      out.usable[static_cast<std::size_t>(y) * source.region.width + x] &= keep ? 1 : 0;
-    }
-  }
-  double kept = 0.0, all = 0.0;
-  for (int k = 0; k < model.pixels; ++k) {
-    const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
-    const bool keep = out.usable[static_cast<std::size_t>(model.row[k]) * source.region.width + model.column[k]] != 0;
-    all += energy;
-    kept += keep ? energy : 0.0;
-  }
-  return kept > outline_share * all ? std::optional(std::move(out)) : std::nullopt;
-}
-
-// About which a turn changes the target least, from the named point: the place that the gradients point to. Of a round
-// one it is the middle, however unevenly it is lit.
-Eigen::Vector2d middle_of_turn(const TemplateModel& model) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  for (int k = 0; k < model.pixels; ++k) {
-    const Eigen::Vector2d across(-double{model.fy[k]}, double{model.fx[k]});
-    normal += across * across.transpose();
-    right += across * across.dot(Eigen::Vector2d(model.x[k], model.y[k]));
-  }
-  const Eigen::Vector2d middle = normal.ldlt().solve(right);
-  const bool within = middle.allFinite() && middle.norm() < std::max(model.width, model.height);
-  return within ? middle : Eigen::Vector2d::Zero();
-}
-
 }  // namespace
 
 // The part of a frame at one place, made anew only when another blur is asked for.
@@ -228,6 +147,7 @@ Registrar::Registrar(TemplateSource source)
   }
   find_noise_growth(m_model);
   m_outline = outline_of(m_source, m_model);
+  m_middle = middle_of_turn(m_model);
   if (!m_outline) return;
   m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
   m_middle = middle_of_turn(*m_outline_model);
@@ -389,11 +309,8 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     const bool all_fits = whole.inlier_share + whole.saturated_share > all_of_it;
     if (all_fits || !biased(whole, outline, outline_bias, outline_known_px)) return whole;
   }
-  // Whether it has turned is not told by a round outline, and a point beside the middle moves with it. A region drawn
-  // by hand has its own middle some pixels off: a reflection that seems to turn says nothing of that.
+  // A region drawn by hand has its own middle some pixels off: a reflection that seems to turn says nothing of that.
   const Eigen::Vector2d lever = course.start.middle_px;
-  const double unknown_px = linear_prior_of_outline * lever.norm();
-  outline.covariance_px2.diagonal().array() += unknown_px * unknown_px;
   if (lever.norm() > drawn_middle_px) {
     outline.covariance_px2.diagonal().array() += ((whole.linear - outline.linear) * lever).array().square();
   }
@@ -467,7 +384,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     setup = next;
     if (blurs) remodel();
   }
-  out.converged = out.converged && out.covariance_px2(0, 0) > 0.0;
+  out.converged = out.converged && (out.covariance_px2.diagonal().array() > 0.0).all();
   if (m_outline && m_source.backdrop) out.covariance_px2.diagonal().array() += learned_px * learned_px;
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;

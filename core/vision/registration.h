@@ -19,6 +19,7 @@ struct Registration {
   Eigen::Vector2d displacement_px = Eigen::Vector2d::Zero();  // of the named point, right and down
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();       // affine part
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d unseen_turn_px2 = Eigen::Matrix2d::Zero();     // of that, by a turn which the target does not show
   Eigen::Vector2d noise_variance_px2 = Eigen::Vector2d::Zero();  // what the covariance would be by the noise alone
   Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // displacement of the target's middle, which no turn moves
   Eigen::Vector2d middle_variance_px2 = Eigen::Vector2d::Zero();  // by the noise alone
@@ -85,7 +86,7 @@ class Registrar {
   // reflection of a lamp, which may have moved.
   std::optional<TemplateSource> m_outline;
   std::optional<TemplateModel> m_outline_model;
-  Eigen::Vector2d m_middle = Eigen::Vector2d::Zero();  // of the outline, from the named point
+  Eigen::Vector2d m_middle = Eigen::Vector2d::Zero();  // about which it shows a turn least, from the named point
 };
 
 }  // namespace zerodrift::vision

@@ -218,6 +218,35 @@ double RegistrationSolver::tell_structure(int count, Registration& out) const {
   return variance;
 }
 
+// A point beside the target's middle moves with every turn, and a template's own noise passes for evidence of one. The
+// turn that was found is believed by as much as makes its expected error least (Wiener's filter for one unknown): what
+// is expected of it before, against what the noise makes of it. The middle stays where it was found.
+void RegistrationSolver::believe_turn(const Normal& inverse, double factor, Registration& out) const {
+  const HiddenMotion& hidden = m_model.hidden;
+  const Eigen::Vector4d part = hidden.direction / hidden.direction.squaredNorm();
+  const Eigen::Vector4d column_part = part / registration_length_px;
+  const double formula = column_part.dot(inverse.block<4, 4>(axx, axx) * column_part);
+  const double prior = m_prepared.linear_prior / column_part.squaredNorm();
+  const double told = std::max(1.0 / formula - prior, 0.0);
+  const double all = told * hidden.shown + prior;
+  const double seen = told * hidden.shown / all;
+  const double noise = factor * told / (all * all);
+  const double expected = expected_turn * expected_turn;
+  const double believed = seen * expected / (seen * seen * expected + noise);
+  const double left = 1.0 - believed * seen;
+  const double variance = left * left * expected + believed * believed * noise;
+
+  const Eigen::Matrix2d change = out.linear - Eigen::Matrix2d::Identity();
+  const double turn = part.dot(Eigen::Vector4d(change(0, 0), change(0, 1), change(1, 0), change(1, 1)));
+  Eigen::Matrix2d direction;
+  direction << hidden.direction(0), hidden.direction(1), hidden.direction(2), hidden.direction(3);
+  const Eigen::Vector2d lever = direction * m_middle;
+  out.displacement_px += (1.0 - believed) * turn * lever;
+  out.linear -= (1.0 - believed) * turn * direction;
+  out.unseen_turn_px2 = std::max(variance - factor * formula, 0.0) * lever * lever.transpose();
+  out.covariance_px2 += out.unseen_turn_px2;
+}
+
 // Noise: Huber's covariance of an M-estimate, E psi^2 / (E psi')^2, with the blur's noise correlation. Structure left
 // in the residual: the scores summed over parts instead of pixels, each part left out in turn, which sees what the
 // noise formula cannot: a shade, a lens or a blur that the model misses. The larger of both counts.
@@ -261,6 +290,7 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_parts(0) / noise(0, 0))),
                               std::sqrt(std::max(1.0, by_parts(1) / noise(1, 1))));
   out.covariance_px2 = ratio.asDiagonal() * noise * ratio.asDiagonal();
+  believe_turn(inverse, factor, out);
   out.lens.per_px2 = m_lens;
   out.lens.sigma_per_px2 = std::sqrt(std::max(inverse(bend, bend) * factor, 0.0)) * registration_lens_unit;
 }

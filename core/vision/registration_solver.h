@@ -97,6 +97,7 @@ class RegistrationSolver {
   template <typename PartOf>
   Eigen::Vector2d jackknife(const Scores& scores, PartOf part_of) const;
   Eigen::Vector2d variance_by_parts(const Scores& scores) const;
+  void believe_turn(const Normal& inverse, double factor, Registration& out) const;
 
   // Fields that are aligned alike stand together: the order leaves no gaps.
   Eigen::Vector2d m_whole_px;

@@ -82,8 +82,8 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
   // A cover over much of the target can hold the fit at another place, where it leaves no outliers because it is rough
   // everywhere, or where its levels happen to agree with an edge. What is left under a smaller cover is known ten times
-  // better; noise is rough without hiding anything.
-  const double sigma_px = std::sqrt(r.covariance_px2.diagonal().maxCoeff());
+  // better; noise is rough without hiding anything. That a round target hides its turn says nothing against the place.
+  const double sigma_px = std::sqrt((r.covariance_px2 - r.unseen_turn_px2).diagonal().maxCoeff());
   if (r.inlier_share + r.saturated_share < nothing_hidden) {
     if (sigma_px > (r.residual > rough_residual ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
   }

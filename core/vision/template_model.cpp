@@ -264,6 +264,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     }
   }
   set_tiles(model);
+  model.hidden = find_hidden_motion(model.x, model.y, model.fx, model.fy, noise_each);
   model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));
   model.frame_blur_px2 = frame_blur_px2;
   model.gradient_x = std::move(fx);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/vision/backdrop.h"
+#include "core/vision/hidden_motion.h"
 #include "core/vision/spline_image.h"
 
 namespace zerodrift::vision {
@@ -35,6 +36,7 @@ struct TemplateModel {
   double noise_correlation = 1.0;  // pixels that carry the noise of one, after the blur
   double gradient_energy = 0.0;    // mean of fx^2 + fy^2 over the region
   double noise_share = 0.0;        // of that
+  HiddenMotion hidden;
 };
 
 struct TemplateSource {

@@ -142,5 +142,53 @@ TEST(BallBeforeABackdrop, ATurnOfAPrintedDiscIsNoReflection) {
   }
 }
 
+// Rings three times as bright and dark around as within, 12 px from one to the next.
+GrayImage rings(double dx, double dy, unsigned seed) {
+  GrayImage out{640, 480, std::vector<std::uint8_t>(640 * 480)};
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, 2.0);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const double r = std::hypot(x - 319.7 - dx, y - 239.4 - dy);
+      const double shown = 0.5 * std::erfc((r - 72.0) / 1.3);
+      const double level = 120.0 + shown * 60.0 * std::sin(2.0 * M_PI * r / 12.0) + noise(random);
+      out.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0l, 255l));
+    }
+  }
+  return out;
+}
+
+// What noise seems to tell of a turn moves a point beside the middle and must not be called known.
+TEST(Rings, DoNotTellHowFarTheyHaveTurned) {
+  constexpr double beside_px = 30.0, turn = 0.004;
+  double squares = 0.0, largest_px = 0.0;
+  int count = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const GrayImage shown = rings(0.0, 0.0, seed);
+    const auto middle = Target::create(shown, around_ball, PixelPoint{319.7, 239.4}, "t.png");
+    const auto beside = Target::create(shown, around_ball, PixelPoint{319.7, 239.4 - beside_px}, "t.png");
+    ASSERT_TRUE(middle && beside);
+    for (const double dx : {0.3, -4.6}) {
+      const GrayImage frame = rings(dx, 2.2, 100 + seed);
+      const Location known = middle->locate(frame);
+      ASSERT_TRUE(known.ok) << known.reason;
+      EXPECT_NEAR(known.x_px, dx, 4.0 * known.sigma_x_px);
+      EXPECT_LT(known.sigma_x_px, 0.01);
+      const Location unknown = beside->locate(frame);
+      ASSERT_TRUE(unknown.ok) << unknown.reason;
+      // The frame is the same whether the rings have turned or not.
+      for (const double turned : {0.0, turn, -turn}) {
+        squares += std::pow((unknown.x_px - dx - turned * beside_px) / unknown.sigma_x_px, 2);
+        ++count;
+      }
+      largest_px = std::max(largest_px, std::abs(unknown.x_px - dx));
+    }
+  }
+  const double ratio = std::sqrt(squares / count);
+  EXPECT_GT(ratio, 0.3);
+  EXPECT_LT(ratio, 1.5);
+  EXPECT_LT(largest_px, 0.02);  // a turn that is not there
+}
+
 }  // namespace
 }  // namespace zerodrift::vision
