@@ -174,8 +174,12 @@ ui::HeatMapData residual_map(const physics::Machine& machine, const std::string&
   return map;
 }
 
-/// The first parameter of the sentence, which is the effect's size: "36.1 ± 2.0 W" of "P = 36.1 ± 2.0 W, ...".
+/// The effect's size: its heat, or else the first parameter of the sentence: "36.1 ± 2.0 W" of "P = 36.1 ± 2.0 W, ...".
 QString magnitude_of(const json& effect) {
+  const auto heat = effect.find("heat_W");
+  if (heat != effect.end()) {
+    return QString::fromStdString(diagnosis::watts_in_words(number_of(*heat, "mean"), number_of(*heat, "sigma")));
+  }
   const auto facts = diagnosis::sentence_from_json(effect.value("said", json())).facts;
   const auto parameters = facts.find("parameters");
   if (parameters == facts.end()) return {};

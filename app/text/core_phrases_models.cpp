@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 338> models = {{
+constexpr std::array<const char*, 340> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -341,7 +341,9 @@ constexpr std::array<const char*, 338> models = {{
     QT_TRANSLATE_NOOP(
         "core",
         "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
-        "({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}."),
+        "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."),
+    QT_TRANSLATE_NOOP("core", "; it brings {watts} on average while it acts"),
+    QT_TRANSLATE_NOOP("core", "; it takes away {watts} on average while it acts"),
     QT_TRANSLATE_NOOP("core",
                       "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): "
                       "it cannot be excluded."),

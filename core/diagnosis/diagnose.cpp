@@ -13,6 +13,7 @@
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/explain.h"
+#include "core/diagnosis/heat_of_effect.h"
 #include "core/diagnosis/locate.h"
 #include "core/diagnosis/place.h"
 #include "core/diagnosis/plausible.h"
@@ -312,6 +313,7 @@ void Diagnoser::effects() {
       tell_place(found, index);
     }
     found.bounds_reached = best.bounds_reached();
+    if (m_options.details) found.heat = heat_of_effect(best, index);
     found.log_evidence_gain = m_selection.shown[i];
     // One effect alone: what the table of the channels calls re-fitted is the simulation without it.
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();

@@ -28,6 +28,12 @@ struct Sentence {
   std::string english;
 };
 
+/// What an effect brings into the machine, W, on average while it acts; what it takes away is negative.
+struct EffectHeat {
+  double mean_W = 0.0;
+  double sigma_W = 0.0;
+};
+
 struct FoundEffect {
   std::string id;
   std::string component;
@@ -43,6 +49,7 @@ struct FoundEffect {
   double log_evidence_gain = 0.0;
   std::vector<std::string> bounds_reached;
   std::map<std::string, double> contribution;  // channel -> rms of what the effect changes, K or um
+  std::optional<EffectHeat> heat;              // of effects that bring or take any
   Sentence explanation;
 };
 

@@ -29,6 +29,7 @@ json json_of(const FoundEffect& effect) {
   for (const auto& [key, value] : effect.words) {
     if (key != "component" && key != "channel") out["parameters"][key] = value;
   }
+  if (effect.heat) out["heat_W"] = {{"mean", effect.heat->mean_W}, {"sigma", effect.heat->sigma_W}};
   if (effect.between_mm) out["between_mm"] = {effect.between_mm->first, effect.between_mm->second};
   if (!effect.bounds_reached.empty()) out["bounds_reached"] = effect.bounds_reached;
   return out;

@@ -66,6 +66,10 @@ std::string number_of(double value, double sigma) {
   return fmt::format("{:.{}f}", value, std::min(digits, 6));
 }
 
+std::string with_sigma(double value, double sigma) {
+  return number_of(value, sigma) + (sigma > 0.0 ? " ± " + number_of(sigma, sigma) : "");
+}
+
 double rpm_of(const std::map<std::string, double>& at_rpm, const std::string& key) {
   const auto at = at_rpm.find(key);
   return at == at_rpm.end() ? 0.0 : at->second;
@@ -102,6 +106,15 @@ void put_place(Sentence& s, const std::string& channel, const std::optional<doub
   }
 }
 
+/// Where the size of the effect is its heat already, that is not said twice.
+void put_heat(Sentence& s, const FoundEffect& effect) {
+  s.facts["heat"] = "heat_none";
+  const bool said_before = effect.parameters.count("power_W") != 0 && effect.at_rpm.count("power_W") == 0;
+  if (!effect.heat || said_before) return;
+  s.facts["heat"] = effect.heat->mean_W > 0.0 ? "heat_brought" : "heat_taken";
+  s.facts["watts"] = watts_in_words(std::abs(effect.heat->mean_W), effect.heat->sigma_W);
+}
+
 std::string regime_or_always(const std::string& regime) {
   return regime.empty() ? "all the time" : regime;
 }
@@ -129,11 +142,14 @@ std::string parameter_in_words(const std::string& key, double value, double sigm
     if (shown.key != key) continue;
     const double width = sigma * shown.factor;
     const std::string sign = at_rpm > 0.0 ? fmt::format("{}({:.0f} rpm)", shown.sign, at_rpm) : std::string(shown.sign);
-    std::string text = fmt::format("{} = {}", sign, number_of(value * shown.factor, width));
-    if (width > 0.0) text += " ± " + number_of(width, width);
+    const std::string text = fmt::format("{} = {}", sign, with_sigma(value * shown.factor, width));
     return shown.unit.empty() ? text : fmt::format("{} {}", text, shown.unit);
   }
   return {};
+}
+
+std::string watts_in_words(double mean_W, double sigma_W) {
+  return with_sigma(mean_W, sigma_W) + " W";
 }
 
 std::string regime_of_effect(const FoundEffect& effect, double end_s) {
@@ -185,6 +201,7 @@ Sentence explain_effect(const FoundEffect& effect, double end_s, double before, 
              {"fingerprint", std::string(physics::find_effect(effect.id)->fingerprint)},
              {"regime", regime_of_effect(effect, end_s)}};
   put_place(s, effect.channel, effect.position_mm, effect.component);
+  put_heat(s, effect);
   const auto from = effect.parameters.find("from_mm");
   const auto to = effect.parameters.find("to_mm");
   std::optional<std::pair<double, double>> between_mm = effect.between_mm;

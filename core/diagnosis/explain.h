@@ -15,12 +15,14 @@ Sentence explain_verdict(const Diagnosis& diagnosis);
 /// "h = 12.7 ± 0.7 W/m²K": a parameter of an effect with a sign that is the same in every language; sigma 0: unknown.
 /// Empty for what is not shown (cosines, logarithms). A figure that holds at one speed says so: "P(8000 rpm) = 26 W".
 std::string parameter_in_words(const std::string& key, double value, double sigma, double at_rpm = 0.0);
+/// "38 ± 4 W", "-38 ± 4 W"
+std::string watts_in_words(double mean_W, double sigma_W);
 /// Figures of an effect that grow with the speed, and the full speed at which they hold.
 std::map<std::string, double> speeds_of_figures(const std::map<std::string, double>& numbers,
                                                 const std::map<std::string, std::string>& words, double full_rpm);
-/// Of effects that this recording would have shown only at an impossible size.
 /// A sentence of the catalogue with its facts.
 Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts = {});
+/// Of effects that this recording would have shown only at an impossible size.
 Sentence explain_unseen(const std::vector<std::string>& effects);
 /// `run` in English words: "half speed without coolant"; how long it takes in all.
 Sentence explain_experiment(const std::string& best_effect, const std::string& rival_effect, const std::string& run,

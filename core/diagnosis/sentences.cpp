@@ -26,7 +26,10 @@ constexpr std::array catalogue{
     Entry{"verdict_missing_effect", "The simulation left out {+effects}."},
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
-          "({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}."},
+          "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."},
+    Entry{"heat_none", ""},
+    Entry{"heat_brought", "; it brings {watts} on average while it acts"},
+    Entry{"heat_taken", "; it takes away {watts} on average while it acts"},
     Entry{"rival_left",
           "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
           "excluded."},

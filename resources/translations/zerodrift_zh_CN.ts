@@ -3154,8 +3154,16 @@
         <translation>仿真遗漏了{+effects}。</translation>
     </message>
     <message>
-        <source>{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} ({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}.</source>
-        <translation>{@regime}，不计入该效应时 {channel} 与最佳仿真相差 {before} {unit}（rms）。计入{@where}{@name}（{parameters}）可消除其中的 {removed_percent} %。典型特征：{@fingerprint}。</translation>
+        <source>{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} ({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}.</source>
+        <translation>{@regime}，不计入该效应时 {channel} 与最佳仿真相差 {before} {unit}（rms）。计入{@where}{@name}（{parameters}）可消除其中的 {removed_percent} %{@heat}。典型特征：{@fingerprint}。</translation>
+    </message>
+    <message>
+        <source>; it brings {watts} on average while it acts</source>
+        <translation>；起作用期间平均带入 {watts}</translation>
+    </message>
+    <message>
+        <source>; it takes away {watts} on average while it acts</source>
+        <translation>；起作用期间平均带走 {watts}</translation>
     </message>
     <message>
         <source>This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be excluded.</source>

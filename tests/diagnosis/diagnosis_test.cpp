@@ -59,6 +59,23 @@ TEST(Diagnosis, NamesAHiddenEffectAndFitsTheSecondRun) {
   }
 }
 
+/// By another discretisation with its own edges: the film coefficient may be off, the watts are what the sensors saw.
+TEST(Diagnosis, SaysHowManyWattsTheCoolantTakes) {
+  for (const std::uint64_t seed : {4u, 6u}) {
+    const proof::Case one = proof::make_case(seed, "coolant", proof::StrengthRule::shown);
+    const Diagnosis d = diagnosed(one);
+    ASSERT_EQ(d.effects.size(), 1u) << one.name;
+    const FoundEffect& coolant = d.effects.front();
+    ASSERT_EQ(coolant.id, "coolant");
+    ASSERT_TRUE(coolant.heat.has_value());
+    const double truth_W = one.hidden.front().heat_W;
+    ASSERT_LT(truth_W, 0.0);
+    EXPECT_LT(coolant.heat->sigma_W, -0.3 * truth_W);
+    EXPECT_NEAR(coolant.heat->mean_W, truth_W, 3.0 * coolant.heat->sigma_W) << one.name;
+    EXPECT_NE(coolant.explanation.english.find("it takes away"), std::string::npos) << coolant.explanation.english;
+  }
+}
+
 TEST(Diagnosis, SaysWhenNothingIsMissing) {
   const Diagnosis d = diagnosed(proof::make_case(21, "none"));
   EXPECT_EQ(d.verdict, Verdict::consistent);

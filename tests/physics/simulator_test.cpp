@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/physics/builder.h"
+#include "core/physics/heat.h"
 #include "core/physics/initial_state.h"
 #include "core/physics/prediction.h"
 #include "core/physics/simulate.h"
@@ -43,6 +44,22 @@ void expect_conservation(const nlohmann::json& document) {
   const Trajectory t = run_network(network, make_inputs(network, run), network.start_values(), {}, options);
   EXPECT_GT(t.stored_J, 1e4);
   EXPECT_NEAR(t.stored_J / t.supplied_J, 1.0, 1e-10);
+}
+
+/// What comes from outside, at the simulated temperatures, is what the scheme supplied.
+void expect_heat_from_outside(const nlohmann::json& document) {
+  const Machine machine = *machine_from_json(document, "m.json");
+  const recording::Recording run = test::stepped_run();
+  const Network network = build_network(machine, run);
+  const InputSet inputs = make_inputs(network, run);
+  const std::vector<double> values = network.start_values();
+  SimulateOptions options;
+  options.keep_balance = options.keep_field = true;
+  const Trajectory t = run_network(network, inputs, values, {}, options);
+  const std::vector<double> heat_W = heat_from_outside_W(network, inputs, values, t.field_C);
+  double heat_J = 0.0;
+  for (std::size_t k = 0; k < heat_W.size(); ++k) heat_J += heat_W[k] * (inputs.time_s[k + 1] - inputs.time_s[k]);
+  EXPECT_NEAR(heat_J / t.supplied_J, 1.0, 2e-3);
 }
 
 void expect_exact_derivatives(const nlohmann::json& document) {
@@ -122,6 +139,11 @@ TEST(InitialState, OffsetsAndNoiseMakeNoUnevenStart) {
 TEST(Simulator, ConservesHeat) {
   expect_conservation(coupled_json());
   expect_conservation(cartridge_json());
+}
+
+TEST(Simulator, TellsTheHeatThatComesFromOutside) {
+  expect_heat_from_outside(coupled_json());
+  expect_heat_from_outside(cartridge_json());
 }
 
 TEST(Simulator, DerivativesAgreeWithCentralDifferences) {

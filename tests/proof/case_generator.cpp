@@ -215,6 +215,9 @@ Case make_case(std::uint64_t seed, const std::string& kind, StrengthRule rule) {
   for (std::size_t j = 0; j < real.sensors.size(); ++j) offsets.push_back(0.04 * std::clamp(noise.normal(), -2.0, 2.0));
   for (std::size_t i = 0; i < 2; ++i) {
     const Readings readings = run(real, schedules[i]);
+    for (HiddenEffect& one : out.hidden) {
+      if (i == 0 && one.id == "coolant") one.heat_W = readings.coolant_W;
+    }
     out.recordings.push_back(measure(real, schedules[i], readings, noise, true, offsets));
     out.clean.push_back(measure(real, schedules[i], readings, noise, false, offsets));
     out.recordings.back().name = out.name + (i == 0 ? "-A" : "-B");

@@ -18,6 +18,7 @@ struct HiddenEffect {
   double position_mm = -1.0;
   std::string channel;
   std::string law = {};  // of an extra heat source
+  double heat_W = 0.0;   // of the coolant in the first recording, on average while it flows
 };
 
 struct Case {

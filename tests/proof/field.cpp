@@ -74,7 +74,7 @@ class Field {
     }
     return sum / weight;
   }
-  double bearing_heat = 0, motor_heat = 0;
+  double bearing_heat = 0, motor_heat = 0, coolant_heat = 0;
 
  private:
   static constexpr int nz = 48, nr = 3;
@@ -93,6 +93,7 @@ class Field {
   void rates(const std::vector<double>& t, const Inputs& in) {
     const Truth& m = m_m;
     std::fill(m_rate.begin(), m_rate.end(), 0.0);
+    coolant_heat = 0;
     const int joint = m.contact_R > 0 ? static_cast<int>(std::lround(m.contact_x / m_dz)) : -1;
     for (int i = 0; i < nz; ++i) {
       for (int j = 0; j < nr; ++j) {
@@ -116,8 +117,10 @@ class Field {
       if (m.draught_h > 0 && in.time > m.draught_from_s && in.time < m.draught_to_s) h += m.draught_h * (x / m.length);
       const double a = t[outer] + 273.15, b = in.room + 273.15;
       h += m.eps * 5.67e-8 * (a + b) * (a * a + b * b);
-      double flow = h * (in.room - t[outer]);
-      if (x > m.cool_from && x < m.cool_to) flow += in.coolant * m.cool_h * (m.cool_C - t[outer]);
+      const bool cooled = x > m.cool_from && x < m.cool_to;
+      const double cooling = cooled ? in.coolant * m.cool_h * (m.cool_C - t[outer]) : 0.0;
+      coolant_heat += cooling * m_face[nr - 1];
+      const double flow = h * (in.room - t[outer]) + cooling;
       m_rate[outer] += flow * m_face[nr - 1] / (m.rho * m.c * m_area[nr - 1] * m_dz);
     }
     for (int j = 0; j < nr; ++j) {
@@ -169,6 +172,7 @@ Readings run(const Truth& m, const Schedule& s) {
   Readings out;
   out.temperatures.resize(m.sensors.size());
   double room_lag = 0, bend = 0, bend_room = 0, lagged = m.start_C;
+  double coolant_J = 0, flows_s = 0;
   double held = 0;            // growth that the seat has let through
   const double share = 0.37;  // inputs switch inside the interval
   for (std::size_t k = 0; k < s.time.size(); ++k) {
@@ -180,6 +184,8 @@ Readings run(const Truth& m, const Schedule& s) {
         const std::size_t row = f > 1 - share ? k : k - 1;
         const double room = s.room[k - 1] + f * (s.room[k] - s.room[k - 1]);
         field.advance({s.rpm[row], s.coolant[row], s.load[row], room, s.time[k - 1] + f * dt}, dt / parts);
+        coolant_J += field.coolant_heat * dt / parts;
+        flows_s += s.coolant[row] * dt / parts;
         const double rise = room - m.start_C;
         room_lag = follow(room_lag, rise, dt / parts, m.ambient_tau);
         const double typical = m.motor_W * (1 - m.efficiency);
@@ -204,6 +210,7 @@ Readings run(const Truth& m, const Schedule& s) {
     out.dz.push_back(held + m.ambient_g * room_lag + creep + slack - m.backlash_um * std::tanh(-3.0));
     out.dy.push_back(m.bend_g * (bend + 0.3 * bend_room));
   }
+  out.coolant_W = flows_s > 0 ? coolant_J / flows_s : 0.0;
   return out;
 }
 

@@ -48,6 +48,7 @@ struct Schedule {
 struct Readings {
   std::vector<std::vector<double>> temperatures;  // [sensor][row]
   std::vector<double> dz, dy;
+  double coolant_W = 0;  // that it brings while it flows, on average; less than nothing
 };
 
 Truth draw_machine(Noise& noise);

@@ -96,10 +96,12 @@ std::vector<TextEntry> texts_of_physics() {
        "判断是否存在{@rival}的试验（共 {minutes} min）：{@run}。"},
       {"The simulation left out {+effects}.", "仿真遗漏了：{+effects}。"},
       {"{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
-       "({parameters}) removes {removed_percent} % of that. Typical of it: {@fingerprint}.",
+       "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}.",
        "{@regime}，不含该效应时 {channel} 与最佳仿真相差 {before} "
        "{unit}（均方根）。加入{@name}{@where}（{parameters}）后消除其中的 {removed_percent} "
-       "%。其典型表现：{@fingerprint}。"},
+       "%{@heat}。其典型表现：{@fingerprint}。"},
+      {"; it brings {watts} on average while it acts", "；起作用期间平均带入 {watts}"},
+      {"; it takes away {watts} on average while it acts", "；起作用期间平均带走 {watts}"},
       {"This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
        "excluded.",
        "{@name}{@where}对本次记录的解释几乎同样好（对数证据低 {behind}）：不能排除。"},
