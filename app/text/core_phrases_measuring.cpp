@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 198> measuring = {{
+constexpr std::array<const char*, 200> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -125,6 +125,7 @@ constexpr std::array<const char*, 198> measuring = {{
     QT_TRANSLATE_NOOP("core", "the PNG file ends early"),
     QT_TRANSLATE_NOOP("core", "the picture is larger than 100 megapixels"),
     QT_TRANSLATE_NOOP("core", "the JPEG file ends early"),
+    QT_TRANSLATE_NOOP("core", "the BMP file ends early"),
     QT_TRANSLATE_NOOP("core", "not a PNG, JPEG, BMP or TIFF picture"),
     QT_TRANSLATE_NOOP("core", "16 bits reduced to 8"),
     QT_TRANSLATE_NOOP("core", "pixels are neither 8 nor 16 bits"),
@@ -137,6 +138,7 @@ constexpr std::array<const char*, 198> measuring = {{
     QT_TRANSLATE_NOOP("core", "the picture is damaged"),
     QT_TRANSLATE_NOOP("core", "%1 is no picture and was left out"),
     QT_TRANSLATE_NOOP("core", "%1 is a pipe or a device, no picture, and was left out"),
+    QT_TRANSLATE_NOOP("core", "%1 is a folder, no picture, and was left out"),
     QT_TRANSLATE_NOOP("core", "a file"),
     QT_TRANSLATE_NOOP("core", "the PNG file is damaged"),
     QT_TRANSLATE_NOOP("core", "unreadable: %1"),

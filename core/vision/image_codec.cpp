@@ -62,6 +62,9 @@ std::string fault_of(Bytes bytes) {
     // A truncated JPEG decodes to half a picture and grey below: the end mark must be there.
     return contains_near_end(bytes, "\xff\xd9") ? "" : "the JPEG file ends early";
   }
+  // Its decoder tells standard error of it.
+  if (static_cast<std::int64_t>(bytes.size()) < claimed_bytes_of_bmp(bytes).value_or(0))
+    return "the BMP file ends early";
   if (starts_with(bytes, {'B', 'M'}) || starts_with(bytes, {'I', 'I', 42, 0}) ||
       starts_with(bytes, {'M', 'M', 0, 42})) {
     return "";

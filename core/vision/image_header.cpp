@@ -92,4 +92,20 @@ std::optional<ClaimedSize> claimed_size(Bytes bytes) {
   return std::nullopt;
 }
 
+std::optional<std::int64_t> claimed_bytes_of_bmp(Bytes bytes) {
+  if (bytes.size() < 2 || bytes[0] != 'B' || bytes[1] != 'M') return std::nullopt;
+  const Reader in(bytes, false);
+  const auto size = bmp_size(bytes);
+  const auto pixels_at = in.number(10, 4);
+  const auto pixel_bits = in.number(28, 2);
+  const auto compression = in.number(30, 4);
+  constexpr std::int64_t both_headers_bytes = 54;
+  constexpr std::int64_t old_header_bytes = 12;
+  if (in.number(14, 4) == old_header_bytes) return std::nullopt;
+  if (!size || !pixels_at || !pixel_bits || !compression) return both_headers_bytes;
+  if (*compression != 0) return std::nullopt;
+  const std::int64_t row_bytes = (size->width * *pixel_bits + 31) / 32 * 4;
+  return *pixels_at + row_bytes * size->height;
+}
+
 }  // namespace zerodrift::vision

@@ -1,5 +1,5 @@
 #pragma once
-// The size that a picture file claims, read before a decoder takes memory for it.
+// The sizes that a picture file claims, read before a decoder takes memory for it.
 
 #include <cstdint>
 #include <optional>
@@ -15,5 +15,8 @@ struct ClaimedSize {
 /// PNG (IHDR), JPEG (the first frame header, ITU-T T.81 B.2.2), BMP (both headers) and TIFF 6.0 (tags 256 and 257 of
 /// the first directory); nothing where the file is too short to say, or is none of these.
 std::optional<ClaimedSize> claimed_size(std::span<const std::uint8_t> bytes);
+
+/// Bytes that a BMP file of uncompressed pixels has to have; nothing of any other file.
+std::optional<std::int64_t> claimed_bytes_of_bmp(std::span<const std::uint8_t> bytes);
 
 }  // namespace zerodrift::vision

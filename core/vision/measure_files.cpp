@@ -52,7 +52,11 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<st
   for (fs::directory_iterator it(folder, problem), end; !problem && it != end; it.increment(problem)) {
     std::error_code ignored;
     const std::string name = it->path().filename().string();
-    if (name.empty() || name.front() == '.' || it->is_directory(ignored)) continue;
+    if (name.empty() || name.front() == '.') continue;
+    if (it->is_directory(ignored)) {
+      if (looks_like_picture(it->path())) warn(warnings, name + " is a folder, no picture, and was left out");
+      continue;
+    }
     const fs::file_type type = it->status(ignored).type();
     const bool gives_bytes_later = type == fs::file_type::fifo || type == fs::file_type::socket ||
                                    type == fs::file_type::character || type == fs::file_type::block;

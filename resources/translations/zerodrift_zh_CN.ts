@@ -1958,6 +1958,10 @@
         <translation>JPEG 文件不完整</translation>
     </message>
     <message>
+        <source>the BMP file ends early</source>
+        <translation>BMP 文件不完整</translation>
+    </message>
+    <message>
         <source>not a PNG, JPEG, BMP or TIFF picture</source>
         <translation>不是 PNG、JPEG、BMP 或 TIFF 图像</translation>
     </message>
@@ -1996,6 +2000,10 @@
     <message>
         <source>the picture is damaged</source>
         <translation>图像已损坏</translation>
+    </message>
+    <message>
+        <source>%1 is a folder, no picture, and was left out</source>
+        <translation>%1 是文件夹，不是图像，已略去</translation>
     </message>
     <message>
         <source>%1 is no picture and was left out</source>

@@ -35,6 +35,41 @@ TEST(ImageCodec, JpegKeepsSizeAndNearlyTheValues) {
   EXPECT_NEAR(back->image.at(30, 20), 100, 2);
 }
 
+// Of 24 bits, as cameras write it.
+std::vector<std::uint8_t> bmp_of(const GrayImage& image) {
+  std::vector<std::uint8_t> bytes = {'B', 'M'};
+  const auto put = [&](std::int64_t value, int count) {
+    for (int k = 0; k < count; ++k) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
+  };
+  const std::int64_t row_bytes = (3 * image.width + 3) / 4 * 4;
+  for (const std::int64_t value : {54 + row_bytes * image.height, std::int64_t{0}, std::int64_t{54}, std::int64_t{40},
+                                   std::int64_t{image.width}, std::int64_t{image.height}})
+    put(value, 4);
+  for (const int value : {1, 24}) put(value, 2);
+  for (int k = 0; k < 6; ++k) put(0, 4);
+  for (int y = image.height - 1; y >= 0; --y) {
+    for (int x = 0; x < image.width; ++x) bytes.insert(bytes.end(), 3, image.at(x, y));
+    bytes.resize(bytes.size() + static_cast<std::size_t>(row_bytes - 3 * image.width));
+  }
+  return bytes;
+}
+
+// The library that decodes would remark on a part of it on stderr.
+TEST(ImageCodec, ABmpIsReadWholeOrNotAtAll) {
+  const GrayImage image = ramp(37, 23);
+  const std::vector<std::uint8_t> bytes = bmp_of(image);
+  const auto whole = decode(bytes, "a.bmp");
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->image.pixels, image.pixels);
+  ::testing::internal::CaptureStderr();
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    const auto part = decode(std::span(bytes.data(), size), "cut");
+    ASSERT_FALSE(part) << size;
+    EXPECT_EQ(part.error().code, ErrorCode::image_unreadable);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ImageCodec, EveryTruncationIsAnError) {
   for (const bool png : {true, false}) {
     const auto bytes = png ? encode_png(ramp(64, 64)) : encode_jpeg(ramp(64, 64), 80);

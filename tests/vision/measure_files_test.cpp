@@ -55,6 +55,7 @@ TEST_F(MeasureFiles, BadFramesAreNamedAndGoodOnesMeasured) {
   ASSERT_TRUE(write_file(m_folder / "frames/d_empty.jpg", ""));
   ASSERT_TRUE(write_png(m_folder / "frames/e_small.png", GrayImage{100, 80, std::vector<std::uint8_t>(8000, 90)}));
   ASSERT_TRUE(write_file(m_folder / "frames/notes.txt", "hello"));
+  fs::create_directories(m_folder / "frames/g_folder.png");
   ASSERT_EQ(::mkfifo((m_folder / "frames/f_pipe.png").c_str(), 0600), 0);
   std::vector<std::string> warnings;
   const auto positions = locate_in_folder(target(), {}, m_folder / "frames", &warnings, {});
@@ -66,7 +67,8 @@ TEST_F(MeasureFiles, BadFramesAreNamedAndGoodOnesMeasured) {
   EXPECT_NE((*positions)[2].location.reason.find("ends early"), std::string::npos);
   EXPECT_NE((*positions)[3].location.reason.find("empty"), std::string::npos);
   EXPECT_EQ((*positions)[4].location.reason, "another resolution than the template");
-  EXPECT_EQ(warnings.size(), 5u);
+  EXPECT_EQ(warnings.size(), 6u);
+  EXPECT_EQ(std::count(warnings.begin(), warnings.end(), "g_folder.png is a folder, no picture, and was left out"), 1);
   EXPECT_EQ(
       std::count(warnings.begin(), warnings.end(), "f_pipe.png is a pipe or a device, no picture, and was left out"),
       1);
