@@ -106,7 +106,7 @@ QWidget* PhysicsPage::makeTrial() {
 QWidget* PhysicsPage::makeExplanations() {
   m_sideCard = new Card(this);
   m_sideCard->setFixedWidth(372);
-  m_sideCard->setBodyMargins(12, 0, 4, 8);
+  m_sideCard->setBodyMargins(16, 0, 8, 8);
   m_verdict = new WrapLabel(m_sideCard);
   m_scroll = new QScrollArea(m_sideCard);
   m_scroll->setWidgetResizable(true);
