@@ -136,7 +136,8 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   if (worst == 0) return first;
   std::vector<recording::Recording> turned = recordings;
   std::swap(turned[0], turned[worst]);
-  Result<Diagnosis> turned_round = Diagnoser(machine, turned, options, context).run();
+  Diagnoser diagnoser(machine, turned, options, context);
+  Result<Diagnosis> turned_round = diagnoser.run();
   if (!turned_round) {  // held out it did no harm: what is wrong with it does not spoil the first one's answer
     if (turned_round.error().code == ErrorCode::cancelled) return turned_round;
     return first;
@@ -148,10 +149,15 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
     first.seconds = other.seconds;
     return first;
   }
+  // Predicted well, or likelier with what is uncertain of the prediction.
+  const auto holds = [&] {
+    return missed_by(other) < (alone_says_little ? in_order : contradicted) ||
+           (alone_says_little && diagnoser.borne_out_elsewhere());
+  };
   // What happened once in the other recording cannot be borne out by the first, and the same explanation in both, of
   // which one makes the other worse, is not saved by the turn.
-  const bool borne_out = other.verdict == Verdict::missing_effect && !cannot_be_borne_out(other) &&
-                         other.forms != first.forms && missed_by(other) < (alone_says_little ? in_order : contradicted);
+  const bool borne_out =
+      other.verdict == Verdict::missing_effect && !cannot_be_borne_out(other) && other.forms != first.forms && holds();
   if (!twice && !borne_out) {
     const HeldOut& missed_one = first.held_out[worst - 1];
     if (fails_where_it_explains(first, missed_one) || hides_a_movement(first, missed_one)) {

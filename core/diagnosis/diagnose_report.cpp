@@ -284,8 +284,8 @@ void Diagnoser::slips_of_its_own(const Machine& best, const Recording& other, He
   }
 }
 
-/// An explanation that makes another recording of the machine worse than none does is not one. What happened once - a
-/// slip, an open door - need not happen in the other.
+/// An explanation that makes another recording of the machine worse than none does is not one, unless that recording is
+/// likelier with it all the same. What happened once - a slip, an open door - need not happen in the other.
 bool Diagnoser::refuted() const {
   for (const std::size_t index : m_selection.effects()) {
     if (physics::happens_once(m_selection.best->machine().effects[index].id)) return false;
@@ -300,9 +300,13 @@ bool Diagnoser::refuted() const {
       without += std::pow(before->second / channel.white, 2);
       with += std::pow(after->second / channel.white, 2);
     }
-    if (with > clearly * without) return true;
+    if (with > clearly * without) return !borne_out_elsewhere();
   }
   return false;
+}
+
+bool Diagnoser::borne_out_elsewhere() const {
+  return borne_out(*m_selection.best, *m_selection.base, m_limits.others);
 }
 
 void Diagnoser::details() {

@@ -17,6 +17,8 @@ class Diagnoser {
   Diagnoser(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
             const DiagnoseOptions& options, const TaskContext& context);
   Result<Diagnosis> run();
+  /// Once run: do the others bear the answer out (elsewhere.h)?
+  bool borne_out_elsewhere() const;
 
  private:
   static constexpr double most_left = 0.2;  // of the mismatch, rms, for an effect to explain it

@@ -89,6 +89,12 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
   models.resize(kept);
 }
 
+bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others) {
+  constexpr double least = 3.0;  // twenty to one
+  const Elsewhere there = elsewhere(fit, others);
+  return there.left <= least_evident && there.evidence - elsewhere(without, others).evidence > least;
+}
+
 SeenByAll seen_by_all(const Model& fit, const OtherRecordings& others) {
   Elsewhere anew = elsewhere(fit, others, Sensors::anew);
   Elsewhere the_same = elsewhere(fit, others, Sensors::the_same);

@@ -21,6 +21,10 @@ bool within_tolerance(const Model& model);
 /// under what the fit to those before it knows of the machine. Leaves out models that do not fit there - a recording of
 /// another machine judges nobody.
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others);
+/// Whether the others bear a model out: with what it has shown of the machine they fit, and they are likelier than
+/// beside `without`. What a recording leaves uncertain stays uncertain here; a prediction with its likeliest numbers
+/// may miss by it.
+bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others);
 /// The displacement that needs more than the ordinary misfit in another recording, with what the fitted one has shown
 /// of the machine, where no temperature does; empty where there is none. An expansion or an offset of the description
 /// may hide in one run what moves the nose, but not in two.

@@ -16,6 +16,7 @@ using Eigen::Index;
 
 constexpr double block_s = 1800.0;
 constexpr int places = 17;
+constexpr int sizes = 8;
 
 /// The nominal network with a source at every place whose strength is one parameter; responses to a first half hat and
 /// to one whole hat, the rest follow by shifting in time.
@@ -139,7 +140,8 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
     h.bottomRightCorner(nb, nb) = columns.transpose() * columns;
     Eigen::VectorXd g(n0 + nb);
     g << base_gradient, columns.transpose() * nominal.residual();
-    for (int level = 0; level < 8; ++level) {
+    double highest = -1e300, sum = 0.0;
+    for (int level = 0; level < sizes; ++level) {
       const double watts = std::pow(10.0, -1.0 + 0.5 * level);
       Eigen::MatrixXd full = h;
       full.bottomRightCorner(nb, nb) += smooth / (watts * watts);
@@ -147,10 +149,12 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
       const Eigen::VectorXd solution = factors.solve(g);
       const double evidence = 0.5 * g.dot(solution) - 0.5 * factors.vectorD().array().max(1e-300).log().sum() +
                               0.5 * (smooth_log - 2.0 * static_cast<double>(nb) * std::log(watts));
-      if (evidence <= scan.evidence[place]) continue;
-      scan.evidence[place] = evidence;
+      sum = evidence > highest ? sum * std::exp(highest - evidence) + 1.0 : sum + std::exp(evidence - highest);
+      if (evidence <= highest) continue;
+      highest = evidence;
       scan.watts_by_position[place].assign(solution.data() + n0, solution.data() + n0 + nb);
     }
+    scan.evidence[place] = highest + std::log(sum / sizes);  // every size is as likely
   });
   const auto best = std::max_element(scan.evidence.begin(), scan.evidence.end()) - scan.evidence.begin();
   const double step_mm = scan.position_mm[1] - scan.position_mm[0];

@@ -145,8 +145,57 @@ void take_chords_of_lags(const physics::Network& network, const std::vector<Cand
   }
 }
 
+/// The efficient score of every candidate's amplitudes, with the base's own unknowns fitted beside them.
+struct Scores {
+  const physics::Network& network;
+  const Columns& columns;
+  const Eigen::VectorXd& gradient;
+  const Eigen::MatrixXd& information;
+
+  struct Step {
+    double gain = 0.0;
+    Eigen::VectorXd step;
+  };
+  bool forbidden(std::size_t candidate, double amplitude) const {
+    const std::size_t main = columns.of_candidate[candidate].first;
+    return network.parameters[static_cast<std::size_t>(columns.parameters[main])].low >= 0.0 && amplitude <= 0.0;
+  }
+  /// Of two together; none where physics forbids a sign.
+  Step together(std::size_t a, std::size_t b) const {
+    std::vector<Index> at;
+    for (const std::size_t candidate : {a, b}) {
+      const auto [first, count] = columns.of_candidate[candidate];
+      for (std::size_t i = 0; i < count; ++i) at.push_back(static_cast<Index>(first + i));
+    }
+    const Eigen::VectorXd g = gradient(at);
+    Step both;
+    both.step = information(at, at).ldlt().solve(g);
+    const auto second = static_cast<Index>(columns.of_candidate[a].second);
+    if (!forbidden(a, both.step[0]) && !forbidden(b, both.step[second])) both.gain = both.step.dot(g);
+    return both;
+  }
+};
+
+/// Looks through all pairs of different effects: the derivatives are there, a pair costs a few numbers.
+void find_pair(const Scores& scores, const std::vector<Candidate>& group, double least, HiddenPair& pair) {
+  for (std::size_t a = 0; a < group.size(); ++a) {
+    for (std::size_t b = a + 1; b < group.size(); ++b) {
+      const std::size_t of_a = scores.columns.of_candidate[a].second;
+      if (group[a].spec.id == group[b].spec.id || of_a == 0 || scores.columns.of_candidate[b].second == 0) continue;
+      const Scores::Step both = scores.together(a, b);
+      if (both.gain <= pair.gain || both.gain <= group[a].gain + group[b].gain + least) continue;
+      pair.gain = both.gain;
+      pair.effects = {group[a], group[b]};
+      const double* step = both.step.data();
+      pair.effects[0].step.assign(step, step + of_a);
+      pair.effects[1].step.assign(step + of_a, step + both.step.size());
+    }
+  }
+}
+
 /// Scores a group of candidates that may stand side by side.
-void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::vector<Candidate>& group) {
+void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::vector<Candidate>& group,
+           HiddenPair* pair = nullptr, double least = 0.0) {
   if (group.empty()) return;
   Machine machine = base.machine();
   const std::size_t first_effect = machine.effects.size();
@@ -180,6 +229,10 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
     group[c].gain = gain;
     group[c].step.assign(step.data(), step.data() + count);
   }
+  if (pair == nullptr) return;
+  const Eigen::MatrixXd information =
+      s.transpose() * s + Eigen::MatrixXd::Identity(s.cols(), s.cols()) - js.transpose() * solved;
+  find_pair({wide.network(), columns, gradient, information}, group, least, *pair);
 }
 
 }  // namespace
@@ -233,7 +286,7 @@ physics::RunFacts facts_of(const Machine& machine, const recording::Recording& r
   return facts;
 }
 
-std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts) {
+std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts, HiddenPair* pair, double least) {
   std::vector<Candidate> together;
   std::vector<std::vector<Candidate>> alone;
   const auto measured = [&](const EffectSpec& spec) {
@@ -260,7 +313,7 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts)
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> factors(base.hessian());
-  score(base, factors, together);
+  score(base, factors, together, pair, least);
   for (auto& one : alone) {
     score(base, factors, one);
     together.push_back(one.front());
@@ -289,17 +342,23 @@ bool doubles_a_joint(const Model& model) {
 }
 
 std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate) {
+  return extended(base, std::span(&candidate, 1));
+}
+
+std::shared_ptr<Model> extended(const Model& base, std::span<const Candidate> candidates) {
   Machine machine = base.machine();
-  machine.effects.push_back(candidate.spec);
-  const int index = static_cast<int>(machine.effects.size()) - 1;
+  const int before = static_cast<int>(machine.effects.size());
+  for (const Candidate& candidate : candidates) machine.effects.push_back(candidate.spec);
   auto model = std::make_shared<Model>(std::move(machine), base.shared_data());
   model->start_from(base, true);
-  model->gain = candidate.gain;
-  std::size_t amplitude = 0;
+  model->gain = candidates.back().gain;
+  std::vector<std::size_t> amplitudes(candidates.size(), 0);
   for (std::size_t i = 0; i < model->unknowns(); ++i) {
     const auto& parameter = model->unknown(i);
-    if (parameter.effect != index || !parameter.amplitude || amplitude >= candidate.step.size()) continue;
-    model->set_z(i, std::clamp(candidate.step[amplitude++], -3.0, 3.0));
+    if (parameter.effect < before || !parameter.amplitude) continue;
+    const auto of = static_cast<std::size_t>(parameter.effect - before);
+    const std::vector<double>& step = candidates[of].step;
+    if (amplitudes[of] < step.size()) model->set_z(i, std::clamp(step[amplitudes[of]++], -3.0, 3.0));
   }
   return model;
 }

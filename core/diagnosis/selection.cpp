@@ -40,25 +40,34 @@ Status Selector::search() {
   m_result.levels.clear();
   m_context.progress(0.15, "screening");
   if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-  m_result.screened = screen(*m_result.base, m_facts);
+  HiddenPair pair;
+  m_result.screened = screen(*m_result.base, m_facts, &pair, m_options.second_screen);
   auto first = refine(m_result.base, m_result.screened, {});
   m_result.levels.push_back(first);
   m_context.progress(0.5, "refitting");
   if (m_context.cancelled()) return fail(ErrorCode::cancelled);
   const std::vector<ModelPtr> leading = leaders_of(first);
   if (!leading.empty()) base_from(*leading.front());
-  if (leading.empty() || total_gain(*leading.front(), *m_result.base) <= least_first(*leading.front())) {
+  const bool one_found =
+      !leading.empty() && total_gain(*leading.front(), *m_result.base) > least_first(*leading.front());
+  const ModelPtr two = with_pair(pair);
+  if (!one_found && !found_together(two)) {
     ask_others();
     if (m_result.best != m_result.base) align();
     tell_apart();
     return {};
   }
-  m_result.best = leading.front();
-  for (int level = 2; level <= m_options.most_effects; ++level) {
+  m_result.best = one_found ? leading.front() : two;
+  if (!one_found) eliminate();
+  for (int level = one_found ? 2 : 3; level <= m_options.most_effects; ++level) {
     const ModelPtr before = m_result.best;
     std::vector<ModelPtr> beam = leading;
     if (m_other_valley != nullptr) beam.push_back(m_other_valley);
-    add_one(level == 2 ? beam : std::vector<ModelPtr>{m_result.best});
+    if (level == 2) {
+      add_one(beam, two);
+    } else {
+      add_one({m_result.best});
+    }
     m_context.progress(0.4 + 0.25 * level, "further_effects");
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     if (m_result.best == before) break;
@@ -341,8 +350,21 @@ bool Selector::swap_one(bool forms) {
   return false;
 }
 
-void Selector::add_one(const std::vector<ModelPtr>& beam) {
+ModelPtr Selector::with_pair(const HiddenPair& pair) const {
+  if (pair.effects.empty() || !m_options.own_misfit) return nullptr;
+  const ModelPtr two = extended(*m_result.base, pair.effects);
+  two->fit({15, 0.05, true});
+  return with_ordinary(two);
+}
+
+bool Selector::found_together(const ModelPtr& two) const {
+  if (two == nullptr || doubles_a_joint(*two) || within_tolerance(*two)) return false;
+  return total_gain(*two, *m_result.base) > least_first(*two) + m_options.second_clean;
+}
+
+void Selector::add_one(const std::vector<ModelPtr>& beam, const ModelPtr& pair) {
   std::vector<ModelPtr> fits;
+  if (pair != nullptr) fits.push_back(pair);
   for (const auto& start : beam) {
     start->fit({2, 0.05, true});
     auto screened = screen(*start, m_facts);

@@ -103,7 +103,15 @@ class Selector {
   /// Another family in the place of one effect, where it is better; with `forms` also another form of the same.
   bool swap_one(bool forms = false);
 
-  void add_one(const std::vector<ModelPtr>& beam);
+  /// `pair`: two effects at once, tried beside one more than each of the beam has; or none.
+  void add_one(const std::vector<ModelPtr>& beam, const ModelPtr& pair = nullptr);
+
+  /// None, with two effects that hide each other: one by one neither is found, or the one in a form that makes up for
+  /// the other. None where no two do.
+  ModelPtr with_pair(const HiddenPair& pair) const;
+
+  /// Are the two there, though none is by itself?
+  bool found_together(const ModelPtr& two) const;
 
   /// Where a second joint beside the first is liked, the one joint may stand where the second was put: with that alone,
   /// where it is better than what there is, else none.

@@ -138,6 +138,30 @@ TEST(Elsewhere, ARecordingOfAnotherMachineJudgesNobody) {
   EXPECT_TRUE(asked.empty());
 }
 
+/// The effect that is there, one that is not, and the recording of another machine.
+TEST(Elsewhere, OnlyWhatIsThereIsBorneOut) {
+  const proof::Case one = proof::make_case(118, "coolant");
+  const proof::Case other = proof::make_case(42, "none");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const physics::Machine bodies = with_inner_bodies(*machine);
+  const auto seen = dataset_of(bodies, one.recordings[0]);
+  Model none(bodies, seen);
+  none.fit({20, 0.05, true});
+  const auto with = [&](const Model& base, const char* id) {
+    std::vector<Candidate> forms = screen(base, facts_of(bodies, one.recordings[0]));
+    std::erase_if(forms, [&](const Candidate& form) { return form.spec.id != id; });
+    const ModelPtr fit = extended(base, forms.front());
+    fit->fit({20, 0.05, true});
+    return fit;
+  };
+  const ModelPtr there = with(none, "coolant");
+  const OtherRecordings others = {dataset_of(bodies, one.recordings[1])};
+  EXPECT_TRUE(borne_out(*there, none, others));
+  EXPECT_FALSE(borne_out(*with(*there, "bearing_viscosity"), *there, others));
+  EXPECT_FALSE(borne_out(*there, none, {dataset_of(bodies, other.recordings[0])}));
+  EXPECT_FALSE(borne_out(*there, none, {}));
+}
+
 /// A slack of the nest that an expansion 8 % larger hides in one run: 0.27 um are left of it there.
 TEST(Elsewhere, WhatOneRunHidesInTheExpansionTheOtherShows) {
   const proof::Case one = proof::make_case(1830277358);
