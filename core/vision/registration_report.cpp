@@ -204,7 +204,7 @@ double RegistrationSolver::tell_structure(int count, Registration& out) const {
     error[tile] += w * z;
     weight[tile] += w;
   }
-  const double variance = psi2 / std::max(used - static_cast<int>(column_count), 1);
+  const double variance = std::max(psi2 / std::max(used - static_cast<int>(column_count), 1), m_least_variance);
   double structure = 0.0;
   int tiles_used = 0;
   for (int tile = 0; tile < tiles; ++tile) {

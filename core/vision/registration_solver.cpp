@@ -37,6 +37,7 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
       m_field(field),
       m_doubted(start.doubted),
       m_lens(start.lens.per_px2),
+      m_least_variance(2.0 * rounding_variance / model.noise_correlation),
       m_prior(start.lens),
       m_outline_alone(start.outline_alone),
       m_middle(start.middle_px),

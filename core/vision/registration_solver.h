@@ -124,6 +124,7 @@ class RegistrationSolver {
   double m_lens;  // 1 / px^2
   double m_tukey = 0.0;
   double m_scale = 1.0;
+  double m_least_variance;  // of the errors: both pictures are rounded
   double m_last_step_px = 1.0;
   LensTerm m_prior;
   bool m_outline_alone;

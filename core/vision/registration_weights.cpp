@@ -111,7 +111,7 @@ double RegistrationSolver::scale_of_errors(int count) {
   }
   const auto middle = m_scratch.begin() + static_cast<std::ptrdiff_t>(rank - below);
   std::nth_element(m_scratch.begin(), middle, m_scratch.end());
-  return robust_deviation * *middle + 1e-3;
+  return std::max(robust_deviation * *middle + 1e-3, std::sqrt(m_least_variance));
 }
 
 // The pixels' weights from the present errors.

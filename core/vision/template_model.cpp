@@ -196,7 +196,7 @@ void set_tiles(TemplateModel& model) {
 
 TemplateSource completed(TemplateSource source) {
   if (source.backdrop) source.behind = behind_of(source);
-  source.noise_levels = noise_of_pixels(source.pixels);
+  source.noise_levels = std::max(noise_of_pixels(source.pixels), std::sqrt(rounding_variance));
   return source;
 }
 

@@ -39,6 +39,9 @@ struct TemplateModel {
   HiddenMotion hidden;
 };
 
+/// Of whole grey levels. Where a camera has hardly any other noise, even places show none of it and edges all.
+inline constexpr double rounding_variance = 1.0 / 12.0;
+
 struct TemplateSource {
   FloatImage pixels;  // the region with a margin on each side
   int margin_px = 0;
