@@ -70,7 +70,7 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "{what} does not fit: found {found}, expected {expected}."),
         QT_TRANSLATE_NOOP("errors", "Check the units, and that all of it is of one machine.")},
     Row{ErrorCode::image_unreadable, QT_TRANSLATE_NOOP("errors", "The image {file} cannot be read ({detail})."),
-        QT_TRANSLATE_NOOP("errors", "Check the file; PNG and JPEG are accepted.")},
+        QT_TRANSLATE_NOOP("errors", "Check the file; PNG, JPEG, BMP and TIFF are accepted.")},
     Row{ErrorCode::image_size,
         QT_TRANSLATE_NOOP("errors", "The image {file} is {found} pixels; the template is {expected}."),
         QT_TRANSLATE_NOOP("errors", "Use images from the same camera with the same settings.")},

@@ -6,9 +6,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/base/file.h"
+#include "core/base/json.h"
 
 namespace zerodrift::recording {
 namespace {
@@ -107,6 +109,13 @@ Status check_times(const Recording& recording, const std::string& file) {
                {"found", fmt::format("a row each {:g} s, {:g} s in all", *middle, whole_s)},
                {"expected",
                 "seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one time wrong?)"}});
+}
+
+/// Other bytes, as an old file's name has them, are told by the replacement character: the whole file would be no
+/// UTF-8.
+std::string in_utf8(std::string text) {
+  const bool plain = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  return plain ? text : nlohmann::json::parse(json_text(text)).get<std::string>();
 }
 
 }  // namespace
@@ -214,7 +223,7 @@ std::string number_text(double value) {
 }
 
 std::string cell_text(std::string_view entered) {
-  std::string text = (is_formula(entered) ? "'" : "") + std::string(entered);
+  std::string text = in_utf8((is_formula(entered) ? "'" : "") + std::string(entered));
   // Blanks at its ends belong to a quoted cell only.
   if (text.find_first_of(",;\t\"\r\n") == std::string_view::npos && trimmed(text) == text) return text;
   std::string out = "\"";

@@ -40,7 +40,7 @@ Status write_recording(const std::filesystem::path& path, const Recording& recor
 /// The shortest text that reads back as the same double; "" for NaN.
 std::string number_text(double value);
 /// A cell for CSV: quoted when it holds a separator, quote or newline. Text that a spreadsheet would take for a
-/// formula, whoever entered it, has an apostrophe before it, which reading takes away.
+/// formula, whoever entered it, has an apostrophe before it, which reading takes away. What is no UTF-8 is replaced.
 std::string cell_text(std::string_view text);
 
 }  // namespace zerodrift::recording

@@ -4221,8 +4221,8 @@
         <translation>无法读取图像 {file}（{detail}）。</translation>
     </message>
     <message>
-        <source>Check the file; PNG and JPEG are accepted.</source>
-        <translation>请检查该文件；可接受 PNG 和 JPEG。</translation>
+        <source>Check the file; PNG, JPEG, BMP and TIFF are accepted.</source>
+        <translation>请检查该文件；可接受 PNG、JPEG、BMP 和 TIFF。</translation>
     </message>
     <message>
         <source>The image {file} is {found} pixels; the template is {expected}.</source>

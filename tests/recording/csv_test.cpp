@@ -123,6 +123,11 @@ TEST(Csv, HostileNamesStayTextAndReadBack) {
   }
 }
 
+TEST(Csv, ACellIsUtf8WhateverTheFileWasCalled) {
+  EXPECT_EQ(cell_text("frame_\xff\xe9.png"), "frame_\xef\xbf\xbd\xef\xbf\xbd.png");
+  EXPECT_EQ(cell_text("\xe7\x83\xad.png"), "\xe7\x83\xad.png");
+}
+
 TEST(Csv, WritesWhatItReads) {
   const std::string text = "time_s,spindle_rpm,T1_C\n0,3000,20.0625\n0.1,,0.1\n";
   const auto recording = parse_recording(text, "a.csv");
