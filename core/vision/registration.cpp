@@ -384,6 +384,8 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     setup = next;
     if (blurs) remodel();
   }
+  const TemplateModel& last = blurred_model ? *blurred_model : usual;
+  out.expected_residual = source.noise_levels * std::sqrt(2.0 / last.noise_correlation);
   out.converged = out.converged && (out.covariance_px2.diagonal().array() > 0.0).all();
   if (m_outline && m_source.backdrop) out.covariance_px2.diagonal().array() += learned_px * learned_px;
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;

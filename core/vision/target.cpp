@@ -53,7 +53,8 @@ constexpr double some_glare = 0.02;               // of the pixels
 constexpr double some_saturated = 0.005;          // of the pixels: it is glare that spoils the picture
 constexpr double accepted_blur_px2 = 12.0;
 constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
-constexpr double rough_residual = 2.4;     // standard deviations of shot noise
+constexpr double rough_residual = 2.4;     // standard deviations of shot noise, and
+constexpr double rough_to_noise = 1.5;     // times what the template's noise makes it
 constexpr double rough_sigma_px = 0.01;
 constexpr double hidden_sigma_px = 0.03;
 constexpr double nothing_hidden = 0.97;
@@ -85,7 +86,8 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   // better; noise is rough without hiding anything. That a round target hides its turn says nothing against the place.
   const double sigma_px = std::sqrt((r.covariance_px2 - r.unseen_turn_px2).diagonal().maxCoeff());
   if (r.inlier_share + r.saturated_share < nothing_hidden) {
-    if (sigma_px > (r.residual > rough_residual ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
+    const bool rough = r.residual > std::max(rough_residual, rough_to_noise * r.expected_residual);
+    if (sigma_px > (rough ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
   }
   if (sigma_px > largest_sigma_px) return Refusal::too_different;
   if (r.printed_otherwise > another_print) return Refusal::wrong_target;
