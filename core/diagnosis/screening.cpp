@@ -341,6 +341,25 @@ bool doubles_a_joint(const Model& model) {
   return false;
 }
 
+bool mends_a_joint(const Model& model) {
+  const std::vector<EffectSpec>& effects = model.machine().effects;
+  if (effects.empty() || effects.back().id != "extra_heat_source") return false;
+  const auto number = [&](std::size_t effect, std::string_view key) {
+    for (std::size_t i = 0; i < model.unknowns(); ++i) {
+      const auto& unknown = model.unknown(i);
+      if (unknown.effect == static_cast<int>(effect) && unknown.key == key) return model.value(i);
+    }
+    return effects[effect].number_or(std::string(key), std::nan(""));
+  };
+  const double heat_mm = number(effects.size() - 1, "position_mm");
+  for (std::size_t i = 0; i + 1 < effects.size(); ++i) {
+    const bool same_rod = effects[i].word_or("component", "") == effects.back().word_or("component", "");
+    if (effects[i].id != "contact_resistance" || !same_rod) continue;
+    if (std::abs(number(i, "position_mm") - heat_mm) < number(i, "half_width_mm")) return true;
+  }
+  return false;
+}
+
 std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate) {
   return extended(base, std::span(&candidate, 1));
 }

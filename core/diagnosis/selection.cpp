@@ -255,7 +255,8 @@ bool Selector::ask_others_for_one() {
   const double least =
       alone ? m_options.together : std::max(m_options.together, least_gain(2.0 * total_gain(best, *m_result.base)));
   std::erase_if(doubtful, [&](const ModelPtr& fit) {
-    return together(fit) <= (worth_naming(*fit) ? least : std::max(least, m_options.tiny));
+    const double of_its_kind = mends_a_joint(*fit) ? m_options.second : worth_naming(*fit) ? 0.0 : m_options.tiny;
+    return together(fit) <= std::max(least, of_its_kind);
   });
   std::sort(doubtful.begin(), doubtful.end(), [&](auto& a, auto& b) { return together(a) > together(b); });
   if (doubtful.empty() || within_tolerance(*doubtful.front())) return false;
@@ -420,7 +421,7 @@ bool Selector::accepted(const Model& fit, const Excess& before) const {
   const double gained = total_gain(fit, *m_result.best);
   const double so_far = total_gain(*m_result.best, *m_result.base);
   if (m_options.own_misfit && gained <= m_options.tiny && !worth_naming(fit)) return false;
-  if (before.largest < 2.0) return gained > least_gain(so_far);
+  if (before.largest < 2.0 && !mends_a_joint(fit)) return gained > least_gain(so_far);
   if (gained <= std::max(m_options.second, m_options.second_relative * so_far)) return false;
   if (!m_options.excess_must_fall) return true;
   const Excess after = excess_of(fit);

@@ -118,7 +118,9 @@ class Selector {
   ModelPtr one_of_its_joints(const Model& doubled) const;
 
   /// What an effect more has to gain where the others leave nothing slow.
-  double least_gain(double so_far) const { return std::max(m_options.second_clean, m_options.clean_relative * so_far); }
+  double least_gain(double so_far) const {
+    return std::max(m_options.second_clean, std::min(m_options.clean_relative * so_far, m_options.beyond_doubt));
+  }
 
   /// What an effect against none has to gain.
   double least_first(const Model& fit) const;

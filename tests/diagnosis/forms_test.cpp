@@ -12,6 +12,7 @@
 
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/screening.h"
 #include "core/physics/builder.h"
 #include "core/physics/prediction.h"
 
@@ -147,6 +148,27 @@ TEST(Forms, TwoThatHideEachOtherAreFoundTogether) {
     ASSERT_TRUE(d);
     EXPECT_EQ(d->tried, (std::vector<std::string>{"bearing_preload", "bearing_viscosity"})) << seed;
     EXPECT_EQ(d->verdict, Verdict::missing_effect) << seed;
+  }
+}
+
+/// A joint's shape is hardly known: a heat within its breadth may do no more than mend it.
+TEST(Forms, AHeatWithinAJointsBreadthMendsItsShape) {
+  const recording::Recording run = runs_of(3).front();
+  constexpr double joint_mm = 250.0, half_width_mm = 12.0;
+  for (const double heat_mm : {joint_mm - 9.0, joint_mm + 9.0, joint_mm + 30.0}) {
+    physics::Machine machine = spindle();
+    const std::string rod = machine.components.front().id;
+    machine.effects.push_back(
+        {"contact_resistance",
+         true,
+         {{"resistance_m2K_W", 4e-3}, {"position_mm", joint_mm}, {"half_width_mm", half_width_mm}},
+         {{"component", rod}}});
+    machine.effects.push_back({"extra_heat_source",
+                               true,
+                               {{"power_W", 2.0}, {"position_mm", heat_mm}},
+                               {{"component", rod}, {"law", "constant"}}});
+    const auto data = std::make_shared<Dataset>(make_dataset(run, physics::build_network(machine, run)));
+    EXPECT_EQ(mends_a_joint(Model(machine, data)), std::abs(heat_mm - joint_mm) < half_width_mm) << heat_mm;
   }
 }
 
