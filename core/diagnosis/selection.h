@@ -13,8 +13,7 @@ struct SelectionOptions {
   double first = 8.0;             // an effect against none
   double second_screen = 14;      // score gain that makes a second effect worth a refit
   double second_clean = 7.5;      // a second effect where the first leaves nothing slow
-  double clean_relative = 0.001;  // of the evidence so far: a strong effect's law is never quite right
-  double beyond_doubt = 100.0;    // and more than this it does not leave over
+  double clean_relative = 0.001;  // of the evidence so far: a strong effect's law is never quite right; up to `second`
   double second = 25;             // a second effect where it does
   double second_relative = 0.002;
   double together = 10.0;  // an effect that two recordings have to show together; of 1200 sound machines one reached 5

@@ -119,7 +119,7 @@ class Selector {
 
   /// What an effect more has to gain where the others leave nothing slow.
   double least_gain(double so_far) const {
-    return std::max(m_options.second_clean, std::min(m_options.clean_relative * so_far, m_options.beyond_doubt));
+    return std::max(m_options.second_clean, std::min(m_options.clean_relative * so_far, m_options.second));
   }
 
   /// What an effect against none has to gain.
