@@ -202,7 +202,10 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
     }
     used.push_back({loaded[k].row.name, loaded[k].row.x_mm, loaded[k].row.y_mm, at.x_px, at.y_px, 0.0, 0.0});
   }
-  if (used.size() < 2 && !refused.empty()) {
+  // What most views do not show is not what the few others can be trusted to show, and they leave nothing to check
+  // with.
+  const bool most_refused = !refused.empty() && 2 * used.size() < loaded.size();
+  if (most_refused || (used.size() < 2 && !refused.empty())) {
     return fail(ErrorCode::calibration_refused,
                 {{"reason", fmt::format("the target was found in {} of {} views (the first without it is {})",
                                         used.size(), loaded.size(), refused)}});

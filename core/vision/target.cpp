@@ -333,10 +333,11 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   return out;
 }
 
-// Where a frame shows the target as far as can be told before anything is known of what stands behind it.
-std::optional<RegisteredFrame> Target::rough_place(const GrayImage& frame) const {
+// Where a frame shows the target; `rough`: as far as can be told before what stands behind it is known.
+std::optional<RegisteredFrame> Target::place_in(const GrayImage& frame, bool rough) const {
   const Location at = search(frame);
   if (at.ok) return RegisteredFrame{&frame, {at.x_px, at.y_px}, at.linear, at.lens};
+  if (!rough) return std::nullopt;
   RegisteredFrame out{&frame, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), {}};
   if (at.correlation > rough_correlation && at.inlier_share > least_inliers) {
     out.displacement_px = {at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px};
@@ -348,25 +349,24 @@ std::optional<RegisteredFrame> Target::rough_place(const GrayImage& frame) const
   return out;
 }
 
+std::vector<RegisteredFrame> Target::places_in(const std::vector<GrayImage>& frames, bool rough) const {
+  std::vector<RegisteredFrame> out;
+  for (const GrayImage& frame : frames) {
+    if (const auto place = place_in(frame, rough)) out.push_back(*place);
+  }
+  return out;
+}
+
 // Round after round, from where the target is found with what the one before taught. Before a backdrop that hides how
-// much is like the target the first has to do with rough places.
+// much is like the target rough places have to do, until it is found.
 Target Target::learned_backdrop(const std::vector<GrayImage>& frames) const {
-  Target out = *this;
   const auto moved = [](const RegisteredFrame& one) { return one.displacement_px.norm() > least_move_px; };
-  bool rough = false;
+  std::vector<RegisteredFrame> registered = places_in(frames, false);
+  const bool rough = std::count_if(registered.begin(), registered.end(), moved) < least_moved;
+  if (rough) registered = places_in(frames, true);
+  Target out = *this;
   for (int round = 0; round < (rough ? 3 : 2); ++round) {
-    std::vector<RegisteredFrame> registered;
-    for (const GrayImage& frame : frames) {
-      const Location at = out.search(frame);
-      if (at.ok) registered.push_back({&frame, {at.x_px, at.y_px}, at.linear, at.lens});
-    }
-    if (round == 0 && std::count_if(registered.begin(), registered.end(), moved) < least_moved) {
-      rough = true;
-      registered.clear();
-      for (const GrayImage& frame : frames) {
-        if (const auto place = out.rough_place(frame)) registered.push_back(*place);
-      }
-    }
+    if (round > 0) registered = out.places_in(frames, rough);
     const auto backdrop = learn_backdrop(m_impl->image, m_impl->region, m_impl->point, registered);
     if (!backdrop) break;
     out = with_backdrop(backdrop);

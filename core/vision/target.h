@@ -88,7 +88,8 @@ class Target {
 
  private:
   struct Impl;
-  std::optional<RegisteredFrame> rough_place(const GrayImage& frame) const;
+  std::optional<RegisteredFrame> place_in(const GrayImage& frame, bool rough) const;
+  std::vector<RegisteredFrame> places_in(const std::vector<GrayImage>& frames, bool rough) const;
   Target learned_backdrop(const std::vector<GrayImage>& frames) const;
   Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part) const;
   Location search(const GrayImage& frame, std::vector<float>* residual_map = nullptr,

@@ -17,6 +17,7 @@ struct Ball {
   double dx = 0.0, dy = 0.0;
   double highlight_dx = 0.0, highlight_dy = 0.0;  // of what is reflected, within the ball
   unsigned seed = 1;
+  double level = 28.0;
 };
 
 constexpr double radius_px = 70.0;
@@ -32,7 +33,7 @@ GrayImage ball_before(const GrayImage& behind, const Ball& ball) {
     for (int x = 0; x < out.width; ++x) {
       const double shown = 0.5 * std::erfc((std::hypot(x - x0, y - y0) - radius_px) / (0.9 * M_SQRT2));
       const double lamp = std::hypot(x - x0 - 14.0 - ball.highlight_dx, y - y0 + 11.0 - ball.highlight_dy);
-      const double own = 28.0 + 0.2 * (y - y0) + 150.0 / (1.0 + std::exp((lamp - 6.0) / 1.5));
+      const double own = ball.level + 0.2 * (y - y0) + 150.0 / (1.0 + std::exp((lamp - 6.0) / 1.5));
       const double level = shown * own + (1.0 - shown) * out.at(x, y) + noise(random);
       out.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0l, 255l));
     }
@@ -40,8 +41,8 @@ GrayImage ball_before(const GrayImage& behind, const Ball& ball) {
   return out;
 }
 
-// Noise smoothed over some pixels, 90 +- 14 grey levels.
-GrayImage rough_casting() {
+// Noise smoothed over some pixels, around 90 grey levels.
+GrayImage rough_casting(double deviation = 14.0) {
   constexpr int width = 640, height = 480, reach = 3;
   std::mt19937 random(5);
   std::normal_distribution<double> noise;
@@ -56,7 +57,7 @@ GrayImage rough_casting() {
   }
   double squares = 0.0;
   for (const double one : levels) squares += one * one;
-  const double scale = 14.0 / std::sqrt(squares / static_cast<double>(levels.size()));
+  const double scale = deviation / std::sqrt(squares / static_cast<double>(levels.size()));
   GrayImage out{width, height, std::vector<std::uint8_t>(levels.size())};
   for (std::size_t k = 0; k < levels.size(); ++k) {
     out.pixels[k] = static_cast<std::uint8_t>(std::clamp(std::lround(90.0 + scale * levels[k]), 0l, 255l));
@@ -64,11 +65,12 @@ GrayImage rough_casting() {
   return out;
 }
 
-std::vector<GrayImage> nine_views(const GrayImage& behind) {
+std::vector<GrayImage> nine_views(const GrayImage& behind, double level = Ball().level) {
   std::vector<GrayImage> out;
   for (const double dx : {-60.0, 0.0, 60.0}) {
     for (const double dy : {-60.0, 0.0, 60.0}) {
-      out.push_back(ball_before(behind, {.dx = dx, .dy = dy, .seed = static_cast<unsigned>(100 + out.size())}));
+      const auto seed = static_cast<unsigned>(100 + out.size());
+      out.push_back(ball_before(behind, {.dx = dx, .dy = dy, .seed = seed, .level = level}));
     }
   }
   return out;
@@ -88,6 +90,24 @@ TEST(BallBeforeABackdrop, IsCalibratedAndMeasuredBeforeARoughOne) {
     EXPECT_NEAR(at.x_px, dx, 0.05);
     EXPECT_NEAR(at.y_px, dy, 0.05);
   }
+}
+
+// Hardly a view is measured before what stands behind is known, and all teach it.
+TEST(BallBeforeABackdrop, IsMeasuredWhereItIsNearlyAsBrightAsThat) {
+  constexpr double level = 56.0;
+  const GrayImage behind = rough_casting(20.0);
+  const auto plain = Target::create(ball_before(behind, {.level = level}), around_ball, {}, "t.png");
+  ASSERT_TRUE(plain);
+  const std::vector<GrayImage> views = nine_views(behind, level);
+  const Target target = plain->learned_from(views);
+  int measured = 0;
+  for (const GrayImage& view : views) measured += target.locate(view).ok;
+  EXPECT_GE(measured, 7);
+  const Location at = target.locate(ball_before(behind, {.dx = 3.3, .dy = -2.1, .seed = 7, .level = level}));
+  ASSERT_TRUE(at.ok) << at.reason;
+  EXPECT_NEAR(at.x_px, 3.3, 4.0 * at.sigma_x_px);
+  EXPECT_NEAR(at.y_px, -2.1, 4.0 * at.sigma_y_px);
+  EXPECT_LT(std::max(at.sigma_x_px, at.sigma_y_px), 0.1);
 }
 
 // Nothing can be learned of a backdrop without texture; what turns with the lamp must not move the ball all the same.

@@ -128,6 +128,25 @@ TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {
   EXPECT_FALSE(target_from_json(document));
 }
 
+// Three views in nine leave nothing to check the matrix with.
+TEST_F(MeasureFiles, MostViewsWithoutTheTargetAreNoCalibration) {
+  std::vector<ViewRow> views;
+  for (int k = 0; k < 9; ++k) {
+    const double x = (k % 3 - 1) * 10.0, y = (k / 3 - 1) * 10.0;
+    const std::string name = fmt::format("v{}.png", k);
+    const unsigned seed = static_cast<unsigned>(10 + k);
+    const Speckle print(k % 3 == 2 && k / 3 != 1 ? 1 : k == 4 ? 1 : 7);  // on three views ours, on six another
+    ASSERT_TRUE(write_png(m_folder / name, render(print, {.dx = x, .dy = y}, {.noise = 1.0, .seed = seed})));
+    views.push_back({m_folder / name, name, 0.01 * x, -0.01 * y});
+  }
+  std::vector<std::string> warnings;
+  const auto result = calibrate_from_files(target(), views, &warnings, {});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::calibration_refused);
+  EXPECT_NE(result.error().context.at("reason").find("found in 3 of 9 views"), std::string::npos);
+  EXPECT_EQ(warnings.size(), 6u);
+}
+
 TEST_F(MeasureFiles, ViewsFileFaultsAreNamed) {
   ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm\na.png,1\n"));
   EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::csv_bad_header);
