@@ -213,15 +213,19 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
     }
     return fail(ErrorCode::calibration_refused, {{"reason", reason}});
   }
-  // Residual variance with the assumed repeatability as two further observations: few views say little of it.
+  // What is predicted with a noise known from few residuals scatters as Student's t, whose variance is
+  // freedom / (freedom - 2) times theirs (JCGM 101, 6.4.9). Fewer still say little: the assumed repeatability counts as
+  // two further observations there.
+  constexpr double enough_freedom = 6.0;
   const double freedom = 2.0 * static_cast<double>(views.size()) - (two ? 4.0 : 6.0);
-  const double variance =
-      (residual.squaredNorm() + 2.0 * limits.repeatability_um * limits.repeatability_um) / (freedom + 2.0);
+  const double assumed = limits.repeatability_um * limits.repeatability_um;
+  const double with_assumed = (residual.squaredNorm() + 2.0 * assumed) / (freedom + 2.0);
+  const double variance = freedom >= enough_freedom ? residual.squaredNorm() / (freedom - 2.0) : with_assumed;
   out.covariance.topLeftCorner<2, 2>() = variance * fit.spread;
   out.covariance.bottomRightCorner<2, 2>() = variance * fit.spread;
   // A px is some um in every picture that a drift can be measured in: else the coordinates are in another unit.
   const double scale = std::sqrt(std::abs(fit.um_from_px.determinant()));
-  const double scale_sigma = std::sqrt(variance * fit.spread.diagonal().maxCoeff());
+  const double scale_sigma = std::sqrt(std::max(variance, with_assumed) * fit.spread.diagonal().maxCoeff());
   if (!(scale >= limits.least_um_per_px && scale <= limits.largest_um_per_px)) {
     return fail(ErrorCode::calibration_refused,
                 {{"reason", fmt::format("a pixel would be {:.3g} um; are the positions really in mm?", scale)}});

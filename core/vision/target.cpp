@@ -30,6 +30,8 @@ constexpr double sure_correlation = 0.98;   // of the best candidate with its ri
 constexpr double sure_lead = 0.15;
 // Of the best glance: targets under glare, chips or strong blur have 0.9 and more, other patterns seldom 0.8.
 constexpr double least_glance_correlation = 0.8;
+// A glance takes a cover on a faint target for part of it: what is as much alike as a whole gets the fine look.
+constexpr double alike_as_a_whole = 0.7;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
 
@@ -64,6 +66,7 @@ constexpr double least_seen = 0.70;
 constexpr double part_correlation = 0.98;
 constexpr double rough_correlation = 0.9;
 constexpr double rough_coarse_correlation = 0.5;
+constexpr double rough_place_px = 0.3;     // what is known worse is known as well by the coarse search, to half a pixel
 constexpr int least_moved = 3;             // frames in which the target is elsewhere
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
@@ -187,7 +190,9 @@ struct Target::Impl {
     const auto settled = [](const Registration& seen) { return seen.converged; };
     // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
     const bool told = std::any_of(glances.begin(), glances.end(), settled) && most_saturated < some_glare;
-    if (told && std::none_of(glances.begin(), glances.end(), like_the_target)) return {};
+    if (told && std::none_of(glances.begin(), glances.end(), like_the_target) &&
+        candidates.front().correlation < alike_as_a_whole)
+      return {};
     std::vector<std::size_t> order(glances.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     // An even place leaves a small residual without being like the target.
@@ -335,11 +340,13 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
 
 // Where a frame shows the target; `rough`: as far as can be told before what stands behind it is known.
 std::optional<RegisteredFrame> Target::place_in(const GrayImage& frame, bool rough) const {
-  const Location at = search(frame);
+  Registration fit;
+  const Location at = search(frame, nullptr, &fit);
   if (at.ok) return RegisteredFrame{&frame, {at.x_px, at.y_px}, at.linear, at.lens};
   if (!rough) return std::nullopt;
   RegisteredFrame out{&frame, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), {}};
-  if (at.correlation > rough_correlation && at.inlier_share > least_inliers) {
+  const double sigma_px = std::sqrt(fit.covariance_px2.diagonal().maxCoeff());
+  if (at.correlation > rough_correlation && at.inlier_share > least_inliers && sigma_px < rough_place_px) {
     out.displacement_px = {at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px};
     return out;
   }

@@ -19,8 +19,9 @@ Eigen::Matrix2d true_um_from_px(bool mirrored = false) {
 }
 
 std::vector<CalibrationView> views_at(const std::vector<std::pair<double, double>>& positions_mm,
-                                      const Eigen::Matrix2d& um_from_px, double repeatability_um = 0.0) {
-  std::mt19937 random(5);
+                                      const Eigen::Matrix2d& um_from_px, double repeatability_um = 0.0,
+                                      unsigned seed = 5) {
+  std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 1.0);
   std::vector<CalibrationView> views;
   for (const auto& [x_mm, y_mm] : positions_mm) {
@@ -117,6 +118,27 @@ TEST(Calibration, UncertaintyInMicrometresHasBothParts) {
   at.x_px = 30.0;
   EXPECT_GT(c->to_um(at).sigma_x_um, 0.1);
   EXPECT_NEAR(c->to_um(at).x_um, 360.0 * std::cos(3.0 * M_PI / 180.0), 1.5);
+}
+
+TEST(Calibration, UncertaintyFollowsTheMachine) {
+  for (const double repeatability_um : {0.1, 1.0, 3.0}) {
+    double squares = 0.0;
+    constexpr int trials = 300;
+    for (unsigned seed = 1; seed <= trials; ++seed) {
+      const auto c = calibrate(views_at(grid(), true_um_from_px(), repeatability_um, seed));
+      ASSERT_TRUE(c);
+      Location at;
+      at.x_px = 40.0;
+      at.y_px = -25.0;
+      const ErrorUm um = c->to_um(at);
+      const Eigen::Vector2d error =
+          Eigen::Vector2d(um.x_um, um.y_um) - true_um_from_px() * Eigen::Vector2d(40.0, -25.0);
+      squares += std::pow(error(0) / um.sigma_x_um, 2) + std::pow(error(1) / um.sigma_y_um, 2);
+    }
+    const double ratio = std::sqrt(squares / (2.0 * trials));
+    EXPECT_GT(ratio, 0.85) << repeatability_um;
+    EXPECT_LT(ratio, 1.15) << repeatability_um;
+  }
 }
 
 TEST(Calibration, FileReadsBackTheSame) {
