@@ -22,6 +22,8 @@ constexpr double same_place_px = 0.05;
 constexpr double rival_merit = 0.75;           // of the best glance: the candidate is refined as well, unless
 constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
+// Of the same: something is. A glance takes a cover on a faint target for a part of it; this gets the fine look too.
+constexpr double alike_correlation = 0.5;
 constexpr int candidates_glanced = 8;
 constexpr int most_periods_off = 6;         // that a pattern which repeats is followed back to its place
 constexpr double rival_correlation = 0.3;   // a candidate further behind the best is not looked at, and half of it
@@ -30,8 +32,6 @@ constexpr double sure_correlation = 0.98;   // of the best candidate with its ri
 constexpr double sure_lead = 0.15;
 // Of the best glance: targets under glare, chips or strong blur have 0.9 and more, other patterns seldom 0.8.
 constexpr double least_glance_correlation = 0.8;
-// A glance takes a cover on a faint target for part of it: what is as much alike as a whole gets the fine look.
-constexpr double alike_as_a_whole = 0.7;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
 
@@ -71,13 +71,13 @@ constexpr int least_moved = 3;             // frames in which the target is else
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
 Refusal judge(const Registration& r, double coarse_correlation) {
-  if (!r.converged) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::too_different;
+  if (!r.converged) return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::too_different;
   const bool fits = r.correlation > least_fine_correlation;
   if (r.seen_share < least_seen) return Refusal::out_of_view;
   if (r.contrast < least_contrast || r.contrast > largest_contrast) {
     return fits ? Refusal::too_different : Refusal::missing;
   }
-  if (!fits) return coarse_correlation < 0.5 ? Refusal::missing : Refusal::wrong_target;
+  if (!fits) return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::wrong_target;
   const bool all_but_glare = r.correlation > glare_correlation && r.inlier_share + r.saturated_share > glare_explained;
   const bool bent_by_glare = all_but_glare && r.saturated_share > some_glare;
   if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
@@ -98,7 +98,7 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;
   if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {
     if (r.saturated_share > 0.10) return Refusal::glare;
-    return coarse_correlation < 0.5 ? Refusal::missing : Refusal::occluded;
+    return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::occluded;
   }
   return Refusal::none;
 }
@@ -191,8 +191,9 @@ struct Target::Impl {
     // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
     const bool told = std::any_of(glances.begin(), glances.end(), settled) && most_saturated < some_glare;
     if (told && std::none_of(glances.begin(), glances.end(), like_the_target) &&
-        candidates.front().correlation < alike_as_a_whole)
+        candidates.front().correlation < alike_correlation) {
       return {};
+    }
     std::vector<std::size_t> order(glances.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     // An even place leaves a small residual without being like the target.
@@ -290,7 +291,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   Registration best;
   double best_coarse = candidates.front().correlation;
   const std::vector<Candidate> likeliest = m_impl->likeliest(frame, candidates);
-  if (likeliest.empty()) return refuse(best_coarse < 0.5 ? Refusal::missing : Refusal::wrong_target);
+  if (likeliest.empty()) return refuse(Refusal::missing);
   for (const Candidate& one : likeliest) {
     const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
     if (merit(found) > merit(best)) {

@@ -220,6 +220,29 @@ TEST(Target, ACoverOverFewEdgesDoesNotPull) {
   }
 }
 
+// What covers a print of few grey levels is hardly brighter or darker than it: at a glance it passes for part of it.
+TEST(Target, AFaintPrintUnderAQuarterOfCoverIsMostlyMeasured) {
+  Speckle faint(21);
+  for (Speckle::Dot& dot : faint.dots) dot.depth *= 0.5;
+  const Target target = target_of(faint, 1.0);
+  const Pose moved{.dx = 4.3, .dy = -2.6};
+  int measured = 0, tried = 0;
+  for (const Region cover :
+       {Region{230, 150, 57, 190}, Region{361, 150, 60, 190}, Region{230, 150, 190, 50}, Region{230, 275, 190, 60}}) {
+    for (const std::uint8_t level : {std::uint8_t{130}, std::uint8_t{165}, std::uint8_t{200}, std::uint8_t{225}}) {
+      GrayImage frame = render(faint, moved, {.noise = 1.0, .seed = 60u + static_cast<unsigned>(tried++)});
+      paint(frame, cover, level);
+      const Location at = target.locate(frame);
+      if (!at.ok) continue;
+      ++measured;
+      EXPECT_NEAR(at.x_px, moved.dx, 4.0 * at.sigma_x_px) << cover.x << ' ' << int{level};
+      EXPECT_NEAR(at.y_px, moved.dy, 4.0 * at.sigma_y_px) << cover.x << ' ' << int{level};
+      EXPECT_LT(std::max(at.sigma_x_px, at.sigma_y_px), 0.03);
+    }
+  }
+  EXPECT_GE(measured, 12) << "of " << tried;
+}
+
 // More than half hidden, by something with a pattern of its own: measured as well as is said, or not at all.
 TEST(Target, UnderALargeCoverNothingWrongIsTold) {
   const auto target = Target::create(sparse_plate(0, 0), target_region, {}, "template.png");
