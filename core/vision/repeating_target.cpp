@@ -16,7 +16,8 @@ constexpr double searched_px = 56.0;       // the larger side of the picture in 
 constexpr double least_overlap = 0.4;      // of each side
 constexpr double least_correlation = 0.7;  // rings and spokes stay below half of it
 constexpr int least_shift = 2;             // px of that picture: nearer it is the pattern's own smoothness
-constexpr std::size_t most_periods = 40;   // beside their opposites
+constexpr int same_period_px = 2;
+constexpr std::size_t most_periods = 40;  // beside their opposites
 
 constexpr int samples_a_side = 80;
 constexpr int window_samples = 9;
@@ -44,8 +45,24 @@ double likeness(const cv::Mat1f& picture, int dx, int dy) {
   return square_a > 1.0 && square_b > 1.0 ? product / std::sqrt(square_a * square_b) : 0.0;
 }
 
-/// Peaks of the correlation of the region with itself over the overlap, the nearest first; of two opposites one.
-std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
+/// The peak of the full picture that is next to a place, and how high it is.
+std::pair<std::array<int, 2>, double> top_near(const cv::Mat1f& region, std::array<int, 2> period) {
+  const int rounds = static_cast<int>(std::max(region.cols, region.rows) / searched_px) + 2;
+  double top = likeness(region, period[0], period[1]);
+  for (int round = 0; round < rounds; ++round) {
+    std::array<int, 2> best{0, 0};
+    for (const std::array<int, 2> to : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const double here = likeness(region, period[0] + to[0], period[1] + to[1]);
+      if (here > top) top = here, best = to;
+    }
+    if (best == std::array{0, 0}) break;
+    period[0] += best[0], period[1] += best[1];
+  }
+  return {period, top};
+}
+
+/// Peaks of the correlation of the picture with itself over the overlap, px; of two opposites one.
+std::vector<std::array<int, 2>> peaks_of(const cv::Mat1f& region) {
   const double shrink = std::max(1.0, std::max(region.cols, region.rows) / searched_px);
   const cv::Size size(static_cast<int>(std::lround(region.cols / shrink)),
                       static_cast<int>(std::lround(region.rows / shrink)));
@@ -73,37 +90,53 @@ std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
       if (highest) peaks.push_back({dx, dy});
     }
   }
-  std::stable_sort(peaks.begin(), peaks.end(), [](const std::array<int, 2>& a, const std::array<int, 2>& b) {
+  for (std::array<int, 2>& peak : peaks) {
+    peak = {static_cast<int>(std::lround(peak[0] * static_cast<double>(region.cols) / size.width)),
+            static_cast<int>(std::lround(peak[1] * static_cast<double>(region.rows) / size.height))};
+  }
+  return peaks;
+}
+
+bool same(const std::array<int, 2>& a, const std::array<int, 2>& b) {
+  return std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1])) <= same_period_px;
+}
+
+/// A peak of the whole region too, and not that of no shift at all.
+bool repeats_after(const cv::Mat1f& region, const std::array<int, 2>& rough) {
+  const auto [period, top] = top_near(region, rough);
+  return top >= least_correlation && same(period, rough) && !same(period, {0, 0});
+}
+
+/// Periods, px, the nearest first; of two opposites one. What is fine for the picture of the whole region shows in its
+/// middle part, half and half again as large.
+std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
+  std::vector<std::array<int, 2>> periods = peaks_of(region);
+  for (cv::Rect part({0, 0}, region.size()); std::max(part.width, part.height) > searched_px;) {
+    part = {part.x + part.width / 4, part.y + part.height / 4, part.width / 2, part.height / 2};
+    for (const std::array<int, 2>& one : peaks_of(region(part))) {
+      const auto known = [&](const std::array<int, 2>& other) { return same(one, other); };
+      if (std::none_of(periods.begin(), periods.end(), known) && repeats_after(region, one)) periods.push_back(one);
+    }
+  }
+  std::stable_sort(periods.begin(), periods.end(), [](const std::array<int, 2>& a, const std::array<int, 2>& b) {
     return a[0] * a[0] + a[1] * a[1] < b[0] * b[0] + b[1] * b[1];
   });
-  if (peaks.size() > most_periods) peaks.resize(most_periods);
-  std::vector<std::array<int, 2>> periods;
-  for (const std::array<int, 2>& peak : peaks) {
-    periods.push_back({static_cast<int>(std::lround(peak[0] * static_cast<double>(region.cols) / size.width)),
-                       static_cast<int>(std::lround(peak[1] * static_cast<double>(region.rows) / size.height))});
-  }
+  if (periods.size() > most_periods) periods.resize(most_periods);
   return periods;
 }
 
-/// To the top of the peak in the full picture, and between its pixels by a parabola along each axis.
-Eigen::Vector2d refined(const cv::Mat1f& region, std::array<int, 2> period) {
-  const int rounds = static_cast<int>(std::max(region.cols, region.rows) / searched_px) + 2;
-  const auto at = [&](int dx, int dy) { return likeness(region, period[0] + dx, period[1] + dy); };
-  double top = at(0, 0);
-  for (int round = 0; round < rounds; ++round) {
-    std::array<int, 2> best{0, 0};
-    for (const std::array<int, 2> to : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      const double here = at(to[0], to[1]);
-      if (here > top) top = here, best = to;
-    }
-    if (best == std::array{0, 0}) break;
-    period[0] += best[0], period[1] += best[1];
-  }
-  const auto between = [top](double before, double after) {
-    const double bend = before - 2.0 * top + after;
+/// Between the pixels of the full picture by a parabola along each axis.
+Eigen::Vector2d refined(const cv::Mat1f& region, const std::array<int, 2>& rough) {
+  const auto [period, top] = top_near(region, rough);
+  const double before_x = likeness(region, period[0] - 1, period[1]);
+  const double after_x = likeness(region, period[0] + 1, period[1]);
+  const double before_y = likeness(region, period[0], period[1] - 1);
+  const double after_y = likeness(region, period[0], period[1] + 1);
+  const auto between = [](double before, double at, double after) {
+    const double bend = before - 2.0 * at + after;
     return bend < 0.0 ? std::clamp((before - after) / (2.0 * bend), -0.5, 0.5) : 0.0;
   };
-  return {period[0] + between(at(-1, 0), at(1, 0)), period[1] + between(at(0, -1), at(0, 1))};
+  return {period[0] + between(before_x, top, after_x), period[1] + between(before_y, top, after_y)};
 }
 
 double variance_of(const cv::Mat1f& levels) {

@@ -149,6 +149,38 @@ TEST(Target, ARegionWithinAPatternThatRepeatsIsMadeLarger) {
   }
 }
 
+/// A knurled face: its squares stand on their corners, 11 px from one to the next; even beyond `half_side_px`.
+GrayImage knurl(double dx, double dy, double half_side_px, unsigned seed) {
+  GrayImage out{640, 480, std::vector<std::uint8_t>(640 * 480)};
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const double across = x - 320.0 - dx, down = y - 240.0 - dy;
+      const auto within = [&](double at) { return 0.5 * std::erfc((std::abs(at) - half_side_px) / 1.2); };
+      const double wave = std::sin(2.0 * M_PI * (across + down) / 11.3) * std::sin(2.0 * M_PI * (across - down) / 11.3);
+      const double level = 120.0 + 40.0 * wave * within(across) * within(down) + noise(random);
+      out.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0l, 255l));
+    }
+  }
+  return out;
+}
+
+// Seen as a whole, what repeats every few pixels is a grey face: nothing was known of it, and it was found periods off.
+TEST(Target, AFinePatternThatRepeatsIsRefusedOrFoundWhereItIs) {
+  const auto endless = Target::create(knurl(0.0, 0.0, 900.0, 1), target_region, {}, "knurl.png");
+  ASSERT_FALSE(endless);
+  EXPECT_EQ(endless.error().code, ErrorCode::pattern_repeats);
+  const auto target = Target::create(knurl(0.0, 0.0, 145.0, 1), target_region, {}, "patch.png");
+  ASSERT_TRUE(target);
+  for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {2.3, -1.7}, {-6.4, 4.9}, {11.2, 3.6}}) {
+    const Location at = target->locate(knurl(dx, dy, 145.0, 2));
+    ASSERT_TRUE(at.ok) << at.reason;
+    EXPECT_NEAR(at.x_px, dx, 0.01);
+    EXPECT_NEAR(at.y_px, dy, 0.01);
+  }
+}
+
 // Two dots that are missing tell where the grid is; where a cover leaves room for doubt nothing is told.
 TEST(Target, AMarkInAGridTellsItsPlace) {
   const Speckle marked = lattice(-4, 644, {{332, 236}, {284, 284}});
