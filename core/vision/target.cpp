@@ -60,8 +60,8 @@ constexpr double rough_to_noise = 1.5;     // times what the template's noise ma
 constexpr double rough_sigma_px = 0.01;
 constexpr double hidden_sigma_px = 0.03;
 constexpr double nothing_hidden = 0.97;
-constexpr double another_print =
-    0.5;  // of what does not fit: covers and chips stay below 0.25, other codes and letters above 0.65
+// Of what does not fit: covers and chips stay below 0.25; mazes of thin lines are above 0.34, codes and letters 0.65.
+constexpr double another_print = 0.33;
 constexpr double least_seen = 0.70;
 constexpr double part_correlation = 0.98;
 constexpr double rough_correlation = 0.9;

@@ -341,6 +341,39 @@ TEST(Target, RefusesWhatIsNotTheTarget) {
   EXPECT_EQ(target.locate(GrayImage{10, 10, std::vector<std::uint8_t>(100)}).refusal, Refusal::other_size);
 }
 
+/// Lines on a lattice within a frame, 10 px from one to the next, some of them left out.
+GrayImage maze(unsigned lines, int dx, int dy) {
+  GrayImage sharp{640, 480, std::vector<std::uint8_t>(640 * 480, 70)};
+  std::mt19937 random(lines);
+  const int left = 258 + dx, top = 178 + dy;
+  for (const int edge : {0, 120}) {
+    paint(sharp, {left + edge, top, 5, 125}, 175);
+    paint(sharp, {left, top + edge, 125, 5}, 175);
+  }
+  for (int row = 0; row < 12; ++row) {
+    for (int column = 0; column < 12; ++column) {
+      const Region along{left + 10 * column, top + 10 * row, 15, 5}, down{left + 10 * column, top + 10 * row, 5, 15};
+      paint(sharp, random() % 2 == 0 ? along : down, 175);
+    }
+  }
+  return photographed(sharp, lines + 17u * static_cast<unsigned>(dx + 50));
+}
+
+// The frame and the lattice fit, and much of the lines.
+TEST(Target, AnotherMazeOfTheSameLatticeIsRefused) {
+  const auto target = Target::create(maze(1, 0, 0), target_region, {}, "maze.png");
+  ASSERT_TRUE(target);
+  GrayImage covered = maze(1, 4, -3);
+  paint(covered, {230, 150, 60, 190}, 120);
+  for (const GrayImage& frame : {maze(1, 4, -3), covered}) {
+    const Location at = target->locate(frame);
+    ASSERT_TRUE(at.ok) << at.reason;
+    EXPECT_NEAR(at.x_px, 4.0, 0.02);
+    EXPECT_NEAR(at.y_px, -3.0, 0.02);
+  }
+  for (unsigned other = 2; other < 8; ++other) EXPECT_FALSE(target->locate(maze(other, 4, -3)).ok) << other;
+}
+
 // A plate in front of a print that stands still, the region around both: of one picture nothing tells which is meant.
 TEST(Target, ARegionWhosePartsMoveApartIsRefused) {
   const GrayImage behind = render(Speckle(31, 320.0, 240.0, 460.0));
