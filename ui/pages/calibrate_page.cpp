@@ -244,8 +244,9 @@ QVector<Figure> CalibratePage::figures() const {
   Figure time = figureOf(tr("Positions"), measured(), 0, tr("of %1").arg(m_state.points.size()));
   if (m_state.points.isEmpty()) time.value.clear();
   if (!std::isnan(m_state.timeLeft_s)) time.limit = tr("%1 left").arg(durationText(m_state.timeLeft_s));
+  const int decimals = m_state.uncertainty_um < 0.1 ? 3 : 2;  // never a bare zero
   return {scale, rotation, figureAtMost(tr("Residual, rms"), m_state.rms_um, 2, "µm", m_state.rmsLimit_um),
-          figureAtMost(tr("Uncertainty"), m_state.uncertainty_um, 2, "µm", m_state.uncertaintyLimit_um), time};
+          figureAtMost(tr("Uncertainty"), m_state.uncertainty_um, decimals, "µm", m_state.uncertaintyLimit_um), time};
 }
 
 void CalibratePage::render() {
