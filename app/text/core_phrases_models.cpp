@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 340> models = {{
+constexpr std::array<const char*, 347> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -408,6 +408,31 @@ constexpr std::array<const char*, 340> models = {{
     QT_TRANSLATE_NOOP("core", "the heat capacity"),
     QT_TRANSLATE_NOOP("core", "the expansion"),
     QT_TRANSLATE_NOOP("core", "the film to the room"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "This recording cannot tell whether anything is missing: the simulation agrees with it, but most effects of "
+        "usual size would not have shown. Record for longer, until the temperatures settle, with several speeds and "
+        "stops."),
+    QT_TRANSLATE_NOOP("core",
+                      "Nothing can be named: the sensors are not where the description has them. Correct that first."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
+        "check its place, and that it is in millimetres."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "{channel} and {other} read as if they had changed places: check their cables and the order of the columns."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "The recording has no column {column}: how the room went had to be guessed from the machine's own "
+        "temperatures, and what follows the room can hardly be told from it."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
+        "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "
+        "It says nothing for or against the answer."),
+    QT_TRANSLATE_NOOP("core",
+                      "Recording {recording}: the machine description does not name {columns}, which was not used."),
     QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),
     QT_TRANSLATE_NOOP("core",
                       "With its sign turned, {channel} is as described: check which way it counts as positive."),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/analysis/cleaning.h"
 
@@ -102,24 +103,71 @@ Checked checked(const Recording& recording, const std::set<std::string>& may_sta
   return out;
 }
 
+namespace {
+
+constexpr double absent = -1e300;  // compares, other than what is not a number
+
+std::vector<std::string> measured_in_both(const Recording& a, const Recording& b) {
+  std::vector<std::string> names;
+  for (const Channel& channel : a.channels) {
+    if (!recording::is_input(channel.kind()) && b.find(channel.name) != nullptr) names.push_back(channel.name);
+  }
+  return names;
+}
+
+std::vector<std::vector<double>> rows_of(const Recording& one, const std::vector<std::string>& names) {
+  std::vector<std::vector<double>> rows(one.rows());
+  for (const std::string& name : names) {
+    const std::vector<double>& values = one.find(name)->values;
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].push_back(std::isfinite(values[k]) ? values[k] : absent);
+  }
+  return rows;
+}
+
+/// The longest stretch that both recordings have number for number, rows.
+std::size_t longest_common_stretch(const Recording& a, const Recording& b) {
+  const std::vector<std::string> names = measured_in_both(a, b);
+  if (names.empty()) return 0;
+  const auto rows_a = rows_of(a, names);
+  const auto rows_b = rows_of(b, names);
+  std::map<std::vector<double>, std::vector<std::size_t>> where;
+  for (std::size_t k = 0; k < rows_a.size(); ++k) where[rows_a[k]].push_back(k);
+  std::size_t longest = 0;
+  std::map<std::size_t, std::size_t> ending;  // at row of a: length of the stretch that ends there and at b's last row
+  for (const auto& row : rows_b) {
+    std::map<std::size_t, std::size_t> next;
+    if (const auto same = where.find(row); same != where.end()) {
+      for (const std::size_t k : same->second) {
+        const auto before = k == 0 ? ending.end() : ending.find(k - 1);
+        longest = std::max(longest, next[k] = 1 + (before == ending.end() ? 0 : before->second));
+      }
+    }
+    ending = std::move(next);
+  }
+  return longest;
+}
+
+/// Nothing in them moves: rows are alike because the machine stood still.
+bool stands_still(const Recording& one) {
+  return std::all_of(one.channels.begin(), one.channels.end(), [](const Channel& channel) {
+    return recording::is_input(channel.kind()) || movement(channel.values) == 0.0;
+  });
+}
+
+}  // namespace
+
 Status check_distinct(const std::vector<Recording>& recordings) {
-  const auto same = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](double x, double y) { return x == y || (!std::isfinite(x) && !std::isfinite(y)); });
-  };
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      int measured = 0, equal = 0;
-      for (const Channel& channel : recordings[i].channels) {
-        if (recording::is_input(channel.kind())) continue;
-        const Channel* twin = recordings[j].find(channel.name);
-        ++measured;
-        if (twin != nullptr && same(channel.values, twin->values)) ++equal;
-      }
-      if (measured == 0 || equal < measured) continue;
-      return fail(ErrorCode::bad_argument, {{"what", "the recording " + recordings[i].name},
-                                            {"found", "the same run as " + recordings[j].name},
-                                            {"expected", "another run, or each run once"}});
+      const std::size_t shorter = std::min(recordings[i].rows(), recordings[j].rows());
+      const std::size_t common = longest_common_stretch(recordings[i], recordings[j]);
+      const bool all = common == recordings[i].rows() && common == recordings[j].rows();
+      if (common == 0 || 2 * common < shorter || (!all && stands_still(recordings[i]))) continue;
+      return fail(ErrorCode::bad_argument,
+                  {{"what", "the recording " + recordings[i].name},
+                   {"found", all ? "the same run as " + recordings[j].name
+                                 : fmt::format("{} of its rows number for number in {}", common, recordings[j].name)},
+                   {"expected", "another run, or each run once"}});
     }
   }
   return {};

@@ -62,21 +62,38 @@ void leave_out_what_lacks_inputs(CheckedRuns& runs) {
   }
 }
 
+/// What was measured and the description knows nothing of: often a name spelt otherwise.
+std::string unknown_columns(const physics::Machine& machine, const std::set<std::string>& boundaries,
+                            const recording::Recording& one) {
+  using recording::ChannelKind;
+  std::string list;
+  for (const auto& channel : one.channels) {
+    const ChannelKind kind = channel.kind();
+    if (kind != ChannelKind::temperature && kind != ChannelKind::error) continue;
+    const bool displacement = std::any_of(machine.displacements.begin(), machine.displacements.end(),
+                                          [&](const auto& known) { return known.channel == channel.name; });
+    if (displacement || machine.sensor(channel.name) != nullptr || boundaries.count(channel.name) != 0) continue;
+    list += (list.empty() ? "" : ", ") + channel.name;
+  }
+  return list;
+}
+
 }  // namespace
+
 Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vector<recording::Recording>& given) {
   CheckedRuns out;
   ZD_CHECK(analysis::check_distinct(given));
   const std::set<std::string> boundaries = physics::measured_boundaries(machine);
   for (const auto& one : given) {
     analysis::Checked sound = analysis::checked(one, boundaries);
-    for (auto& finding : sound.findings) {
+    for (const auto& finding : sound.findings) {
       const bool needed = boundaries.count(finding.channel) != 0 && finding.channel != machine.room.channel;
       if (needed && finding.action == analysis::FindingAction::dropped) {
         return fail(ErrorCode::data_does_not_fit, {{"what", one.name + ", channel " + finding.channel},
                                                    {"found", analysis::describe(finding)},
                                                    {"expected", "a temperature that the simulation can follow"}});
       }
-      out.findings.push_back({one.name, std::move(finding)});
+      out.findings.push_back({one.name, finding});
     }
     if (auto part = longest_part(sound.recording)) {
       out.warnings.push_back(part->note);
@@ -84,7 +101,15 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       sound.recording = std::move(part->recording);
     }
     ZD_TRY(auto more, physics::check_recording(machine, sound.recording));
-    out.warnings.insert(out.warnings.end(), more.begin(), more.end());
+    for (auto& warning : more) {
+      const bool taken_out = std::any_of(sound.findings.begin(), sound.findings.end(), [&](const auto& finding) {
+        return finding.action == analysis::FindingAction::dropped && warning.ends_with(" " + finding.channel);
+      });
+      if (!taken_out) out.warnings.push_back(std::move(warning));
+    }
+    if (const std::string unknown = unknown_columns(machine, boundaries, sound.recording); !unknown.empty()) {
+      out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
+    }
     ZD_CHECK(check_times(machine, sound.recording));
     out.recordings.push_back(std::move(sound.recording));
   }

@@ -103,10 +103,14 @@ Result<Diagnosis> Diagnoser::run() {
   m_out.notes = m_selection.base->network().notes;
   if (!m_moved_elsewhere.empty()) m_out.notes.push_back("moved_elsewhere:" + m_moved_elsewhere);
   if (!m_selection.settling.empty()) m_out.notes.push_back("settles_by_itself:" + m_selection.settling);
+  const bool blind = shows_too_little();
+  if (blind) m_out.notes.emplace_back("shows_too_little");
   std::vector<Sentence> far = far_parameters();
+  if (m_misplaced) m_out.notes.push_back(note_of(*m_misplaced));
   m_out.sentences.push_back(explain_verdict(m_out));
+  if (m_misplaced) tell_misplaced();
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
-  if (m_out.verdict != Verdict::unexplained) cannot_show();
+  if (m_out.verdict != Verdict::unexplained && !blind) cannot_show();
   notes();
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   m_context.progress(1.0, "done");
@@ -134,6 +138,7 @@ Status Diagnoser::prepare() {
     set_timing_noise(*seen, there, physics::make_inputs(there, other));
     m_limits.others.push_back(std::move(seen));
   }
+  m_other_sets = m_limits.others;
   m_facts = facts_of(m_bodies, recording());
   m_lumps_only = std::all_of(m_machine.components.begin(), m_machine.components.end(),
                              [](const auto& component) { return component.lump; });
@@ -239,8 +244,11 @@ void Diagnoser::decide() {
     const bool helps = !wrong && after.mean < 0.7 * before.mean;
     m_used = poor && !helps ? m_selection.base : m_selection.best;
   }
+  if (after.largest > least_evident || names_a_sensor()) {
+    m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data);
+  }
   m_far = far_from_description(*m_used);
-  if (found && is_doubtful(m_far)) {
+  if (m_misplaced || (found && is_doubtful(m_far))) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;
     m_used = m_selection.base;
@@ -249,6 +257,13 @@ void Diagnoser::decide() {
     for (auto& other : m_out.held_out) other.explained = other.refitted;
   }
   m_out.refined = refined_machine(*m_used);
+}
+
+bool Diagnoser::names_a_sensor() const {
+  const std::vector<std::size_t> named = m_selection.effects();
+  return std::any_of(named.begin(), named.end(), [&](std::size_t index) {
+    return m_selection.best->machine().effects[index].id.starts_with("sensor_");
+  });
 }
 
 /// An open door and bearings that run in have to explain more than a heat that comes and goes at one place, and to
@@ -378,88 +393,6 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   }
   const double poor = m_out.excess_after > 3.0 ? 0.8 : 1.0;
   return poor * 0.99 / (1.0 + others);
-}
-
-/// One speed and one state of the coolant from start to end: what follows them cannot be told from a tolerance.
-bool Diagnoser::steady_inputs() const {
-  for (const auto& channel : recording().channels) {
-    const auto kind = channel.kind();
-    const bool load = kind == recording::ChannelKind::load;  // measured, and it follows the speed
-    if (!recording::is_input(kind) || load) continue;
-    double low = 1e300, high = -1e300;
-    for (const double v : channel.values) {
-      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
-    }
-    if (high - low > 0.02 * std::max(std::abs(low), std::abs(high))) return false;
-  }
-  return m_facts.has_speed;
-}
-
-/// Nothing is named, but the run could hardly have shown it: effects that the data rather like.
-void Diagnoser::hidden_by_steadiness() {
-  std::vector<std::shared_ptr<Model>> liked;
-  std::set<std::string> ids;
-  for (const auto& level : m_selection.levels) {
-    for (const auto& fit : level) {
-      if (fit->log_evidence() < m_selection.base->log_evidence()) continue;
-      if (liked.size() < 3 && ids.insert(fit->machine().effects.back().id).second) liked.push_back(fit);
-    }
-  }
-  tell_rivals(std::move(liked));
-}
-
-void Diagnoser::rivals() {
-  if (m_out.verdict == Verdict::consistent && steady_inputs()) return hidden_by_steadiness();
-  if (m_out.verdict != Verdict::missing_effect || m_selection.effects().empty()) return;
-  const double best = evidence_of(*m_selection.best);
-  // What of a strong effect's law is not quite right must not exclude a rival; where the description is good that is
-  // little.
-  const double not_quite = m_limits.own_misfit && !m_wide ? 0.003 : 0.02;
-  constexpr double beyond_doubt = 100.0;
-  const double margin = std::clamp(not_quite * (best - m_selection.base->log_evidence()), 8.0, beyond_doubt);
-  std::vector<std::shared_ptr<Model>> others;
-  const bool one_by_one = m_options.details && (m_out.effects.size() > 1 || m_out.drift_factor > 1.0);
-  if (one_by_one) {
-    for (const std::size_t index : m_selection.effects()) {
-      for (auto& fit : rivals_of(*m_selection.best, index, m_facts)) others.push_back(std::move(fit));
-    }
-  } else {
-    const std::size_t size = m_selection.best->machine().effects.size();
-    for (const auto& level : m_selection.levels) {
-      for (const auto& fit : level) {
-        if (fit->machine().effects.size() == size && fit != m_selection.best) others.push_back(fit);
-      }
-    }
-  }
-  std::map<std::string, std::shared_ptr<Model>> families;
-  for (const auto& fit : others) {
-    const std::string& id = fit->machine().effects.back().id;
-    const bool own = std::any_of(m_out.effects.begin(), m_out.effects.end(), [&](auto& e) { return e.id == id; });
-    if (own || best - evidence_of(*fit) > margin) continue;
-    auto& kept = families[id];
-    if (kept == nullptr || evidence_of(*fit) > evidence_of(*kept)) kept = fit;
-  }
-  std::vector<std::shared_ptr<Model>> nearest;
-  for (const auto& [id, fit] : families) nearest.push_back(fit);
-  std::sort(nearest.begin(), nearest.end(), [](auto& a, auto& b) { return evidence_of(*a) > evidence_of(*b); });
-  if (nearest.size() > 3) nearest.resize(3);
-  tell_rivals(std::move(nearest));
-}
-
-void Diagnoser::tell_rivals(std::vector<std::shared_ptr<Model>> nearest) {
-  const double best = evidence_of(*m_selection.best);
-  for (const auto& fit : nearest) {
-    Rival rival;
-    rival.id = fit->machine().effects.back().id;
-    const physics::EffectSpec spec = fitted_effect(*fit, fit->machine().effects.size() - 1);
-    rival.component = spec.word_or("component", "");
-    rival.channel = spec.word_or("channel", "");
-    if (spec.numbers.count("position_mm") != 0) rival.position_mm = spec.numbers.at("position_mm");
-    rival.behind = best - evidence_of(*fit);
-    rival.why = explain_rival(rival);
-    m_out.ambiguous_with.push_back(rival);
-  }
-  m_rivals = std::move(nearest);
 }
 
 std::string_view name_of(Verdict verdict) {

@@ -18,25 +18,6 @@ namespace zerodrift::diagnosis {
 using physics::Machine;
 using recording::Recording;
 
-/// Measured - predicted where a sample is there and no spike.
-static std::vector<double> differences(const Recording& recording, const std::string& name,
-                                       const std::vector<double>& predicted) {
-  std::vector<double> list;
-  const recording::Channel* seen = recording.find(name);
-  if (seen == nullptr || seen->values.size() != predicted.size()) return list;
-  const std::vector<bool> spike = physics::spikes(seen->values, physics::noise_width(seen->values, 0.01));
-  for (std::size_t k = 0; k < predicted.size(); ++k) {
-    if (std::isfinite(seen->values[k]) && !spike[k]) list.push_back(seen->values[k] - predicted[k]);
-  }
-  return list;
-}
-
-static double rms_of(const std::vector<double>& differences) {
-  double sum = 0.0;
-  for (const double d : differences) sum += d * d;
-  return differences.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(differences.size()));
-}
-
 /// The scan's heat is linear between knots and its last knot lies beyond the run: the map ends with the run.
 static HeatMap map_of(const SourceScan& scan, double end_s) {
   constexpr std::size_t columns_a_block = 3;
@@ -59,22 +40,6 @@ static HeatMap map_of(const SourceScan& scan, double end_s) {
     }
   }
   return heat;
-}
-
-/// The least that one step at some moment leaves.
-static double rms_beside_a_step(const std::vector<double>& differences) {
-  double sum = 0.0, squares = 0.0, removed = 0.0, count = 0.0;
-  for (const double d : differences) squares += d * d;
-  for (auto d = differences.rbegin(); d != differences.rend(); ++d) {
-    sum += *d;
-    count += 1.0;
-    removed = std::max(removed, sum * sum / count);
-  }
-  return count > 0.0 ? std::sqrt(std::max(0.0, squares - removed) / count) : std::nan("");
-}
-
-double rms_between(const Recording& recording, const std::string& name, const std::vector<double>& predicted) {
-  return rms_of(differences(recording, name, predicted));
 }
 
 void Diagnoser::series() {
@@ -237,78 +202,6 @@ void Diagnoser::place_from_effect() {
   }
 }
 
-/// How the logger's samples and the switching times lie to each other: the same in its next recording.
-static double hold_of(const Model& model) {
-  return model.values()[model.network().hold_parameter];
-}
-
-/// How the other recordings are predicted as described, re-fitted and with the effects found.
-void Diagnoser::held_out() {
-  const Machine base = refined_machine(*m_selection.base);
-  const Machine best = refined_machine(*m_selection.best);
-  for (std::size_t i = 1; i < m_recordings.size(); ++i) {
-    const Recording& other = m_recordings[i];
-    HeldOut result;
-    result.recording = other.name;
-    const auto put = [&](const Machine& machine, double hold, std::map<std::string, double>& target) {
-      for (const auto& channel : predict_other(machine, other, hold).channels) {
-        const double rms = rms_between(other, channel.channel, channel.values);
-        if (std::isfinite(rms)) target[channel.channel] = rms;
-      }
-    };
-    put(m_machine, 0.0, result.nominal);
-    put(base, hold_of(*m_selection.base), result.refitted);
-    result.explained = result.refitted;
-    if (m_selection.best != m_selection.base) {
-      put(best, hold_of(*m_selection.best), result.explained);
-      slips_of_its_own(best, other, result);
-    }
-    m_out.held_out.push_back(std::move(result));
-  }
-}
-
-/// A bracket that slipped in one recording stays where it is in the next, or slips there too, at a moment of its own.
-/// What goes to and fro there did not slip.
-void Diagnoser::slips_of_its_own(const Machine& best, const Recording& other, HeldOut& result) const {
-  Machine without = best;
-  std::erase_if(without.effects, [](const auto& spec) { return spec.id == "bracket_slip"; });
-  if (without.effects.size() == best.effects.size()) return;
-  for (const auto& channel : predict_other(without, other, hold_of(*m_selection.best)).channels) {
-    const bool slipped = std::any_of(best.effects.begin(), best.effects.end(), [&](const auto& spec) {
-      return spec.id == "bracket_slip" && spec.word_or("channel", "") == channel.channel;
-    });
-    auto known = result.explained.find(channel.channel);
-    if (!slipped || known == result.explained.end()) continue;
-    const auto left = differences(other, channel.channel, channel.values);
-    known->second = std::min({known->second, rms_of(left), rms_beside_a_step(left)});
-  }
-}
-
-/// An explanation that makes another recording of the machine worse than none does is not one, unless that recording is
-/// likelier with it all the same. What happened once - a slip, an open door - need not happen in the other.
-bool Diagnoser::refuted() const {
-  for (const std::size_t index : m_selection.effects()) {
-    if (physics::happens_once(m_selection.best->machine().effects[index].id)) return false;
-  }
-  constexpr double clearly = 1.5;
-  for (const HeldOut& other : m_out.held_out) {
-    double without = 0.0, with = 0.0;
-    for (const MeasuredChannel& channel : m_default_data->channels) {
-      const auto before = other.refitted.find(channel.name);
-      const auto after = other.explained.find(channel.name);
-      if (channel.samples == 0 || before == other.refitted.end() || after == other.explained.end()) continue;
-      without += std::pow(before->second / channel.white, 2);
-      with += std::pow(after->second / channel.white, 2);
-    }
-    if (with > clearly * without) return !borne_out_elsewhere();
-  }
-  return false;
-}
-
-bool Diagnoser::borne_out_elsewhere() const {
-  return borne_out(*m_selection.best, *m_selection.base, m_limits.others);
-}
-
 void Diagnoser::details() {
   if (!m_options.details) return;
   std::map<std::string, Detectable> least;
@@ -321,7 +214,7 @@ void Diagnoser::details() {
     }
     auto& kept = least[candidate.spec.id];
     if (kept.id.empty() || candidate.detectable < kept.value) {
-      kept = {candidate.spec.id, key, candidate.detectable};
+      kept = {candidate.spec.id, key, candidate.detectable, candidate.usual};
       const auto at =
           speeds_of_figures(candidate.spec.numbers, candidate.spec.words, m_selection.base->network().full_speed_rpm);
       if (at.count(key) != 0) kept.at_rpm = at.at(key);
@@ -332,6 +225,23 @@ void Diagnoser::details() {
   std::vector<const Model*> rivals;
   for (const auto& rival : m_rivals) rivals.push_back(rival.get());
   m_out.suggested = suggest_experiment(*m_selection.best, rivals);
+}
+
+/// Nothing is found, but nothing could have been: most effects would not show at the size that they usually have.
+bool Diagnoser::shows_too_little() const {
+  if (m_out.verdict != Verdict::consistent || m_out.detectable.empty()) return false;
+  const auto hidden = std::count_if(m_out.detectable.begin(), m_out.detectable.end(),
+                                    [](const Detectable& least) { return least.value > least.usual; });
+  return 2 * hidden > std::ssize(m_out.detectable);
+}
+
+void Diagnoser::tell_misplaced() {
+  const std::string other = m_misplaced->exchanged_with;
+  m_out.sentences.push_back(explain_note(other.empty() ? "misplaced" : "exchanged",
+                                         {{"channel", m_misplaced->channel},
+                                          {"other", other},
+                                          {"described", fmt::format("{:.4g}", m_misplaced->described_mm)},
+                                          {"at", fmt::format("{:.0f}", m_misplaced->at_mm)}}));
 }
 
 /// A simulation that agrees only with numbers far from the description's does not bear the description out.
@@ -363,43 +273,11 @@ void Diagnoser::cannot_show() {
   if (!unseen.empty()) m_out.sentences.push_back(explain_unseen(unseen));
 }
 
-/// Whether a held-out recording is met worse with what is named than without it, and where most.
-void Diagnoser::worse_elsewhere() {
-  constexpr double clearly = 1.05;  // of all squares, in widths of noise
-  constexpr double in_one = 1.5;    // of one channel's rms
-  constexpr double noticed = 2.0;   // widths of noise
-  if (m_out.effects.empty()) return;
-  const bool once = std::any_of(m_out.effects.begin(), m_out.effects.end(),
-                                [](const FoundEffect& found) { return physics::happens_once(found.id); });
-  for (const HeldOut& other : m_out.held_out) {
-    double without = 0.0, with = 0.0, largest = 0.0;
-    const ChannelReport* worst = nullptr;
-    bool one_is_worse = false;
-    for (const ChannelReport& channel : m_out.channels) {
-      const auto before = other.refitted.find(channel.channel);
-      const auto after = other.explained.find(channel.channel);
-      if (before == other.refitted.end() || after == other.explained.end()) continue;
-      const double noise = std::max(channel.noise, 1e-9);
-      without += std::pow(before->second / noise, 2);
-      with += std::pow(after->second / noise, 2);
-      const double more = (after->second - before->second) / noise;
-      one_is_worse |= after->second > in_one * before->second && after->second > noticed * noise;
-      if (more <= largest) continue;
-      largest = more;
-      worst = &channel;
-    }
-    if (worst == nullptr || (with <= clearly * without && !one_is_worse)) continue;
-    m_out.notes.push_back("held_out_worse:" + other.recording + ":" + worst->channel);
-    m_out.sentences.push_back(explain_note(once ? "held_out_worse_once" : "held_out_worse",
-                                           {{"recording", other.recording},
-                                            {"channel", worst->channel},
-                                            {"before", fmt::format("{:.2g}", other.refitted.at(worst->channel))},
-                                            {"after", fmt::format("{:.2g}", other.explained.at(worst->channel))},
-                                            {"unit", worst->temperature ? "K" : "µm"}}));
-  }
-}
-
 void Diagnoser::notes() {
+  if (std::count(m_out.notes.begin(), m_out.notes.end(), "room_not_logged") != 0) {
+    m_out.sentences.push_back(explain_note("room_not_logged", {{"column", m_machine.room.channel}}));
+  }
+  another_machine();
   worse_elsewhere();
   const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
     double low = 1e300, high = -1e300;
@@ -428,15 +306,6 @@ void Diagnoser::notes() {
   }
   if (m_out.verdict == Verdict::missing_effect && m_selection.best->elsewhere != 0.0) {
     m_out.notes.push_back("decided_with_others:" + m_selection.best->machine().effects.back().id);
-  }
-  for (const auto& other : m_out.held_out) {
-    for (const auto& [channel, rms] : other.explained) {
-      for (const auto& report : m_out.channels) {
-        if (report.channel == channel && rms > 10.0 * std::max(report.rms_explained, 3.0 * report.noise)) {
-          m_out.notes.push_back("held_out_differs:" + other.recording + ":" + channel);
-        }
-      }
-    }
   }
 }
 

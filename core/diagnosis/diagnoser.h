@@ -3,6 +3,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/elsewhere.h"
+#include "core/diagnosis/misplaced.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/selection.h"
 
@@ -34,6 +35,7 @@ class Diagnoser {
   double leftover(const physics::Prediction& prediction) const;
   void tell_tried();
   void decide();
+  bool names_a_sensor() const;
   void tell_place(FoundEffect& found, std::size_t index);
   struct Shown {
     std::string channel;
@@ -44,6 +46,8 @@ class Diagnoser {
   void end_within_the_run(FoundEffect& found) const;
   double confidence_of(const FoundEffect& found) const;
   void rivals();
+  bool shows_too_little() const;
+  void tell_misplaced();
   bool steady_inputs() const;
   void hidden_by_steadiness();
   void tell_rivals(std::vector<std::shared_ptr<Model>> nearest);
@@ -62,6 +66,9 @@ class Diagnoser {
   void details();
   void cannot_show();
   std::vector<Sentence> far_parameters();
+  const ChannelReport* missed_by_far(const HeldOut& other) const;
+  bool of_another_machine(const HeldOut& other) const;
+  void another_machine();
   void worse_elsewhere();
   void notes();
 
@@ -73,6 +80,7 @@ class Diagnoser {
   DiagnoseOptions m_options;
   const TaskContext& m_context;
   SelectionOptions m_limits;
+  std::vector<std::shared_ptr<const Dataset>> m_other_sets;  // as m_limits.others at first
   std::shared_ptr<const Dataset> m_data, m_default_data;
   bool m_lumps_only = false;
   std::string m_moved_elsewhere;  // what only another recording shows to be unexplained
@@ -80,7 +88,8 @@ class Diagnoser {
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;
-  std::vector<FarParameter> m_far;       // of what explains best
+  std::vector<FarParameter> m_far;  // of what explains best
+  std::optional<Misplaced> m_misplaced;
   std::optional<SeenByAll> m_of_others;  // the best in the others, where it fits them; once asked
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;

@@ -101,6 +101,7 @@ struct Detectable {
   std::string id;
   std::string key;
   double value = 0.0;
+  double usual = 0.0;   // width of what there usually is of it
   double at_rpm = 0.0;  // where it grows with the speed: at this one
 };
 
@@ -155,7 +156,10 @@ struct DiagnoseOptions {
 /// has such heat, and nothing is named there. Note "far_from_description:QUANTITY:OF:FACTOR": the fit moved a number of
 /// the description by more than four of its tolerances. Note "sign_turned:CHANNEL": the displacement follows the
 /// description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something moves
-/// the nose that the description has not. Note "settles_by_itself:CHANNEL": a
+/// the nose that the description has not. Note "shows_too_little": nothing is found missing, but most effects of usual
+/// size would not have shown. Note "misplaced:CHANNEL" or "exchanged:CHANNEL:CHANNEL": the sensors are not where the
+/// description has them (misplaced.h). Note "held_out_differs:RECORDING:CHANNEL": that recording does not fit this
+/// machine. Note "room_not_logged": the recording lacks the room's channel. Note "settles_by_itself:CHANNEL": a
 /// displacement moves by itself and slows down, and nothing shows that it follows the room. Note "no_excitation":
 /// nothing moves, or nothing drives the machine.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,

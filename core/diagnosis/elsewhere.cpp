@@ -95,6 +95,10 @@ bool borne_out(const Model& fit, const Model& without, const OtherRecordings& ot
   return there.left <= least_evident && there.evidence - elsewhere(without, others).evidence > least;
 }
 
+bool fits_elsewhere(const Model& fit, const std::shared_ptr<const Dataset>& other) {
+  return elsewhere(fit, {other}).left <= least_evident;
+}
+
 SeenByAll seen_by_all(const Model& fit, const OtherRecordings& others) {
   Elsewhere anew = elsewhere(fit, others, Sensors::anew);
   Elsewhere the_same = elsewhere(fit, others, Sensors::the_same);

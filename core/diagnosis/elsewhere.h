@@ -25,6 +25,8 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
 /// beside `without`. What a recording leaves uncertain stays uncertain here; a prediction with its likeliest numbers
 /// may miss by it.
 bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others);
+/// Does another recording fit the machine, with all that the fitted one leaves uncertain of it free?
+bool fits_elsewhere(const Model& fit, const std::shared_ptr<const Dataset>& other);
 /// The displacement that needs more than the ordinary misfit in another recording, with what the fitted one has shown
 /// of the machine, where no temperature does; empty where there is none. An expansion or an offset of the description
 /// may hide in one run what moves the nose, but not in two.

@@ -225,11 +225,17 @@ Sentence explain_rival(const Rival& rival) {
 Sentence explain_verdict(const Diagnosis& diagnosis) {
   Sentence s;
   s.id = "verdict_" + std::string(name_of(diagnosis.verdict));
-  const bool bent = std::any_of(diagnosis.notes.begin(), diagnosis.notes.end(),
-                                [](const auto& note) { return note.starts_with("far_from_description:"); });
-  if (diagnosis.verdict == Verdict::consistent && bent) s.id += "_bent";
+  const auto noted = [&](std::string_view what) {
+    return std::any_of(diagnosis.notes.begin(), diagnosis.notes.end(),
+                       [&](const std::string& note) { return note.starts_with(what); });
+  };
+  if (noted("shows_too_little")) {
+    s.id += "_blind";
+  } else if (diagnosis.verdict == Verdict::consistent && noted("far_from_description:")) {
+    s.id += "_bent";
+  }
   if (diagnosis.doubtful) {
-    s.id += "_doubtful";
+    s.id += noted("misplaced:") || noted("exchanged:") ? "_misplaced" : "_doubtful";
   } else if (diagnosis.verdict == Verdict::unexplained) {
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
     s.facts = {{"channel", channel}, {"regime", regime_or_always(diagnosis.mismatch.regime)}};

@@ -160,8 +160,29 @@ Status check_times(const physics::Machine& machine, const recording::Recording& 
   return {};
 }
 
+/// A displacement that would move as described were it in another unit, while others are in the right one.
+static Status check_millimetres(const physics::Machine& machine, const Dataset& data,
+                                const physics::Prediction& nominal) {
+  constexpr double much_um = 20.0;
+  constexpr double um_per_mm = 1000.0;
+  constexpr double about = 3.0;
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    const MeasuredChannel& channel = data.channels[c];
+    if (channel.samples == 0 || channel.temperature) continue;
+    const Movement moved = movement(channel, nominal.channels[c].values);
+    const double times = moved.simulated / std::max(moved.measured, 1e-12);
+    if (moved.simulated < much_um || times < um_per_mm / about || times > um_per_mm * about) continue;
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", data.recording->name + ", channel " + channel.name},
+                 {"found", fmt::format("a movement of {:.3g} um", moved.measured)},
+                 {"expected", fmt::format("about {:.3g} um for {} (is it in mm?)", moved.simulated, machine.file)}});
+  }
+  return {};
+}
+
 Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal) {
   if (has_unknown_heat(machine)) return {};  // nothing to compare with
+  ZD_CHECK(check_millimetres(machine, data, nominal));
   for (const bool temperature : {true, false}) {
     Movement largest;
     std::string name;

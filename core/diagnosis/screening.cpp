@@ -225,6 +225,7 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
     double gain = step.dot(g);
     const auto& main = wide.network().parameters[columns.parameters[static_cast<std::size_t>(first)]];
     group[c].detectable = 5.0 * main.sigma / std::sqrt(std::max(1e-12, d(0, 0)));
+    group[c].usual = main.sigma;
     if (main.low >= 0.0 && step[0] <= 0.0) gain = 0.0;  // physics forbids the sign
     group[c].gain = gain;
     group[c].step.assign(step.data(), step.data() + count);

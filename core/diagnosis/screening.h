@@ -16,6 +16,7 @@ struct Candidate {
   double gain = 0.0;         // cost that one step would save
   double detectable = 0.0;   // amplitude that would have shown (5 sigma), in the amplitude's unit
   std::vector<double> step;  // standardised amplitudes after that step, in the order of the effect's amplitudes
+  double usual = 0.0;        // width of what there usually is of it, in the same unit
 };
 
 /// Two effects that hide each other: heat that one adds the other takes away, and each shows only beside the other.

@@ -41,6 +41,24 @@ constexpr std::array catalogue{
         "verdict_consistent_bent",
         "No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
         "those described."},
+    Entry{"verdict_consistent_blind",
+          "This recording cannot tell whether anything is missing: the simulation agrees with it, but most effects of "
+          "usual size would not have shown. Record for longer, until the temperatures settle, with several speeds and "
+          "stops."},
+    Entry{"verdict_unexplained_misplaced",
+          "Nothing can be named: the sensors are not where the description has them. Correct that first."},
+    Entry{"misplaced",
+          "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
+          "check its place, and that it is in millimetres."},
+    Entry{"exchanged",
+          "{channel} and {other} read as if they had changed places: check their cables and the order of the columns."},
+    Entry{"room_not_logged",
+          "The recording has no column {column}: how the room went had to be guessed from the machine's own "
+          "temperatures, and what follows the room can hardly be told from it."},
+    Entry{"held_out_differs",
+          "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
+          "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "
+          "It says nothing for or against the answer."},
     Entry{"far_from_description",
           "To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: "
           "check units, sizes and powers."},
@@ -62,6 +80,8 @@ constexpr std::array catalogue{
     Entry{"run_lacks_what_other_has",
           "Recording {recording} has no column {column}, which {other} has: what that switches is not simulated, and "
           "{other} may be missed for it."},
+    Entry{"run_unknown_columns",
+          "Recording {recording}: the machine description does not name {columns}, which was not used."},
     Entry{"run_left_out", "Recording {@what}."},
     Entry{"run_finding", "Recording {recording}: {@what}."},
     Entry{"run_fahrenheit", "Recording {recording}: the temperatures look like degrees Fahrenheit and were converted."},

@@ -138,8 +138,36 @@ int NetworkBuilder::room() {
     p.per_recording = true;
     room.parts.push_back({add_parameter(p), -1});
     m_network.notes.emplace_back(m_machine.room.temperature_C ? "room_given" : "room_is_initial_temperature");
+    // A room with a sensor that this recording has not: nobody knows how it went, and whatever it did must not look
+    // like the machine's doing.
+    if (!m_machine.room.channel.empty()) {
+      m_network.notes.emplace_back("room_not_logged");
+      wandering_room(room);
+    }
   }
   return m_room = environment(std::move(room));
+}
+
+/// Straight between hidden temperatures at regular moments, each about as far from the mean as halls are in a shift.
+void NetworkBuilder::wandering_room(Environment& room) {
+  constexpr double wander_K = 1.5;
+  constexpr double least_apart_s = 1800.0;
+  constexpr double most_moments = 16.0;
+  const double start_s = m_inputs.time_s.front();
+  const double whole_s = m_inputs.time_s.back() - start_s;
+  const double count = std::clamp(std::floor(whole_s / least_apart_s), 1.0, most_moments);
+  const double apart_s = std::max(whole_s / count, 1.0);
+  for (int i = 0; i <= static_cast<int>(count); ++i) {
+    Parameter p;
+    p.key = "room_wander_K:" + std::to_string(i);
+    p.sigma = wander_K;
+    p.per_recording = true;
+    const double middle_s = start_s + i * apart_s;
+    const int hat = signal({p.key, [middle_s, apart_s](const double*, const double*, double time_s) {
+                              return std::max(0.0, 1.0 - std::abs(time_s - middle_s) / apart_s);
+                            }});
+    room.parts.push_back({add_parameter(p), hat});
+  }
 }
 
 int NetworkBuilder::add_node(double volume, int capacity_parameter, double initial_C) {

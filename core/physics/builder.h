@@ -91,6 +91,7 @@ class NetworkBuilder {
   void add_sources();
   void add_source(const Component& component, const HeatSource& source);
   void add_couplings();
+  void wandering_room(Environment& room);
   void add_sensors();
   void add_displacements();
 

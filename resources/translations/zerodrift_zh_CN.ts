@@ -3454,6 +3454,34 @@
         <translation>对室内空气的换热</translation>
     </message>
     <message>
+        <source>This recording cannot tell whether anything is missing: the simulation agrees with it, but most effects of usual size would not have shown. Record for longer, until the temperatures settle, with several speeds and stops.</source>
+        <translation>本次记录无法判断是否遗漏了什么：仿真与其一致，但大多数通常大小的效应在其中不会显现。请记录更长时间直至温度稳定，并包含多个转速和停机。</translation>
+    </message>
+    <message>
+        <source>Nothing can be named: the sensors are not where the description has them. Correct that first.</source>
+        <translation>无法指明任何效应：传感器的位置与描述不符。请先更正。</translation>
+    </message>
+    <message>
+        <source>{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: check its place, and that it is in millimetres.</source>
+        <translation>{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm 处的：请检查其位置以及单位是否为毫米。</translation>
+    </message>
+    <message>
+        <source>{channel} and {other} read as if they had changed places: check their cables and the order of the columns.</source>
+        <translation>{channel} 与 {other} 的读数像是互换了位置：请检查接线和列的顺序。</translation>
+    </message>
+    <message>
+        <source>The recording has no column {column}: how the room went had to be guessed from the machine&apos;s own temperatures, and what follows the room can hardly be told from it.</source>
+        <translation>记录中没有列 {column}：室温的变化只能由机床自身的温度推测，跟随室温的效应难以与之区分。</translation>
+    </message>
+    <message>
+        <source>{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is {after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? It says nothing for or against the answer.</source>
+        <translation>留出的记录 {recording} 与拟合记录所示的机床不符：{channel} 在那里相差 {after} {unit}（均方根），在此为 {here}。它是否来自另一台机床，或其间有所改动？它既不支持也不否定此答案。</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: the machine description does not name {columns}, which was not used.</source>
+        <translation>记录 {recording}：机床描述中没有 {columns}，未予使用。</translation>
+    </message>
+    <message>
         <source>Nothing drives the machine in this recording: little can be learned from it.</source>
         <translation>本次记录中没有任何输入驱动机床：从中能得到的信息很少。</translation>
     </message>

@@ -1,0 +1,28 @@
+#pragma once
+// Does a sensor read what another place of its component would? A place in metres, or two cables exchanged, looks like
+// missing physics that no law has.
+
+#include <optional>
+#include <string>
+
+#include "core/diagnosis/model.h"
+
+namespace zerodrift::diagnosis {
+
+struct Misplaced {
+  std::string channel;
+  double described_mm = 0.0;
+  double at_mm = 0.0;          // where it reads as if it sat
+  std::string exchanged_with;  // the channel with which it changes places; empty: it alone
+};
+
+/// "misplaced:CHANNEL" or "exchanged:CHANNEL:CHANNEL".
+std::string note_of(const Misplaced& found);
+
+/// The sensor whose place, changed, explains the recording far better than `best` does, beside what `best`
+/// names of the machine; nothing where no place does, or where that sensor still reads otherwise. `data`: with default
+/// widths.
+std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
+                                          const std::shared_ptr<const Dataset>& data);
+
+}  // namespace zerodrift::diagnosis

@@ -1,0 +1,142 @@
+// A recording or a description that is not of what it says: sensors elsewhere, no room, a few minutes, a cut of the
+// same run. Each is named, and nothing else is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/diagnosis/diagnosis.h"
+#include "tests/proof/case_generator.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+Result<Diagnosis> answer_with_details(const proof::Case& one) {
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  EXPECT_TRUE(machine.has_value());
+  return diagnose(*machine, one.recordings);
+}
+
+bool notes(const Diagnosis& d, const std::string& beginning) {
+  return std::any_of(d.notes.begin(), d.notes.end(), [&](const auto& note) { return note.starts_with(beginning); });
+}
+
+bool says(const Diagnosis& d, const std::string& id) {
+  return std::any_of(d.sentences.begin(), d.sentences.end(), [&](const auto& sentence) { return sentence.id == id; });
+}
+
+nlohmann::json& sensor_named(nlohmann::json& machine, const std::string& channel) {
+  auto& sensors = machine["sensors"];
+  return *std::find_if(sensors.begin(), sensors.end(), [&](const auto& one) { return one["channel"] == channel; });
+}
+
+}  // namespace
+
+TEST(WrongSetUp, WithoutTheRoomsColumnNothingIsInvented) {
+  for (const auto& [seed, id] : {std::pair{301U, "none"}, std::pair{302U, "cutting_heat"}, std::pair{303U, "coolant"},
+                                 std::pair{304U, "none"}}) {
+    proof::Case one = proof::make_case(seed, id);
+    for (auto& run : one.recordings) {
+      std::erase_if(run.channels, [](const auto& channel) { return channel.name == "ambient_C"; });
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(notes(*answer, "room_not_logged"));
+    EXPECT_TRUE(says(*answer, "room_not_logged"));
+    for (const FoundEffect& found : answer->effects) EXPECT_EQ(found.id, id) << seed;
+  }
+}
+
+TEST(WrongSetUp, TenRowsShowTooLittleAndAWholeRunDoesNot) {
+  proof::Case one = proof::make_case(305, "none");
+  one.recordings.resize(1);
+  const auto whole = answer_with_details(one);
+  ASSERT_TRUE(whole.has_value()) << describe(whole.error());
+  ASSERT_EQ(whole->verdict, Verdict::consistent);
+  EXPECT_FALSE(notes(*whole, "shows_too_little"));
+  one.recordings[0] = recording::slice(one.recordings[0], 0, 10);
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(answer->effects.empty());
+  EXPECT_TRUE(notes(*answer, "shows_too_little"));
+  EXPECT_TRUE(says(*answer, "verdict_consistent_blind"));
+  EXPECT_FALSE(says(*answer, "verdict_consistent"));
+}
+
+TEST(WrongSetUp, APlaceInMetresIsNamed) {
+  proof::Case one = proof::make_case(306, "none");
+  auto& sensors = one.machine["sensors"];
+  const auto farthest = std::max_element(sensors.begin(), sensors.end(), [](const auto& a, const auto& b) {
+    return a.value("position_mm", 0.0) < b.value("position_mm", 0.0);
+  });
+  const std::string channel = (*farthest)["channel"];
+  const double at_mm = (*farthest)["position_mm"];
+  (*farthest)["position_mm"] = 0.001 * at_mm;
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::unexplained);
+  EXPECT_TRUE(answer->effects.empty());
+  EXPECT_TRUE(notes(*answer, "misplaced:" + channel));
+  const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
+                                 [](const auto& sentence) { return sentence.id == "misplaced"; });
+  ASSERT_NE(told, answer->sentences.end());
+  EXPECT_NEAR(std::stod(told->facts.at("at")), at_mm, 20.0);
+  EXPECT_TRUE(says(*answer, "verdict_unexplained_misplaced"));
+}
+
+TEST(WrongSetUp, TwoCablesExchangedAreNamed) {
+  proof::Case one = proof::make_case(307, "bearing_preload");
+  std::string first, last;
+  double low_mm = 1e9, high_mm = -1.0;
+  for (const auto& sensor : one.machine["sensors"]) {
+    if (!sensor.contains("position_mm")) continue;
+    const double at_mm = sensor["position_mm"];
+    if (at_mm < low_mm) low_mm = at_mm, first = sensor["channel"];
+    if (at_mm > high_mm) high_mm = at_mm, last = sensor["channel"];
+  }
+  std::swap(sensor_named(one.machine, first)["position_mm"], sensor_named(one.machine, last)["position_mm"]);
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(answer->effects.empty());
+  EXPECT_TRUE(notes(*answer, "exchanged:" + first + ":" + last) || notes(*answer, "exchanged:" + last + ":" + first));
+}
+
+TEST(WrongSetUp, ACutOfTheFittedRunIsNoSecondOne) {
+  proof::Case one = proof::make_case(308, "none");
+  one.recordings.resize(1);
+  one.recordings.push_back(recording::slice(one.recordings[0], 40, 60));
+  one.recordings[1].name = "cut";
+  for (double& t : one.recordings[1].time_s) t -= one.recordings[1].time_s.front();
+  const auto answer = answer_with_details(one);
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, ErrorCode::bad_argument);
+  EXPECT_NE(describe(answer.error()).find("cut"), std::string::npos);
+  EXPECT_NE(describe(answer.error()).find("60 of its rows"), std::string::npos) << describe(answer.error());
+}
+
+TEST(WrongSetUp, OneDisplacementInMillimetresIsRefusedByName) {
+  proof::Case one = proof::make_case(309, "none");
+  for (double& value : one.recordings[0].find("dZ_um")->values) value *= 0.001;
+  const auto answer = answer_with_details(one);
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+  EXPECT_NE(describe(answer.error()).find("dZ_um"), std::string::npos);
+  EXPECT_NE(describe(answer.error()).find("mm"), std::string::npos);
+}
+
+TEST(WrongSetUp, AColumnWithoutASensorIsNamedAndATakenOutOneIsNotCalledMissing) {
+  proof::Case one = proof::make_case(310, "none");
+  one.recordings.resize(1);
+  one.recordings[0].channels.push_back({"T99_C", one.recordings[0].find("T1_C")->values});
+  for (double& value : one.recordings[0].find("T1_C")->values) value *= 1000.0;
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
+                                 [](const auto& sentence) { return sentence.id == "run_unknown_columns"; });
+  ASSERT_NE(told, answer->sentences.end());
+  EXPECT_EQ(told->facts.at("columns"), "T99_C");
+  EXPECT_FALSE(notes(*answer, "the recording has no channel T1_C"));
+  EXPECT_EQ(answer->findings.size(), 1U);
+}
+
+}  // namespace zerodrift::diagnosis
