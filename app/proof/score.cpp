@@ -119,6 +119,15 @@ ProofFigure number_figure(const std::string& id, const std::string& label, doubl
   return figure;
 }
 
+/// A number that explains another one and has no limit of its own.
+ProofFigure plain_number(const std::string& id, const std::string& label, double value, int digits,
+                         const std::string& unit) {
+  ProofFigure figure = number_figure(id, label, value, digits, unit, 0.0);
+  figure.limit = "-";
+  figure.met.reset();
+  return figure;
+}
+
 }  // namespace
 
 std::string OpenedAnswer::words() const {
@@ -226,6 +235,11 @@ void Score::count_location(const OpenedAnswer& truth, const json& diagnosis, Jud
       m_location_mm.push_back(*judgement.location_error_mm);
       const double stated_mm = effect.value("sigma", json::object()).value("position_mm", 0.0);
       m_location_stated.add(*judgement.location_error_mm <= 2.0 * stated_mm);
+      if (const auto between = effect.find("between_mm"); between != effect.end() && between->is_array()) {
+        m_stretch.add(*hidden.position_mm >= between->at(0) && *hidden.position_mm <= between->at(1));
+      } else {
+        m_point_mm.push_back(*judgement.location_error_mm);
+      }
     }
   }
 }
@@ -334,6 +348,12 @@ std::vector<ProofFigure> Score::figures() const {
   list.push_back(number_figure("location_worst_mm", "location, worst", quantile(m_location_mm, 1.0), 1, "mm", 12.0));
   list.push_back(plain_share("location_stated", "location within twice the stated uncertainty", m_location_stated.good,
                              m_location_stated.all));
+  list.push_back(plain_number("location_point_median_mm", "location where it is told as a point, median",
+                              median(m_point_mm), 1, "mm"));
+  list.push_back(plain_number("location_point_worst_mm", "location where it is told as a point, worst",
+                              quantile(m_point_mm, 1.0), 1, "mm"));
+  list.push_back(plain_share("location_stretch", "location where it is told as a stretch, within it", m_stretch.good,
+                             m_stretch.all));
   for (const Improvement& one : improvements()) {
     if (!one.second || !std::isfinite(one.over_reached)) continue;
     const double must = one.kind == "T" ? 1.2 : one.kind == "dZ" ? 1.0 : 2.0;

@@ -142,10 +142,11 @@ class Score {
   void count_location(const OpenedAnswer& truth, const nlohmann::json& diagnosis, Judgement& judgement);
   void count_rms(const OpenedAnswer& truth, const nlohmann::json& diagnosis);
 
-  Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel, m_location_stated;
+  Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel, m_location_stated,
+      m_stretch;
   int m_turned_round = 0;
   std::map<std::string, int> m_put_aside;
-  std::vector<double> m_location_mm, m_seconds, m_processor_s;
+  std::vector<double> m_location_mm, m_point_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;
   std::map<std::pair<std::string, bool>, Rms> m_rms;  // (kind of channel, second recording)
   std::map<std::string, std::map<std::string, int>> m_confusion;

@@ -142,6 +142,7 @@ const ChannelReport* Diagnoser::missed_by_far(const HeldOut& other) const {
 /// A recording that is predicted badly may only show what the fitted one left uncertain. One that does not fit even
 /// with all of that free is of another machine, or of this one after something was changed.
 void Diagnoser::another_machine() {
+  if (m_out.verdict == Verdict::unexplained) return;  // what is missing here is missing there
   const bool missed = std::any_of(m_out.held_out.begin(), m_out.held_out.end(),
                                   [&](const HeldOut& other) { return missed_by_far(other) != nullptr; });
   if (!missed) return;

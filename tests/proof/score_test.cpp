@@ -71,6 +71,21 @@ TEST(Score, JudgesEachKindOfAnswer) {
   EXPECT_EQ(value_of(score, "location_stated"), "0/7 = 0.0");
 }
 
+/// A place that is known too badly for a point is told as a stretch, and judged as one.
+TEST(Score, PointsAndStretchesAreJudgedApart) {
+  Score score;
+  score.add(hiding({"extra_heat_source"}), diagnosis_of("missing_effect", {{"extra_heat_source", 0.9}}));
+  json wide = diagnosis_of("missing_effect", {{"extra_heat_source", 0.9}});
+  wide["effects"][0]["position_mm"] = 130.0;
+  wide["effects"][0]["between_mm"] = {90.0, 160.0};
+  score.add(hiding({"extra_heat_source"}), wide);
+  wide["effects"][0]["between_mm"] = {110.0, 160.0};
+  score.add(hiding({"extra_heat_source"}), wide);
+  EXPECT_EQ(value_of(score, "location_worst_mm"), "30.0");
+  EXPECT_EQ(value_of(score, "location_point_worst_mm"), "10.0");
+  EXPECT_EQ(value_of(score, "location_stretch"), "1/2 = 50.0");
+}
+
 TEST(Score, CalibrationErrorIsTheMeanDistanceOfStatedAndTrue) {
   Score score;
   for (int i = 0; i < 10; ++i) {  // 0.9 stated, 7 of 10 right; 0.3 stated, all wrong
