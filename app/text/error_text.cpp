@@ -99,6 +99,9 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP(
             "errors",
             "Look at what is named; positions are in mm, apart and not on one line, each with its own picture.")},
+    Row{ErrorCode::calibration_of_another_target,
+        QT_TRANSLATE_NOOP("errors", "{file} was made with another target than {template} shows ({detail})."),
+        QT_TRANSLATE_NOOP("errors", "Give the template and the region it was made with, or calibrate anew.")},
     Row{ErrorCode::job_not_a_job, QT_TRANSLATE_NOOP("errors", "{file} is not a Zerodrift job."),
         QT_TRANSLATE_NOOP("errors", "Choose a file that Zerodrift made.")},
     Row{ErrorCode::job_newer,
@@ -244,6 +247,8 @@ QString factInWords(const std::string& key, const std::string& value) {
 
 /// Puts the context into the braces; a fact that is not known shows as a dash.
 constexpr qsizetype longest_fact = 600;
+constexpr QStringView stops = u".\u3002";
+constexpr QStringView ends = u".?!\u3002\uff1f\uff01";
 
 QString filled(const char* pattern, const Error& error) {
   const QString source = QCoreApplication::translate("errors", pattern);
@@ -259,6 +264,9 @@ QString filled(const char* pattern, const Error& error) {
     // A cell of a file from elsewhere may be megabytes long.
     out += words.size() <= longest_fact ? words : words.left(longest_fact) + QStringLiteral("...");
     i = end;
+    // A fact that ends a sentence by itself needs no second stop.
+    const bool stop_follows = i + 1 < source.size() && stops.contains(source[i + 1]);
+    if (stop_follows && !out.isEmpty() && ends.contains(out.back())) ++i;
   }
   return out;
 }

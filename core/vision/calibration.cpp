@@ -165,6 +165,12 @@ Eigen::Matrix2d Calibration::sigma() const {
   return out.cwiseMax(0.0).cwiseSqrt();
 }
 
+bool Calibration::covers(const Location& location) const {
+  constexpr double beyond = 1.05;  // the same place but for the machine's own scatter
+  const bool known = range_px[0] > 0.0 && range_px[1] > 0.0;
+  return !known || (std::abs(location.x_px) <= beyond * range_px[0] && std::abs(location.y_px) <= beyond * range_px[1]);
+}
+
 ErrorUm Calibration::to_um(const Location& location) const {
   const Eigen::Vector2d p(location.x_px, location.y_px);
   const Eigen::Vector2d um = um_from_px * p;
@@ -228,7 +234,7 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
   const double scale_sigma = std::sqrt(std::max(variance, with_assumed) * fit.spread.diagonal().maxCoeff());
   if (!(scale >= limits.least_um_per_px && scale <= limits.largest_um_per_px)) {
     return fail(ErrorCode::calibration_refused,
-                {{"reason", fmt::format("a pixel would be {:.3g} um; are the positions really in mm?", scale)}});
+                {{"reason", fmt::format("a pixel would be {:.3g} um: the positions do not seem to be in mm", scale)}});
   }
   if (scale_sigma > limits.largest_scale_sigma * scale) {
     return fail(

@@ -44,11 +44,13 @@ struct Calibration {
   double rotation_deg = 0.0;         // of the image against the machine's axes, counter-clockwise; mirrored: -90 to 90
   bool mirrored = false;             // left and right exchanged, or top and bottom
   bool handedness_assumed = false;   // two positions cannot show a mirrored camera: it was taken not to be
-  std::array<double, 2> range_px{};  // largest displacement seen in the calibration, x and y
+  std::array<double, 2> range_px{};  // largest displacement seen in the calibration, x and y; 0: not known
   std::vector<CalibrationView> views;
   std::vector<std::string> warnings;
 
   Eigen::Matrix2d sigma() const;  // standard uncertainty of each element
+  /// Within what the calibration has seen, to either side.
+  bool covers(const Location& location) const;
   /// Displacement with its uncertainty (target and calibration) in um along the two machine axes.
   ErrorUm to_um(const Location& location) const;
 };

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -7,6 +11,9 @@
 
 namespace zerodrift::vision {
 namespace {
+
+const char* const calibration_format = "zerodrift-calibration/1";
+constexpr int most_views = 1'000'000;
 
 nlohmann::json rows_of(const Eigen::Matrix2d& m) {
   return nlohmann::json::array({{m(0, 0), m(0, 1)}, {m(1, 0), m(1, 1)}});
@@ -26,6 +33,49 @@ Eigen::Matrix2d matrix_of(JsonObject& object, const char* key) {
       (*rows)[1][1].get<double>();
   if (!out.allFinite()) object.reject(key, "not finite", "finite numbers");
   return out;
+}
+
+// A matrix of no camera that could measure: singular, or a pixel of nanometres or metres.
+void check_scale(JsonObject& object, const Eigen::Matrix2d& um_from_px) {
+  const CalibrationLimits limits;
+  const Eigen::Vector2d scales = Eigen::JacobiSVD<Eigen::Matrix2d>(um_from_px).singularValues();
+  if (scales(1) >= limits.least_um_per_px && scales(0) <= limits.largest_um_per_px) return;
+  object.reject("um_from_px", fmt::format("{:.3g} to {:.3g} um a pixel", scales(1), scales(0)),
+                fmt::format("{:g} to {:g} um a pixel", limits.least_um_per_px, limits.largest_um_per_px));
+}
+
+Eigen::Matrix4d covariance_of(JsonObject& object) {
+  const Eigen::Matrix2d sigma = matrix_of(object, "sigma");
+  if (sigma.minCoeff() <= 0.0) {
+    object.reject("sigma", fmt::format("{:g}", sigma.minCoeff()), "standard uncertainties above 0");
+  }
+  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
+  out.diagonal() << sigma(0, 0), sigma(0, 1), sigma(1, 0), sigma(1, 1);
+  out.diagonal() = out.diagonal().cwiseAbs2().eval();
+  const nlohmann::json* rows = object.raw("covariance");
+  if (rows == nullptr) return out;
+  const char* const expected = "four rows of four numbers, with the squares of sigma on the diagonal";
+  if (!rows->is_array() || rows->size() != 4) object.reject("covariance", "not a 4x4 matrix", expected);
+  Eigen::Matrix4d full;
+  for (int row = 0; row < 4; ++row) {
+    const nlohmann::json& cells = (*rows)[static_cast<std::size_t>(row)];
+    if (!cells.is_array() || cells.size() != 4) object.reject("covariance", "not a 4x4 matrix", expected);
+    for (int column = 0; column < 4; ++column) {
+      const nlohmann::json& cell = cells[static_cast<std::size_t>(column)];
+      if (!cell.is_number()) object.reject("covariance", "not a 4x4 matrix", expected);
+      full(row, column) = cell.get<double>();
+    }
+  }
+  constexpr double rounding = 1e-3;
+  const auto own = full.diagonal().array();
+  const bool fits = full.allFinite() && ((own - out.diagonal().array()).abs() <= rounding * own.abs()).all();
+  if (!fits) object.reject("covariance", "other than sigma", expected);
+  const Eigen::Vector4d scale = out.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix4d correlation = scale.asDiagonal() * full * scale.asDiagonal();
+  const bool possible = correlation.isApprox(correlation.transpose(), rounding) &&
+                        Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(correlation).eigenvalues()(0) > -rounding;
+  if (!possible) object.reject("covariance", "no covariance", "a symmetric matrix that is not negative");
+  return full;
 }
 
 CalibrationView view_of(JsonObject& object) {
@@ -58,7 +108,7 @@ nlohmann::json to_json(const Calibration& c) {
     covariance.push_back({c.covariance(row, 0), c.covariance(row, 1), c.covariance(row, 2), c.covariance(row, 3)});
   }
   return {
-      {"format", "zerodrift-calibration/1"},
+      {"format", calibration_format},
       {"um_from_px", rows_of(c.um_from_px)},
       {"sigma", rows_of(c.sigma())},
       {"covariance", covariance},
@@ -77,40 +127,33 @@ Result<Calibration> calibration_from_json(const nlohmann::json& document, const 
                                           std::vector<std::string>* warnings) {
   return from_json<Calibration>(document, file, warnings, [](JsonObject& object) {
     Calibration c;
-    object.raw("format");
+    if (const std::string format = object.text_or("format", calibration_format); format != calibration_format) {
+      object.reject("format", format, calibration_format);
+    }
     object.raw("target");
     c.um_from_px = matrix_of(object, "um_from_px");
-    if (std::abs(c.um_from_px.determinant()) < 1e-9) {
-      object.reject("um_from_px", "singular", "a matrix that can be inverted");
-    }
-    c.rms_um = object.number_or("rms_um", 0.0);
-    c.leave_one_out_um = object.number_if("leave_one_out_um").value_or(std::numeric_limits<double>::quiet_NaN());
-    c.scale_um_per_px = object.number_or("scale_um_per_px", std::sqrt(std::abs(c.um_from_px.determinant())));
+    check_scale(object, c.um_from_px);
+    c.covariance = covariance_of(object);
+    c.rms_um = object.number("rms_um", not_negative);
+    c.leave_one_out_um =
+        object.number_if("leave_one_out_um", not_negative).value_or(std::numeric_limits<double>::quiet_NaN());
+    c.scale_um_per_px = object.number_or("scale_um_per_px", std::sqrt(std::abs(c.um_from_px.determinant())), positive);
     c.rotation_deg = object.number_or("rotation_deg", 0.0);
     c.mirrored = object.flag_or("mirrored", c.um_from_px.determinant() > 0.0);
     c.handedness_assumed = object.flag_or("handedness_assumed", false);
     c.warnings = object.texts_or_empty("warnings");
-    if (const std::vector<double> range = object.numbers_or_empty("range_px"); range.size() == 2) {
+    if (object.has("range_px")) {
+      const std::vector<double> range = object.numbers("range_px", 2);
+      if (std::min(range[0], range[1]) < 0.0) object.reject("range_px", "below 0", "two numbers of 0 or more");
       c.range_px = {range[0], range[1]};
     }
-    const nlohmann::json* covariance = object.raw("covariance");
-    const Eigen::Matrix2d sigma = object.has("sigma") ? matrix_of(object, "sigma") : Eigen::Matrix2d::Zero();
-    c.covariance.diagonal() << sigma(0, 0), sigma(0, 1), sigma(1, 0), sigma(1, 1);
-    c.covariance.diagonal() = c.covariance.diagonal().cwiseAbs2();
-    if (covariance != nullptr && covariance->is_array() && covariance->size() == 4) {
-      for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) {
-          const nlohmann::json& cells = (*covariance)[row];
-          if (!cells.is_array() || cells.size() != 4 || !cells[column].is_number()) {
-            object.reject("covariance", "not a 4x4 matrix", "four rows of four numbers");
-          }
-          c.covariance(row, column) = cells[column].get<double>();
-        }
-      }
-    }
+    // How many there were, or each of them.
     const nlohmann::json* views = object.raw("views");
-    if (views != nullptr && views->is_array()) {
-      for (JsonObject& view : object.objects_or_empty("views")) c.views.push_back(view_of(view));
+    if (views == nullptr) object.missing("views", "a list of objects");
+    if (views->is_number()) {
+      object.integer("views", 1, most_views);
+    } else {
+      for (JsonObject& view : object.objects("views")) c.views.push_back(view_of(view));
     }
     return c;
   });

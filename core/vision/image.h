@@ -26,6 +26,7 @@ struct Region {
   int height = 0;
 
   bool empty() const { return width <= 0 || height <= 0; }
+  bool operator==(const Region&) const = default;
 };
 
 struct PixelPoint {

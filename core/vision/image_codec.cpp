@@ -4,9 +4,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/base/file.h"
-#include "core/base/hash.h"
 #include "core/vision/image_header.h"
 #include "core/vision/opencv_image.h"
+#include "core/vision/png_check.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -27,24 +27,8 @@ bool contains_near_end(Bytes bytes, std::string_view mark) {
                      [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }) != tail.end();
 }
 
-std::size_t number_at(Bytes bytes, std::size_t at) {
-  return std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 | std::size_t{bytes[at + 2]} << 8 |
-         bytes[at + 3];
-}
-
-// Whether every chunk is whole: the library that decodes writes what it finds broken on stderr.
-std::string fault_of_png(Bytes bytes) {
-  constexpr std::size_t signature_bytes = 8;
-  constexpr std::size_t around_bytes = 12;  // length, name and check sum
-  for (std::size_t at = signature_bytes; at + around_bytes <= bytes.size();) {
-    const std::size_t length = number_at(bytes, at);
-    if (length > bytes.size() - at - around_bytes) break;
-    const std::string_view named(reinterpret_cast<const char*>(bytes.data()) + at + 4, 4 + length);
-    if (crc32_of(named) != number_at(bytes, at + 8 + length)) return "the PNG file is damaged";
-    if (named.starts_with("IEND")) return "";
-    at += around_bytes + length;
-  }
-  return "the PNG file ends early";
+bool is_png(Bytes bytes) {
+  return starts_with(bytes, {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a});
 }
 
 // What makes these bytes unfit before a decoder is trusted with them; "" if nothing does.
@@ -55,9 +39,7 @@ std::string fault_of(Bytes bytes) {
                                                       size->width * size->height > largest_image_px)) {
     return "the picture is larger than 100 megapixels";
   }
-  if (starts_with(bytes, {0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a})) {
-    return fault_of_png(bytes);
-  }
+  if (is_png(bytes)) return "";  // looked through by itself
   if (starts_with(bytes, {0xff, 0xd8, 0xff})) {
     // A truncated JPEG decodes to half a picture and grey below: the end mark must be there.
     return contains_near_end(bytes, "\xff\xd9") ? "" : "the JPEG file ends early";
@@ -124,6 +106,12 @@ Result<std::vector<std::uint8_t>> encode_png(const GrayImage& image) {
 Result<DecodedImage> decode(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (const std::string fault = fault_of(bytes); !fault.empty()) {
     return fail(ErrorCode::image_unreadable, {{"file", name}, {"detail", fault}});
+  }
+  PlainPng png;
+  if (is_png(bytes)) {
+    png = plain_png(bytes);
+    if (!png.fault.empty()) return fail(ErrorCode::image_unreadable, {{"file", name}, {"detail", png.fault}});
+    bytes = png.bytes;
   }
   try {
     const cv::Mat wrapped(1, static_cast<int>(bytes.size()), CV_8U, const_cast<std::uint8_t*>(bytes.data()));

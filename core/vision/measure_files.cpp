@@ -9,6 +9,7 @@
 #include "core/recording/csv.h"
 #include "core/vision/error_view.h"
 #include "core/vision/image_codec.h"
+#include "core/vision/one_direction.h"
 #include "core/vision/region_finder.h"
 
 namespace zerodrift::vision {
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t longest_cell = 60;  // of a file from elsewhere, in a message
 const char* const folder_of_pictures = "a folder of PNG, JPEG, BMP or TIFF pictures";
 
 void warn(std::vector<std::string>* warnings, std::string text) {
@@ -98,6 +100,18 @@ Location unreadable(const std::string& reason) {
   return location;
 }
 
+// Once for all frames.
+std::string beyond_calibration(const Calibration& calibration, const std::vector<FramePosition>& positions) {
+  const auto beyond = [&](const FramePosition& one) { return one.location.ok && !calibration.covers(one.location); };
+  const auto first = std::find_if(positions.begin(), positions.end(), beyond);
+  if (first == positions.end()) return "";
+  return fmt::format(
+      "{} of {} frames lie beyond the range of the calibration, +-{:.1f} and +-{:.1f} px (the first is {} at {:.1f}, "
+      "{:.1f} px): calibrate over all of the drift, or trust them less than their uncertainty says",
+      std::count_if(first, positions.end(), beyond), positions.size(), calibration.range_px[0], calibration.range_px[1],
+      first->frame, first->location.x_px, first->location.y_px);
+}
+
 struct LoadedView {
   ViewRow row;
   GrayImage image;
@@ -145,10 +159,13 @@ Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string
                                "ends and is used",
                                used.x, used.y, used.width, used.height));
   }
+  if (std::string unseen = unseen_direction(picture.image, target.region()); !unseen.empty()) {
+    warn(warnings, std::move(unseen));
+  }
   return target;
 }
 
-Result<std::vector<ViewRow>> read_views(const fs::path& file) {
+Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::string>* warnings) {
   ZD_TRY(const recording::TextTable table, recording::read_table(file));
   std::array<int, 3> columns{};
   const std::array<const char*, 3> names{"image", "x_mm", "y_mm"};
@@ -161,25 +178,34 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file) {
                                             {"expected", "image,x_mm,y_mm"}});
   }
   std::vector<ViewRow> out;
+  std::optional<Error> first_fault;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     ViewRow view;
     view.name = table.rows[row][static_cast<std::size_t>(columns[0])];
-    for (std::size_t k = 1; k < 3; ++k) {
-      double& value = k == 1 ? view.x_mm : view.y_mm;
-      ZD_TRY(value, recording::number_in(table, row, columns[k]));
-      if (!std::isfinite(value)) {
-        const std::string& cell = table.rows[row][static_cast<std::size_t>(columns[k])];
-        return fail(ErrorCode::bad_argument,
-                    {{"what", fmt::format("{}, line {}, {}", file.string(), table.lines[row], names[k])},
-                     {"found", cell.empty() ? "an empty cell" : cell},
-                     {"expected", "where the machine stood, in mm"}});
+    bool good = true;
+    for (std::size_t k = 1; k < 3 && good; ++k) {
+      const Result<double> value = recording::number_in(table, row, columns[k]);
+      good = value && std::isfinite(*value);
+      if (good) {
+        (k == 1 ? view.x_mm : view.y_mm) = *value;
+        continue;
+      }
+      const std::string& cell = table.rows[row][static_cast<std::size_t>(columns[k])];
+      const std::string found = cell.empty() ? "an empty cell" : cell.substr(0, longest_cell);
+      const std::string place = fmt::format("{}, line {}, {}", file.string(), table.lines[row], names[k]);
+      warn(warnings, fmt::format("{}: \"{}\" is no position in mm; {} was left out", place, found, view.name));
+      if (!first_fault) {
+        first_fault = Error{ErrorCode::bad_argument,
+                            {{"what", place}, {"found", found}, {"expected", "where the machine stood, in mm"}}};
       }
     }
+    if (!good) continue;
     const fs::path beside = file.parent_path() / view.name;
     std::error_code ignored;
     view.image = fs::exists(beside, ignored) || !fs::exists(view.name, ignored) ? beside : fs::path(view.name);
     out.push_back(std::move(view));
   }
+  if (first_fault && out.size() < 2) return fail(*first_fault);
   return out;
 }
 
@@ -206,9 +232,12 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
   // with.
   const bool most_refused = !refused.empty() && 2 * used.size() < loaded.size();
   if (most_refused || (used.size() < 2 && !refused.empty())) {
-    return fail(ErrorCode::calibration_refused,
-                {{"reason", fmt::format("the target was found in {} of {} views (the first without it is {})",
-                                        used.size(), loaded.size(), refused)}});
+    std::string reason = fmt::format("the target was found in {} of {} views (the first without it is {})", used.size(),
+                                     loaded.size(), refused);
+    if (const std::string unseen = unseen_direction(target.image(), target.region()); !unseen.empty()) {
+      reason += "; " + unseen;
+    }
+    return fail(ErrorCode::calibration_refused, {{"reason", reason}});
   }
   ZD_TRY(Calibration calibration, calibrate(std::move(used)));
   return FileCalibration{std::move(calibration), masked};
@@ -242,6 +271,11 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
     }
     if (request.calibration && position.location.ok) position.error = request.calibration->to_um(position.location);
     out.push_back(std::move(position));
+  }
+  if (request.calibration) {
+    if (std::string beyond = beyond_calibration(*request.calibration, out); !beyond.empty()) {
+      warn(warnings, std::move(beyond));
+    }
   }
   return out;
 }

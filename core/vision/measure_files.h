@@ -28,8 +28,10 @@ struct ViewRow {
   double x_mm = 0.0;
   double y_mm = 0.0;
 };
-/// views.csv: image,x_mm,y_mm.
-Result<std::vector<ViewRow>> read_views(const std::filesystem::path& file);
+/// views.csv: image,x_mm,y_mm. A row whose position is no number is warned of and left out; an error where that leaves
+/// fewer than two.
+Result<std::vector<ViewRow>> read_views(const std::filesystem::path& file,
+                                        std::vector<std::string>* warnings = nullptr);
 
 struct FileCalibration {
   Calibration calibration;

@@ -1,14 +1,22 @@
 #include "core/vision/target_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/base64.h"
+#include "core/base/json.h"
 #include "core/vision/image_codec.h"
 
 namespace zerodrift::vision {
 namespace {
+
+constexpr int largest_side_px = 100'000;
+constexpr double largest_area_px = 1e8;
+constexpr double largest_lens = 1e-5;
+constexpr double hardly_moved_px = 2.0;  // another picture of the target at rest, not of a drift
 
 // Run lengths, beginning with pixels that are left out.
 nlohmann::json runs_of(const std::vector<std::uint8_t>& mask) {
@@ -27,28 +35,27 @@ nlohmann::json runs_of(const std::vector<std::uint8_t>& mask) {
   return runs;
 }
 
-std::optional<std::vector<int>> integers_in(const nlohmann::json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_array()) return std::nullopt;
-  std::vector<int> out;
-  for (const nlohmann::json& one : *found) {
-    if (!one.is_number_integer()) return std::nullopt;
-    const auto value = one.get<std::int64_t>();
-    if (value < 0 || value > 100'000'000) return std::nullopt;
-    out.push_back(static_cast<int>(value));
-  }
-  return out;
-}
-
-std::vector<std::uint8_t> mask_from(const std::vector<int>& runs, std::size_t size) {
+std::vector<std::uint8_t> mask_from(JsonObject& object, const Region& region) {
+  const char* const key = "mask_runs";
+  const std::size_t size = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
   std::vector<std::uint8_t> mask;
   std::uint8_t now = 0;
-  for (const int length : runs) {
-    if (mask.size() + static_cast<std::size_t>(length) > size) return {};
+  double total = 0.0;
+  for (const double length : object.numbers(key)) {
+    total += length;
+    const bool whole = length >= 0.0 && length == std::floor(length);
+    if (!whole || total > static_cast<double>(size)) break;
     mask.insert(mask.end(), static_cast<std::size_t>(length), now);
     now = now == 0 ? 1 : 0;
   }
-  return mask.size() == size ? mask : std::vector<std::uint8_t>{};
+  if (mask.size() != size || total != static_cast<double>(size)) {
+    object.reject(key, fmt::format("a mask of {:g} pixels", total),
+                  fmt::format("run lengths of {}x{} pixels, the region of the target", region.width, region.height));
+  }
+  if (std::find(mask.begin(), mask.end(), std::uint8_t{1}) == mask.end()) {
+    object.reject(key, "a mask that leaves nothing", "a mask with pixels of the target");
+  }
+  return mask;
 }
 
 // As a picture of 8 bits: a quarter of a grey level is below the noise of what it was learned from.
@@ -61,17 +68,19 @@ nlohmann::json picture_of(const FloatImage& image, float factor) {
   return png ? nlohmann::json(base64_of(*png)) : nlohmann::json();
 }
 
-std::optional<FloatImage> picture_in(const nlohmann::json& object, const char* key, float factor) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_string()) return std::nullopt;
-  const auto bytes = from_base64(found->get<std::string>());
-  if (!bytes) return std::nullopt;
-  const auto decoded = decode(*bytes, key);
-  if (!decoded) return std::nullopt;
-  FloatImage out(decoded->image.width, decoded->image.height);
-  for (std::size_t k = 0; k < out.values.size(); ++k) {
-    out.values[k] = static_cast<float>(decoded->image.pixels[k]) / factor;
-  }
+GrayImage picture_in(JsonObject& object, const char* key) {
+  const char* const expected = "a PNG picture in base64";
+  const auto bytes = from_base64(object.text(key));
+  if (!bytes) object.reject(key, "no base64", expected);
+  auto decoded = decode(*bytes, key);
+  if (!decoded) object.reject(key, "no picture", expected);
+  return std::move(decoded->image);
+}
+
+FloatImage levels_in(JsonObject& object, const char* key, float factor) {
+  const GrayImage gray = picture_in(object, key);
+  FloatImage out(gray.width, gray.height);
+  for (std::size_t k = 0; k < out.values.size(); ++k) out.values[k] = static_cast<float>(gray.pixels[k]) / factor;
   return out;
 }
 
@@ -84,19 +93,74 @@ nlohmann::json backdrop_to_json(const Backdrop& backdrop) {
           {"clear_png", picture_of(backdrop.clear, clear_levels)}};
 }
 
-std::shared_ptr<const Backdrop> backdrop_from(const nlohmann::json& target) {
-  const auto object = target.find("backdrop");
-  if (object == target.end() || !object->is_object()) return nullptr;
-  const auto x = object->find("x_px");
-  const auto y = object->find("y_px");
-  if (x == object->end() || y == object->end() || !x->is_number_integer() || !y->is_number_integer()) return nullptr;
-  auto levels = picture_in(*object, "levels_png", 1.0f);
-  auto clear = picture_in(*object, "clear_png", clear_levels);
-  if (!levels || !clear || levels->width < 2 || levels->height < 2) return nullptr;
+std::shared_ptr<const Backdrop> backdrop_from(JsonObject& object, const Region& region) {
   auto out = std::make_shared<Backdrop>();
-  out->area = {x->get<int>(), y->get<int>(), levels->width, levels->height};
-  out->levels = std::move(*levels);
-  out->clear = std::move(*clear);
+  const int x = object.integer("x_px", -largest_side_px, largest_side_px);
+  const int y = object.integer("y_px", -largest_side_px, largest_side_px);
+  out->levels = levels_in(object, "levels_png", 1.0f);
+  out->clear = levels_in(object, "clear_png", clear_levels);
+  out->area = {x, y, out->levels.width, out->levels.height};
+  const auto size_of = [](int width, int height) { return fmt::format("{}x{} pixels", width, height); };
+  if (std::min(out->levels.width, out->levels.height) < 2) {
+    object.reject("levels_png", size_of(out->levels.width, out->levels.height), "at least 2x2");
+  }
+  const int width = region.width + 2 * template_margin_px;
+  const int height = region.height + 2 * template_margin_px;
+  if (out->clear.width != width || out->clear.height != height) {
+    object.reject("clear_png", size_of(out->clear.width, out->clear.height), size_of(width, height));
+  }
+  return out;
+}
+
+LensTerm lens_from(JsonObject& object) {
+  LensTerm out;
+  if (!object.has("lens_per_px2") && !object.has("lens_sigma_per_px2")) return out;  // files of before
+  out.per_px2 = object.number("lens_per_px2", {-largest_lens, largest_lens, false, "a number from -1e-05 to 1e-05"});
+  out.sigma_per_px2 = object.number("lens_sigma_per_px2", {0.0, largest_lens, true, "a number above 0, up to 1e-05"});
+  return out;
+}
+
+StoredTarget stored_target(JsonObject& object) {
+  StoredTarget out;
+  object.text_or("template", "");
+  const std::vector<double> roi = object.numbers("roi_px", 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (roi[k] == std::floor(roi[k]) && roi[k] >= (k < 2 ? 0.0 : 1.0) && roi[k] <= largest_side_px) continue;
+    object.reject("roi_px", fmt::format("{:g},{:g},{:g},{:g}", roi[0], roi[1], roi[2], roi[3]),
+                  "X,Y,W,H in whole pixels, inside the picture");
+  }
+  out.region = {static_cast<int>(roi[0]), static_cast<int>(roi[1]), static_cast<int>(roi[2]), static_cast<int>(roi[3])};
+  if (roi[2] * roi[3] > largest_area_px) {
+    object.reject("roi_px", fmt::format("{:g}x{:g} pixels", roi[2], roi[3]), "a region of 100 megapixels at most");
+  }
+  const std::vector<double> point = object.numbers("point_px", 2);
+  if (std::max(std::abs(point[0]), std::abs(point[1])) > largest_side_px) {
+    object.reject("point_px", fmt::format("{:g},{:g}", point[0], point[1]), "X,Y in pixels");
+  }
+  out.point = {point[0], point[1]};
+  out.mask = mask_from(object, out.region);
+  out.lens = lens_from(object);
+  if (JsonObject* backdrop = object.object_if("backdrop")) out.backdrop = backdrop_from(*backdrop, out.region);
+  if (object.has("size_px")) {
+    const std::vector<double> size = object.numbers("size_px", 2);
+    for (const double side : size) {
+      if (side != std::floor(side) || side < 1.0 || side > largest_side_px) {
+        object.reject("size_px", fmt::format("{:g},{:g}", size[0], size[1]), "width and height in pixels");
+      }
+    }
+    out.size_px = {static_cast<int>(size[0]), static_cast<int>(size[1])};
+    if (out.region.x + out.region.width > size[0] || out.region.y + out.region.height > size[1]) {
+      object.reject("roi_px", fmt::format("{:g},{:g},{:g},{:g}", roi[0], roi[1], roi[2], roi[3]),
+                    fmt::format("a region inside {:g}x{:g} pixels", size[0], size[1]));
+    }
+  }
+  if (object.has("picture_png")) {
+    out.picture = picture_in(object, "picture_png");
+    if (out.picture->width != out.region.width || out.picture->height != out.region.height) {
+      object.reject("picture_png", fmt::format("{}x{} pixels", out.picture->width, out.picture->height),
+                    fmt::format("{}x{} pixels", out.region.width, out.region.height));
+    }
+  }
   return out;
 }
 
@@ -109,36 +173,46 @@ nlohmann::json target_to_json(const Target& target, const std::string& template_
                      {"point_px", {target.point().x_px, target.point().y_px}},
                      {"lens_per_px2", target.lens().per_px2},
                      {"lens_sigma_per_px2", target.lens().sigma_per_px2},
-                     {"mask_runs", runs_of(target.mask())}};
+                     {"mask_runs", runs_of(target.mask())},
+                     {"size_px", {target.image().width, target.image().height}},
+                     {"picture_png", picture_of(crop(target.image(), r), 1.0f)}};
   if (target.backdrop()) out["backdrop"] = backdrop_to_json(*target.backdrop());
   return out;
 }
 
-std::optional<StoredTarget> target_from_json(const nlohmann::json& calibration_document) {
-  if (!calibration_document.is_object()) return std::nullopt;
-  const auto target = calibration_document.find("target");
-  if (target == calibration_document.end() || !target->is_object()) return std::nullopt;
-  const auto roi = integers_in(*target, "roi_px");
-  const auto runs = integers_in(*target, "mask_runs");
-  const auto point = target->find("point_px");
-  if (!roi || roi->size() != 4 || !runs || (*roi)[2] > 20'000 || (*roi)[3] > 20'000) return std::nullopt;
-  if (point == target->end() || !point->is_array() || point->size() != 2 || !(*point)[0].is_number() ||
-      !(*point)[1].is_number()) {
+Result<std::optional<StoredTarget>> target_from_json(const nlohmann::json& calibration_document,
+                                                     const std::string& file) {
+  using Found = std::optional<StoredTarget>;
+  return from_json<Found>(calibration_document, file, nullptr, [](JsonObject& object) -> Found {
+    if (JsonObject* target = object.object_if("target")) return stored_target(*target);
     return std::nullopt;
+  });
+}
+
+Status made_with(const StoredTarget& stored, const Target& target, const std::string& file,
+                 const std::string& template_name) {
+  const GrayImage& image = target.image();
+  const auto other = [&](std::string detail) {
+    return fail(ErrorCode::calibration_of_another_target,
+                {{"file", file}, {"template", template_name}, {"detail", std::move(detail)}});
+  };
+  if (stored.size_px && *stored.size_px != std::array<int, 2>{image.width, image.height}) {
+    return other(fmt::format("{}: {}x{} pixels, the template has {}x{}", file, (*stored.size_px)[0],
+                             (*stored.size_px)[1], image.width, image.height));
   }
-  StoredTarget out;
-  out.region = {(*roi)[0], (*roi)[1], (*roi)[2], (*roi)[3]};
-  out.point = {(*point)[0].get<double>(), (*point)[1].get<double>()};
-  out.mask = mask_from(*runs, static_cast<std::size_t>(out.region.width) * out.region.height);
-  if (out.mask.empty()) return std::nullopt;
-  out.backdrop = backdrop_from(*target);
-  const auto lens = target->find("lens_per_px2");
-  const auto sigma = target->find("lens_sigma_per_px2");
-  if (lens != target->end() && lens->is_number() && sigma != target->end() && sigma->is_number() &&
-      sigma->get<double>() > 0.0 && std::abs(lens->get<double>()) < 1e-5) {
-    out.lens = {lens->get<double>(), sigma->get<double>()};
+  if (!stored.picture || target.region() != stored.region) return {};
+  GrayImage as_it_was = image;
+  for (int row = 0; row < stored.region.height; ++row) {
+    const auto from = stored.picture->pixels.begin() + std::ptrdiff_t{row} * stored.region.width;
+    std::copy(from, from + stored.region.width,
+              as_it_was.pixels.begin() + (std::ptrdiff_t{stored.region.y} + row) * image.width + stored.region.x);
   }
-  return out;
+  const Location at = target.locate(as_it_was);
+  if (!at.ok) return other(at.reason);
+  if (const double moved_px = std::hypot(at.x_px, at.y_px); moved_px > hardly_moved_px) {
+    return other(fmt::format("it stood {:.1f} px from where it is", moved_px));
+  }
+  return {};
 }
 
 }  // namespace zerodrift::vision

@@ -3790,8 +3790,132 @@
         <translation>仅部分可见，可能相差一个周期</translation>
     </message>
     <message>
-        <source>a pixel would be %1 um; are the positions really in mm?</source>
-        <translation>每像素将相当于 %1 um；位置的单位确实是 mm 吗？</translation>
+        <source>a pixel would be %1 um: the positions do not seem to be in mm</source>
+        <translation>每像素将相当于 %1 um：位置的单位似乎不是 mm</translation>
+    </message>
+    <message>
+        <source>the region shows bars along y: a motion up and down (y) can hardly be seen</source>
+        <translation>该区域仅显示沿 y 的条纹：上下（y）方向的移动几乎看不出</translation>
+    </message>
+    <message>
+        <source>the region shows bars along x: a motion from side to side (x) can hardly be seen</source>
+        <translation>该区域仅显示沿 x 的条纹：左右（x）方向的移动几乎看不出</translation>
+    </message>
+    <message>
+        <source>the region shows bars that lie %1 at %2 degrees to x: a motion along them can hardly be seen</source>
+        <translation>该区域仅显示%1、与 x 成 %2 度的条纹：沿条纹方向的移动几乎看不出</translation>
+    </message>
+    <message>
+        <source>rising to the right</source>
+        <translation>向右上升</translation>
+    </message>
+    <message>
+        <source>falling to the right</source>
+        <translation>向右下降</translation>
+    </message>
+    <message>
+        <source>choose a region or a target with structure in both directions</source>
+        <translation>请选择两个方向都有结构的区域或靶标</translation>
+    </message>
+    <message>
+        <source>%1: &quot;%2&quot; is no position in mm; %3 was left out</source>
+        <translation>%1：“%2”不是以 mm 为单位的位置；%3 已略去</translation>
+    </message>
+    <message>
+        <source>%1 of %2 frames lie beyond the range of the calibration, +-%3 and +-%4 px (the first is %5 at %6, %7 px): calibrate over all of the drift, or trust them less than their uncertainty says</source>
+        <translation>%2 帧中有 %1 帧超出标定范围 +-%3 和 +-%4 px（首个为 %5，位于 %6、%7 px）：请在整个漂移范围内标定，否则其可信度低于所给不确定度</translation>
+    </message>
+    <message>
+        <source>a mask of %1 pixels</source>
+        <translation>%1 像素的掩膜</translation>
+    </message>
+    <message>
+        <source>run lengths of %1x%2 pixels, the region of the target</source>
+        <translation>%1x%2 像素（靶标区域）的游程长度</translation>
+    </message>
+    <message>
+        <source>a mask that leaves nothing</source>
+        <translation>未留下任何像素的掩膜</translation>
+    </message>
+    <message>
+        <source>a mask with pixels of the target</source>
+        <translation>含有靶标像素的掩膜</translation>
+    </message>
+    <message>
+        <source>a PNG picture in base64</source>
+        <translation>base64 编码的 PNG 图片</translation>
+    </message>
+    <message>
+        <source>no base64</source>
+        <translation>不是 base64</translation>
+    </message>
+    <message>
+        <source>no picture</source>
+        <translation>不是图片</translation>
+    </message>
+    <message>
+        <source>X,Y,W,H in whole pixels, inside the picture</source>
+        <translation>以整数像素表示、位于图片内的 X,Y,W,H</translation>
+    </message>
+    <message>
+        <source>a region inside %1x%2 pixels</source>
+        <translation>位于 %1x%2 像素之内的区域</translation>
+    </message>
+    <message>
+        <source>a region of 100 megapixels at most</source>
+        <translation>不超过 1 亿像素的区域</translation>
+    </message>
+    <message>
+        <source>width and height in pixels</source>
+        <translation>以像素为单位的宽和高</translation>
+    </message>
+    <message>
+        <source>it stood %1 px from where it is</source>
+        <translation>其位置与现在相差 %1 px</translation>
+    </message>
+    <message>
+        <source>a number from -1e-05 to 1e-05</source>
+        <translation>-1e-05 至 1e-05 之间的数</translation>
+    </message>
+    <message>
+        <source>a number above 0, up to 1e-05</source>
+        <translation>大于 0 且不超过 1e-05 的数</translation>
+    </message>
+    <message>
+        <source>at least 2x2</source>
+        <translation>至少 2x2</translation>
+    </message>
+    <message>
+        <source>%1 to %2 um a pixel</source>
+        <translation>每像素 %1 至 %2 um</translation>
+    </message>
+    <message>
+        <source>standard uncertainties above 0</source>
+        <translation>大于 0 的标准不确定度</translation>
+    </message>
+    <message>
+        <source>other than sigma</source>
+        <translation>与 sigma 不一致</translation>
+    </message>
+    <message>
+        <source>four rows of four numbers, with the squares of sigma on the diagonal</source>
+        <translation>四行、每行四个数，对角线为 sigma 的平方</translation>
+    </message>
+    <message>
+        <source>no covariance</source>
+        <translation>不是协方差</translation>
+    </message>
+    <message>
+        <source>a symmetric matrix that is not negative</source>
+        <translation>非负的对称矩阵</translation>
+    </message>
+    <message>
+        <source>below 0</source>
+        <translation>小于 0</translation>
+    </message>
+    <message>
+        <source>two numbers of 0 or more</source>
+        <translation>两个不小于 0 的数</translation>
     </message>
     <message>
         <source>the positions are too close together, or not in mm: %1 um apart, with %2 um of the machine&apos;s own the scale is known to %3 % only</source>
@@ -4311,6 +4435,14 @@
     <message>
         <source>The calibration is refused: {reason}.</source>
         <translation>标定被拒绝：{reason}。</translation>
+    </message>
+    <message>
+        <source>{file} was made with another target than {template} shows ({detail}).</source>
+        <translation>{file} 所用的靶标与 {template} 显示的不同（{detail}）。</translation>
+    </message>
+    <message>
+        <source>Give the template and the region it was made with, or calibrate anew.</source>
+        <translation>请给出当时所用的模板和区域，或重新标定。</translation>
     </message>
     <message>
         <source>{file} is not a Zerodrift job.</source>

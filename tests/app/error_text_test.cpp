@@ -29,6 +29,16 @@ class ErrorTextTest : public QObject {
     }
   }
 
+  /// What stands in the gap may end a sentence by itself.
+  void noSentenceEndsTwice() {
+    const auto ending = [](const char* reason) {
+      return textOf({ErrorCode::calibration_refused, {{"reason", reason}}}).sentence;
+    };
+    QCOMPARE(ending("is it in mm?"), QStringLiteral("The calibration is refused: is it in mm?"));
+    QCOMPARE(ending("It is not."), QStringLiteral("The calibration is refused: It is not."));
+    QCOMPARE(ending("it is not"), QStringLiteral("The calibration is refused: it is not."));
+  }
+
   /// Why something failed may itself be an error: nobody reads its code.
   void anErrorInsideAnotherIsSaid() {
     const Error silent{ErrorCode::machine_silent, {{"timeout_ms", "1000"}, {"what", "reading"}}};

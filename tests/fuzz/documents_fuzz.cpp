@@ -59,7 +59,7 @@ void read(unsigned which, const nlohmann::json& document) {
     case 5:
       return static_cast<void>(physics::machine_from_json(document, "fuzz"));
     case 6:
-      static_cast<void>(vision::target_from_json(document));
+      static_cast<void>(vision::target_from_json(document, "fuzz"));
       return static_cast<void>(vision::calibration_from_json(document, "fuzz"));
     default:
       static_cast<void>(

@@ -160,6 +160,43 @@ TEST(Calibration, FileReadsBackTheSame) {
   EXPECT_TRUE(minimal);
 }
 
+TEST(Calibration, ADamagedFileIsNamedByItsKey) {
+  const auto c = calibrate(views_at(grid(), true_um_from_px(), 1.0));
+  ASSERT_TRUE(c);
+  const nlohmann::json good = to_json(*c);
+  const auto fault = [&](const std::string& key, const nlohmann::json& value) {
+    nlohmann::json document = good;
+    document[key] = value;
+    const auto read = calibration_from_json(document, "c.json");
+    if (read) return std::string("accepted");
+    EXPECT_EQ(read.error().context.at("file"), "c.json");
+    return read.error().context.at("key");
+  };
+  for (const char* const key : {"um_from_px", "sigma", "rms_um", "views"}) {
+    EXPECT_EQ(fault(key, nullptr), key);  // missing
+    EXPECT_EQ(fault(key, "nine"), key);
+  }
+  EXPECT_EQ(fault("format", "zerodrift-calibration/2"), "format");
+  EXPECT_EQ(fault("um_from_px", {{1, 2}, {2, 4}}), "um_from_px");
+  EXPECT_EQ(fault("um_from_px", {{1e6, 0}, {0, 1e6}}), "um_from_px");
+  EXPECT_EQ(fault("sigma", {{0.01, -0.01}, {0.01, 0.01}}), "sigma");
+  EXPECT_EQ(fault("sigma", {{0.01, 0.0}, {0.01, 0.01}}), "sigma");
+  EXPECT_EQ(fault("rms_um", -1), "rms_um");
+  EXPECT_EQ(fault("views", 0), "views");
+  EXPECT_EQ(fault("views", {{{"x_px", "a"}}}), "views[0].x_px");
+  EXPECT_EQ(fault("scale_um_per_px", 0), "scale_um_per_px");
+  EXPECT_EQ(fault("range_px", {1}), "range_px");
+  EXPECT_EQ(fault("range_px", {1, -1}), "range_px");
+  EXPECT_EQ(fault("warnings", 3), "warnings");
+  nlohmann::json covariance = good.at("covariance");
+  covariance[0][0] = 4.0;  // not what sigma says
+  EXPECT_EQ(fault("covariance", covariance), "covariance");
+  covariance = good.at("covariance");
+  covariance[0][1] = covariance[1][0] = 100.0 * covariance[0][0].get<double>();  // a correlation of 100
+  EXPECT_EQ(fault("covariance", covariance), "covariance");
+  EXPECT_EQ(fault("covariance", {1, 2}), "covariance");
+}
+
 TEST(Calibration, ProposedPositionsComeFromOneSideAndStartAtTheCentre) {
   const auto positions = propose_positions(1.6);
   ASSERT_EQ(positions.size(), 9u);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/hash.h"
+
 namespace zerodrift::vision {
 namespace {
 
@@ -92,6 +94,90 @@ TEST(ImageCodec, ABrokenPngIsRefusedBeforeItIsDecoded) {
     auto bytes = *whole;
     bytes[at] ^= 0x41;
     EXPECT_FALSE(decode(bytes, "a.png")) << at;
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+struct PngPart {
+  std::string name;
+  std::vector<std::uint8_t> data;
+};
+
+std::vector<PngPart> parts_of(const std::vector<std::uint8_t>& png) {
+  std::vector<PngPart> out;
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    const std::size_t length = png[at] << 24 | png[at + 1] << 16 | png[at + 2] << 8 | png[at + 3];
+    const auto data = png.begin() + static_cast<std::ptrdiff_t>(at) + 8;
+    out.push_back({std::string(data - 4, data), {data, data + static_cast<std::ptrdiff_t>(length)}});
+    at += length + 12;
+  }
+  return out;
+}
+
+// With check sums that are right: only what stands in the chunks is wrong.
+std::vector<std::uint8_t> png_of(const std::vector<PngPart>& parts) {
+  std::vector<std::uint8_t> out{0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
+  const auto number = [&](std::size_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::uint8_t>(value >> shift));
+  };
+  for (const PngPart& part : parts) {
+    number(part.data.size());
+    const std::string named = part.name + std::string(part.data.begin(), part.data.end());
+    out.insert(out.end(), named.begin(), named.end());
+    number(crc32_of(named));
+  }
+  return out;
+}
+
+// The decoder would write its own lines on stderr: of rows that are broken, too short or too long, of a header that
+// cannot be, of remarks in the file that do not concern the pixels.
+TEST(ImageCodec, OnlyOurErrorAppearsForABrokenPng) {
+  const GrayImage image = ramp(64, 64);
+  const std::vector<PngPart> good = parts_of(*encode_png(image));
+  ASSERT_EQ(good.front().name, "IHDR");
+  ASSERT_EQ(good[1].name, "IDAT");
+  ASSERT_EQ(good.size(), 3u);
+  const auto with = [&](std::size_t part, auto change) {
+    std::vector<PngPart> parts = good;
+    change(parts[part].data);
+    return png_of(parts);
+  };
+  ::testing::internal::CaptureStderr();
+  const auto plain = decode(png_of(good), "a.png");
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->image.pixels, image.pixels);
+  std::vector<PngPart> remarks = good;
+  remarks.insert(remarks.begin() + 1, {{"iCCP", {'x', 0, 0, 'a'}}, {"gAMA", {0}}, {"tRNS", {1}}});
+  const auto remarked = decode(png_of(remarks), "a.png");
+  ASSERT_TRUE(remarked);
+  EXPECT_EQ(remarked->image.pixels, image.pixels);
+  std::vector<PngPart> after = good;
+  after.insert(after.begin() + 2, {"IDAT", {1, 2, 3}});
+  using Data = std::vector<std::uint8_t>;
+  const std::vector<Data> broken{with(1, [](Data& d) { d.resize(d.size() / 2); }),
+                                 with(1, [](Data& d) { d.clear(); }),
+                                 with(1, [](Data& d) { d.back() ^= 1; }),
+                                 with(1, [](Data& d) { d[0] = 0; }),
+                                 with(0, [](Data& d) { d[7] = 80; }),
+                                 with(0, [](Data& d) { d[7] = 40; }),
+                                 with(0, [](Data& d) { d[3] = 0; }),
+                                 with(0, [](Data& d) { d[8] = 7; }),
+                                 with(0, [](Data& d) { d[9] = 3; }),
+                                 with(0, [](Data& d) { d[9] = 9; }),
+                                 with(0, [](Data& d) { d[10] = 1; }),
+                                 with(0, [](Data& d) { d[12] = 1; }),
+                                 with(0, [](Data& d) { d.pop_back(); }),
+                                 png_of(after),
+                                 png_of({good[0], {"ABCD", {}}, good[1], good[2]}),
+                                 png_of({good[1], good[2]}),
+                                 png_of({good[0], good[2]})};
+  for (std::size_t k = 0; k < broken.size(); ++k) {
+    const auto picture = decode(broken[k], "a.png");
+    ASSERT_FALSE(picture) << k;
+    EXPECT_EQ(picture.error().context.at("detail"), "the PNG file is damaged") << k;
+  }
+  for (std::size_t at = 0; at < good[1].data.size(); ++at) {
+    static_cast<void>(decode(with(1, [&](Data& d) { d[at] ^= 0x55; }), "a.png"));
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "core/base/file.h"
 #include "core/vision/error_view.h"
 #include "core/vision/image_codec.h"
+#include "core/vision/one_direction.h"
 #include "core/vision/region_finder.h"
 #include "core/vision/target_file.h"
 #include "tests/vision/speckle.h"
@@ -112,8 +114,9 @@ TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {
 
   nlohmann::json document = to_json(result->calibration);
   document["target"] = target_to_json(result->target, "template.png");
-  const auto stored = target_from_json(document);
-  ASSERT_TRUE(stored);
+  const auto read = target_from_json(document, "c.json");
+  ASSERT_TRUE(read && *read) << describe(read.error());
+  const std::optional<StoredTarget>& stored = *read;
   EXPECT_EQ(stored->region.width, file_region.width);
   EXPECT_EQ(stored->mask, result->target.mask());
   ASSERT_EQ(stored->backdrop != nullptr, result->target.backdrop() != nullptr);
@@ -124,8 +127,74 @@ TEST_F(MeasureFiles, CalibratesFromViewsAndStoresTheTarget) {
       ASSERT_NEAR(kept.values[k], result->target.backdrop()->levels.values[k], 0.51);
     }
   }
-  document["target"]["mask_runs"] = {1, 2, 3};
-  EXPECT_FALSE(target_from_json(document));
+  EXPECT_TRUE(made_with(*stored, result->target, "c.json", "t.png"));
+  put("again.png", {.dx = 0.3}, 99);  // the same target, another day
+  const auto again = load_target({m_folder / "again.png", file_region, std::nullopt}, nullptr);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(made_with(*stored, *again, "c.json", "t.png"));
+  const auto other = Target::create(render(Speckle(5)), file_region, std::nullopt, "o");
+  ASSERT_TRUE(other);
+  EXPECT_EQ(made_with(*stored, *other, "c.json", "o.png").error().code, ErrorCode::calibration_of_another_target);
+  const auto small = Target::create(render(Speckle(1), {}, {}, 600, 400), file_region, std::nullopt, "s");
+  ASSERT_TRUE(small);
+  const Status size = made_with(*stored, *small, "c.json", "s.png");
+  ASSERT_FALSE(size);
+  EXPECT_NE(size.error().context.at("detail").find("640x480 pixels, the template has 600x400"), std::string::npos);
+  // As files of before were: nothing to tell it by.
+  document["target"].erase("size_px");
+  document["target"].erase("picture_png");
+  const auto before = target_from_json(document, "c.json");
+  ASSERT_TRUE(before && *before);
+  EXPECT_TRUE(made_with(**before, *other, "c.json", "o.png"));
+}
+
+// Whatever of the target is damaged is named by its key.
+TEST_F(MeasureFiles, ADamagedTargetInTheCalibrationIsNamed) {
+  const nlohmann::json good{{"target", target_to_json(target(), "template.png")}};
+  ASSERT_TRUE(target_from_json(good, "c.json"));
+  EXPECT_FALSE(*target_from_json(nlohmann::json::object(), "c.json"));
+  const auto fault = [&](const std::string& key, const nlohmann::json& value) {
+    nlohmann::json document = good;
+    document["target"][key] = value;
+    const auto read = target_from_json(document, "c.json");
+    if (read) return std::string("accepted");
+    EXPECT_EQ(read.error().context.at("file"), "c.json");
+    return read.error().context.at("key");
+  };
+  EXPECT_EQ(fault("mask_runs", {1, 2, 3}), "target.mask_runs");
+  EXPECT_EQ(fault("mask_runs", {-5, 25605}), "target.mask_runs");
+  EXPECT_EQ(fault("mask_runs", {160 * 160}), "target.mask_runs");
+  EXPECT_EQ(fault("mask_runs", {0, 1e18}), "target.mask_runs");
+  EXPECT_EQ(fault("mask_runs", nullptr), "target.mask_runs");
+  EXPECT_EQ(fault("roi_px", {600, 400, 160, 160}), "target.roi_px");
+  EXPECT_EQ(fault("roi_px", {-1, 160, 160, 160}), "target.roi_px");
+  EXPECT_EQ(fault("roi_px", {240, 160, 0, 160}), "target.roi_px");
+  EXPECT_EQ(fault("roi_px", {240, 160}), "target.roi_px");
+  EXPECT_EQ(fault("point_px", {1e9, 0}), "target.point_px");
+  EXPECT_EQ(fault("lens_per_px2", 1), "target.lens_per_px2");
+  EXPECT_EQ(fault("lens_sigma_per_px2", 0), "target.lens_sigma_per_px2");
+  EXPECT_EQ(fault("size_px", {640.5, 480}), "target.size_px");
+  EXPECT_EQ(fault("picture_png", "AAAA"), "target.picture_png");
+  EXPECT_EQ(fault("backdrop", {{"x_px", 0}, {"y_px", 0}, {"levels_png", "?"}}), "target.backdrop.levels_png");
+}
+
+TEST_F(MeasureFiles, FramesBeyondTheCalibrationAreSaidOnce) {
+  put("frames/a.png", {.dx = 2.5, .dy = -1.0}, 2);
+  put("frames/b.png", {.dx = 12.5, .dy = -1.0}, 3);
+  put("frames/c.png", {.dx = 2.5, .dy = -9.0}, 4);
+  LocateRequest request;
+  request.calibration = Calibration{};
+  std::vector<std::string> warnings;
+  ASSERT_TRUE(locate_in_folder(target(), request, m_folder / "frames", &warnings, {}));
+  EXPECT_TRUE(warnings.empty());  // a file that does not say how far it reaches
+  request.calibration->range_px = {8.0, 6.0};
+  ASSERT_TRUE(locate_in_folder(target(), request, m_folder / "frames", &warnings, {}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].rfind("2 of 3 frames lie beyond the range of the calibration, +-8.0 and +-6.0 px (the first "
+                              "is b.png at 12.5, -1.0 px)",
+                              0),
+            0u)
+      << warnings[0];
 }
 
 // Three views in nine leave nothing to check the matrix with.
@@ -151,9 +220,48 @@ TEST_F(MeasureFiles, ViewsFileFaultsAreNamed) {
   ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm\na.png,1\n"));
   EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::csv_bad_header);
   ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,up\n"));
-  EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::csv_bad_number);
+  const auto only = read_views(m_folder / "views.csv");
+  ASSERT_FALSE(only);
+  EXPECT_EQ(only.error().code, ErrorCode::bad_argument);
+  EXPECT_EQ(only.error().context.at("what"), (m_folder / "views.csv").string() + ", line 2, y_mm");
+  EXPECT_EQ(only.error().context.at("found"), "up");
   ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,\n"));
   EXPECT_EQ(read_views(m_folder / "views.csv").error().code, ErrorCode::bad_argument);
+}
+
+TEST_F(MeasureFiles, AViewWithoutAPositionIsNamedAndTheOthersStay) {
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,1\nb.png,1,up\nc.png,nan,2\nd.png,2,1\n"));
+  std::vector<std::string> warnings;
+  const auto views = read_views(m_folder / "views.csv", &warnings);
+  ASSERT_TRUE(views);
+  ASSERT_EQ(views->size(), 2u);
+  EXPECT_EQ((*views)[1].name, "d.png");
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0],
+            (m_folder / "views.csv").string() + ", line 3, y_mm: \"up\" is no position in mm; b.png was left out");
+  EXPECT_NE(warnings[1].find("line 4, x_mm: \"nan\""), std::string::npos);
+}
+
+TEST(OneDirection, WhatBarsDoNotShowIsSaid) {
+  const auto bars = [](double turn_deg) {
+    GrayImage image{320, 240, std::vector<std::uint8_t>(320 * 240)};
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, 2.0);
+    const double across_x = std::cos(turn_deg * M_PI / 180.0), across_y = std::sin(turn_deg * M_PI / 180.0);
+    for (int y = 0; y < 240; ++y) {
+      for (int x = 0; x < 320; ++x) {
+        const double u = across_x * x + across_y * y;
+        image.at(x, y) =
+            static_cast<std::uint8_t>(120.0 + 30.0 * std::sin(u / 3.0 + 2.0 * std::sin(u / 17.0)) + noise(random));
+      }
+    }
+    return unseen_direction(image, {60, 40, 160, 160});
+  };
+  EXPECT_EQ(bars(0.0).rfind("the region shows bars along y: a motion up and down (y) can hardly be seen", 0), 0u);
+  EXPECT_EQ(bars(90.0).rfind("the region shows bars along x: a motion from side to side (x)", 0), 0u);
+  EXPECT_NE(bars(30.0).find("rising to the right at 60 degrees to x"), std::string::npos) << bars(30.0);
+  EXPECT_NE(bars(-30.0).find("falling to the right at 60 degrees to x"), std::string::npos) << bars(-30.0);
+  EXPECT_EQ(unseen_direction(render(Speckle(1)), file_region), "");
 }
 
 TEST(RegionFinder, FindsThePatternAndSaysWhenThereIsNone) {

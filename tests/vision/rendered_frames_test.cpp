@@ -9,6 +9,7 @@
 
 #include "core/base/noise.h"
 #include "core/vision/image_quality.h"
+#include "core/vision/lens_term.h"
 #include "core/vision/target.h"
 #include "tests/support/frame_set.h"
 
@@ -54,6 +55,43 @@ double largest_error_px(PatternKind kind, Disturbance disturbance, std::uint64_t
 }
 
 }  // namespace
+
+// From moves that show it the lens is found, of any design; from small ones it is only taken when it stands out.
+TEST(RenderedFrames, ALensIsFoundFromMovesThatShowItAndNotFromSmallOnes) {
+  const LensTerm unknown;
+  for (const PatternKind kind : {PatternKind::speckle, PatternKind::code, PatternKind::ball}) {
+    const auto learned = [&](double half_span_px) {
+      const test_support::Session session = test_support::make_session(kind, Disturbance::clean, 21, 1, half_span_px);
+      const auto target = target_of(session);
+      EXPECT_TRUE(target);
+      return target->learned_from(views_of(session)).lens();
+    };
+    const double truth = -test_support::Camera{}.distortion_per_px2;  // that one is from distorted to true radius
+    const LensTerm wide = learned(0.0);
+    EXPECT_LT(wide.sigma_per_px2, 0.25 * unknown.sigma_per_px2);
+    EXPECT_NEAR(wide.per_px2, truth, kind == PatternKind::ball ? 6e-9 : 2e-9);
+    const LensTerm small = learned(2.5);
+    EXPECT_EQ(small.per_px2, unknown.per_px2);
+    EXPECT_EQ(small.sigma_per_px2, unknown.sigma_per_px2);
+  }
+}
+
+TEST(LensTerm, CountsWhenItStandsOutOrIsKnownFarBetterThanBefore) {
+  const LensTerm prior;
+  const auto of_views = [&](double per_px2, double own_sigma) {
+    const double own = 1.0 / (own_sigma * own_sigma), before = 1.0 / (prior.sigma_per_px2 * prior.sigma_per_px2);
+    return combined(prior, std::vector<LensTerm>(9, {own * per_px2 / (own + before), 1.0 / std::sqrt(own + before)}));
+  };
+  // Nine views know it 2.1 times better than one: their noise is in part the template's.
+  const LensTerm two_sigma = of_views(1e-8, 1.06e-8);
+  EXPECT_EQ(two_sigma.per_px2, prior.per_px2);
+  EXPECT_EQ(two_sigma.sigma_per_px2, prior.sigma_per_px2);
+  EXPECT_NEAR(of_views(2e-8, 1.06e-8).per_px2, 1.8e-8, 1e-9);
+  const LensTerm straight = of_views(1e-10, 1e-9);
+  EXPECT_NEAR(straight.per_px2, 1e-10, 1e-12);
+  EXPECT_LT(straight.sigma_per_px2, 1e-9);
+  EXPECT_EQ(combined(prior, {}).sigma_per_px2, prior.sigma_per_px2);
+}
 
 // A plate is measured to some thousandths of a pixel whatever is printed on it; five sigma of the worst set.
 TEST(RenderedFrames, APlateOfAnyDesignIsMeasuredUnderAHalo) {

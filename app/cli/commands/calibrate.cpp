@@ -40,8 +40,15 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   ZD_TRY(choice.region, region_from(options.region, "--roi"));
   ZD_TRY(choice.point, point_from(options.point, "--point"));
   ZD_TRY(const vision::Target target, vision::load_target(choice, &output.warnings));
-  ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views));
-  ZD_TRY(const vision::FileCalibration result, vision::calibrate_from_files(target, views, &output.warnings, context));
+  ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views, &output.warnings));
+  ZD_TRY(vision::FileCalibration result, vision::calibrate_from_files(target, views, &output.warnings, context));
+  if (result.calibration.mirrored && !result.calibration.handedness_assumed) {
+    result.calibration.warnings.push_back(fmt::format(
+        "the camera's picture is mirrored, or x and y are exchanged in {}, or one of them has the other sign: check "
+        "that "
+        "x_mm is the axis seen to the right and y_mm the one seen upwards (seen in a mirror, it is as it should be)",
+        options.views));
+  }
   output.json = vision::to_json(result.calibration);
   output.json["target"] = vision::target_to_json(result.target, options.image);
   ZD_CHECK(write_json_file(options.out, output.json));
@@ -64,6 +71,9 @@ void add_calibrate(Cli& cli) {
       ->check(check_point);
   command->add_option("--views", options->views, "CSV image,x_mm,y_mm: pictures at known positions")->required();
   command->add_option("--out", options->out, "Calibration file to write")->required();
+  command->footer(
+      "Move over all of the drift that is expected: a lens is found from moves that show it, and beyond them locate "
+      "warns.");
 }
 
 }  // namespace zerodrift::cli

@@ -12,6 +12,7 @@
 #include "core/vision/calibration.h"
 #include "core/vision/error_view.h"
 #include "core/vision/measure_files.h"
+#include "core/vision/one_direction.h"
 #include "core/vision/target_file.h"
 
 namespace zerodrift::cli {
@@ -56,23 +57,34 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
   if (!options.calibration.empty()) {
     ZD_TRY(const nlohmann::json document, read_json_file(options.calibration));
     ZD_TRY(request.calibration, vision::calibration_from_json(document, options.calibration, &warnings));
-    stored = vision::target_from_json(document);
+    ZD_TRY(stored, vision::target_from_json(document, options.calibration));
     if (stored && !choice.region) {
       choice.region = stored->region;
       if (!choice.point) choice.point = stored->point;
     }
   }
-  ZD_TRY(vision::Target target, vision::load_target(choice, &warnings));
-  const vision::Region& at = target.region();
+  Result<vision::Target> loaded = vision::load_target(choice, &warnings);
+  if (!loaded && stored && options.region.empty() && loaded.error().code == ErrorCode::region_outside_image) {
+    return fail(ErrorCode::calibration_of_another_target,
+                {{"file", options.calibration},
+                 {"template", options.image},
+                 {"detail", fmt::format("its region {} is not inside {} pixels", loaded.error().context.at("region"),
+                                        loaded.error().context.at("size"))}});
+  }
+  ZD_TRY(vision::Target target, std::move(loaded));
+  if (stored) ZD_CHECK(vision::made_with(*stored, target, options.calibration, options.image));
   if (!options.views.empty()) {
-    ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views));
+    ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views, &warnings));
     ZD_TRY(const vision::FileCalibration learned, vision::calibrate_from_files(target, views, &warnings, context));
     target = learned.target;
     request.learn = false;
-  } else if (stored && stored->region.x == at.x && stored->region.y == at.y && stored->region.width == at.width &&
-             stored->region.height == at.height) {
+  } else if (stored && stored->region == target.region()) {
     target = target.with_backdrop(stored->backdrop).with_mask(stored->mask).with_lens(stored->lens);
     request.learn = false;
+  } else if (stored) {
+    warnings.push_back(fmt::format(
+        "{} was made for the region {},{},{},{}: mask, lens and backdrop are learned from the frames",
+        options.calibration, stored->region.x, stored->region.y, stored->region.width, stored->region.height));
   }
   for (const std::string& text : options.references) {
     vision::TemplateChoice reference{options.image, {}, {}};
@@ -121,11 +133,16 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
     output.json["positions"].push_back(json_of(p));
     if (!p.location.ok) output.text += fmt::format("{}: {}\n", p.frame, p.location.reason);
   }
-  if (good == 0) {  // the file with each frame's reason is there; nothing was measured all the same
-    return fail(
-        ErrorCode::target_refused,
-        {{"reason", fmt::format("none of {} frames in {} (the first: {}); each frame's reason is in {}",
-                                positions.size(), options.frames, positions.front().location.reason, options.out)}});
+  if (good == 0) {
+    std::string first = positions.front().location.reason;
+    const vision::Target& target = prepared.target;
+    if (const std::string unseen = vision::unseen_direction(target.image(), target.region()); !unseen.empty()) {
+      first += "; " + unseen;
+    }
+    // The file with each frame's reason is there; nothing was measured all the same.
+    return fail(ErrorCode::target_refused,
+                {{"reason", fmt::format("none of {} frames in {} (the first: {}); each frame's reason is in {}",
+                                        positions.size(), options.frames, first, options.out)}});
   }
   output.json["frames"] = positions.size();
   output.json["measured"] = good;
@@ -156,6 +173,11 @@ void add_locate(Cli& cli) {
   command->add_option("--calibration", options->calibration, "Calibration file: adds the error in um");
   command->add_option("--views", options->views, "Calibration views, to learn which pixels travel with the target");
   command->add_option("--out", options->out, "CSV file to write")->required();
+  command->footer(
+      "The frames of a folder are measured together: without a calibration or views, mask, lens and what stands behind "
+      "the target are learned from all of them, so that what is said of one frame may depend on the others.\n"
+      "With a calibration over the drift the scatter is about 1.2 times the theoretical bound, without one up to 2.5 "
+      "times.");
 }
 
 }  // namespace zerodrift::cli
