@@ -166,10 +166,15 @@ constexpr std::array<const char*, 231> measuring = {{
     QT_TRANSLATE_NOOP("core", "seen in part, may be a period further"),
     QT_TRANSLATE_NOOP("core", "parts of the region have moved apart"),
     QT_TRANSLATE_NOOP("core", "a pixel would be %1 um: the positions do not seem to be in mm"),
-    QT_TRANSLATE_NOOP("core", "the region shows bars along y: a motion up and down (y) can hardly be seen"),
-    QT_TRANSLATE_NOOP("core", "the region shows bars along x: a motion from side to side (x) can hardly be seen"),
     QT_TRANSLATE_NOOP("core",
-                      "the region shows bars that lie %1 at %2 degrees to x: a motion along them can hardly be seen"),
+                      "the region shows little but bars along y: a motion up and down (y) can hardly be seen, %1 times "
+                      "less well than one across"),
+    QT_TRANSLATE_NOOP("core",
+                      "the region shows little but bars along x: a motion from side to side (x) can hardly be seen, %1 "
+                      "times less well than one across"),
+    QT_TRANSLATE_NOOP("core",
+                      "the region shows little but bars %1 at %2 degrees to x: a motion along them can hardly be seen, "
+                      "%3 times less well than one across"),
     QT_TRANSLATE_NOOP("core", "rising to the right"),
     QT_TRANSLATE_NOOP("core", "falling to the right"),
     QT_TRANSLATE_NOOP("core", "choose a region or a target with structure in both directions"),

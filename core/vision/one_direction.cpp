@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -11,8 +12,8 @@ namespace zerodrift::vision {
 namespace {
 
 // Gradient energy along the direction that shows least over that across it: targets have 0.15 (milled arcs) and more,
-// bars with their ends 0.025, brushed metal 0.01, bars alone what noise makes of it.
-constexpr double least_energy_ratio = 0.05;
+// bars with their ends 0.025 to 0.056, brushed metal 0.01, bars alone what noise makes of it.
+constexpr double least_energy_ratio = 0.1;
 constexpr double noise_sigma_px = 1.5;  // of the blur that takes noise out, which has gradients in every direction
 constexpr double upright_deg = 10.0;
 
@@ -30,16 +31,19 @@ std::string unseen_direction(const GrayImage& image, const Region& region) {
   // From x to the right towards y down, -90 to 90.
   const double across_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
   const double along_deg = 90.0 - std::abs(across_rad) * 180.0 / M_PI;
-  const std::string remedy = "; choose a region or a target with structure in both directions";
+  const double times = std::sqrt((xx + yy + root) / std::max(xx + yy - root, 1e-6 * (xx + yy)));
+  const std::string remedy = fmt::format(", {:.0f} times less well than one across; {}", times,
+                                         "choose a region or a target with structure in both directions");
   if (along_deg > 90.0 - upright_deg) {
-    return "the region shows bars along y: a motion up and down (y) can hardly be seen" + remedy;
+    return "the region shows little but bars along y: a motion up and down (y) can hardly be seen" + remedy;
   }
   if (along_deg < upright_deg) {
-    return "the region shows bars along x: a motion from side to side (x) can hardly be seen" + remedy;
+    return "the region shows little but bars along x: a motion from side to side (x) can hardly be seen" + remedy;
   }
   const char* const slant = across_rad > 0.0 ? "rising to the right" : "falling to the right";
-  return fmt::format("the region shows bars that lie {} at {:.0f} degrees to x: a motion along them can hardly be seen",
-                     slant, along_deg) +
+  return fmt::format(
+             "the region shows little but bars {} at {:.0f} degrees to x: a motion along them can hardly be seen",
+             slant, along_deg) +
          remedy;
 }
 

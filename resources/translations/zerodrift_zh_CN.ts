@@ -3794,16 +3794,16 @@
         <translation>每像素将相当于 %1 um：位置的单位似乎不是 mm</translation>
     </message>
     <message>
-        <source>the region shows bars along y: a motion up and down (y) can hardly be seen</source>
-        <translation>该区域仅显示沿 y 的条纹：上下（y）方向的移动几乎看不出</translation>
+        <source>the region shows little but bars along y: a motion up and down (y) can hardly be seen, %1 times less well than one across</source>
+        <translation>该区域几乎仅显示沿 y 的条纹：上下（y）方向的移动几乎看不出，比垂直于条纹的移动差 %1 倍</translation>
     </message>
     <message>
-        <source>the region shows bars along x: a motion from side to side (x) can hardly be seen</source>
-        <translation>该区域仅显示沿 x 的条纹：左右（x）方向的移动几乎看不出</translation>
+        <source>the region shows little but bars along x: a motion from side to side (x) can hardly be seen, %1 times less well than one across</source>
+        <translation>该区域几乎仅显示沿 x 的条纹：左右（x）方向的移动几乎看不出，比垂直于条纹的移动差 %1 倍</translation>
     </message>
     <message>
-        <source>the region shows bars that lie %1 at %2 degrees to x: a motion along them can hardly be seen</source>
-        <translation>该区域仅显示%1、与 x 成 %2 度的条纹：沿条纹方向的移动几乎看不出</translation>
+        <source>the region shows little but bars %1 at %2 degrees to x: a motion along them can hardly be seen, %3 times less well than one across</source>
+        <translation>该区域几乎仅显示%1、与 x 成 %2 度的条纹：沿条纹方向的移动几乎看不出，比垂直于条纹的移动差 %3 倍</translation>
     </message>
     <message>
         <source>rising to the right</source>
