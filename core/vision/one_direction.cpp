@@ -32,18 +32,26 @@ std::string unseen_direction(const GrayImage& image, const Region& region) {
   const double across_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
   const double along_deg = 90.0 - std::abs(across_rad) * 180.0 / M_PI;
   const double times = std::sqrt((xx + yy + root) / std::max(xx + yy - root, 1e-6 * (xx + yy)));
-  const std::string remedy = fmt::format(", {:.0f} times less well than one across; {}", times,
-                                         "choose a region or a target with structure in both directions");
+  const std::string remedy = fmt::format("; {}", "choose a region or a target with structure in both directions");
   if (along_deg > 90.0 - upright_deg) {
-    return "the region shows little but bars along y: a motion up and down (y) can hardly be seen" + remedy;
+    return fmt::format(
+               "the region shows little but bars along y: a motion up and down (y) can hardly be seen, {:.0f} times "
+               "less well than one across",
+               times) +
+           remedy;
   }
   if (along_deg < upright_deg) {
-    return "the region shows little but bars along x: a motion from side to side (x) can hardly be seen" + remedy;
+    return fmt::format(
+               "the region shows little but bars along x: a motion from side to side (x) can hardly be seen, {:.0f} "
+               "times less well than one across",
+               times) +
+           remedy;
   }
   const char* const slant = across_rad > 0.0 ? "rising to the right" : "falling to the right";
   return fmt::format(
-             "the region shows little but bars {} at {:.0f} degrees to x: a motion along them can hardly be seen",
-             slant, along_deg) +
+             "the region shows little but bars {} at {:.0f} degrees to x: a motion along them can hardly be seen, "
+             "{:.0f} times less well than one across",
+             slant, along_deg, times) +
          remedy;
 }
 
