@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 347> models = {{
+constexpr std::array<const char*, 349> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -433,6 +433,8 @@ constexpr std::array<const char*, 347> models = {{
         "It says nothing for or against the answer."),
     QT_TRANSLATE_NOOP("core",
                       "Recording {recording}: the machine description does not name {columns}, which was not used."),
+    QT_TRANSLATE_NOOP("core", "about {:.3g} um for {} (is it in mm?)"),
+    QT_TRANSLATE_NOOP("core", "{} of its rows number for number in {}"),
     QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),
     QT_TRANSLATE_NOOP("core",
                       "With its sign turned, {channel} is as described: check which way it counts as positive."),

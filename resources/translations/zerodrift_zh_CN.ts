@@ -3482,6 +3482,14 @@
         <translation>记录 {recording}：机床描述中没有 {columns}，未予使用。</translation>
     </message>
     <message>
+        <source>about {:.3g} um for {} (is it in mm?)</source>
+        <translation>{1} 约 {0:.3g} um（单位是否为 mm？）</translation>
+    </message>
+    <message>
+        <source>{} of its rows number for number in {}</source>
+        <translation>其中 {0} 行与 {1} 中的数值完全相同</translation>
+    </message>
+    <message>
         <source>Nothing drives the machine in this recording: little can be learned from it.</source>
         <translation>本次记录中没有任何输入驱动机床：从中能得到的信息很少。</translation>
     </message>
