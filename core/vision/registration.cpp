@@ -46,6 +46,7 @@ constexpr double field_bias = 16.0;         // chi-square: four standard deviati
 constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
 constexpr double outline_known_px = 0.003;  // what stands behind is not known better, and draws the outline
 constexpr double outline_bias = 6.0;        // one frame in twenty without need: what is reflected is hardly missed
+constexpr double outline_in_part = 0.75;    // of the gradient energy: less of it is no better than the whole
 constexpr double drawn_middle_px = 5.0;     // a point further from the middle was named on purpose
 constexpr double all_of_it = 0.98;          // of the pixels
 
@@ -308,6 +309,11 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
     // A print turns with the target and fits all over; what is reflected turns with the lamp and does not.
     const bool all_fits = whole.inlier_share + whole.saturated_share > all_of_it;
     if (all_fits || !biased(whole, outline, outline_bias, outline_known_px)) return whole;
+  }
+  // Of an outline that is hidden in part nothing says that what is left is not drawn by the cover's edge.
+  if (outline.informed_share + outline.saturated_share < outline_in_part) {
+    const Eigen::Vector2d apart = outline.displacement_px - whole.displacement_px;
+    outline.covariance_px2.diagonal() += apart.cwiseAbs2();
   }
   // A region drawn by hand has its own middle some pixels off: a reflection that seems to turn says nothing of that.
   const Eigen::Vector2d lever = course.start.middle_px;

@@ -17,6 +17,12 @@ constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says no
 constexpr double most_of_part = 0.95;
 constexpr double least_of_tile = 0.5;
 constexpr double beyond_noise = 3.3;       // times: 0.1 % of chi-square of eight over eight is above
+constexpr double whole_target = 0.97;      // of the pixels: nothing lies over it
+constexpr std::size_t least_tiles = 8;     // that tell how even the errors are
+constexpr double even_ratio = 1.75;        // upper quartile of the tiles' variances over the lower
+constexpr double uneven_ratio = 2.75;      // the same, of covers that were taken for a part of the target
+constexpr double at_rest_px = 5e-4;        // a larger last step was followed by others, if it had been let
+constexpr double steps_to_come = 3.0;      // times: they shrink slowly where weights and motion wait for each other
 constexpr double hidden_weight = 0.05;     // a pixel with less does not show the target
 constexpr double least_rim_energy = 0.05;  // of the gradient energy: with less the rim says nothing
 
@@ -218,6 +224,29 @@ double RegistrationSolver::tell_structure(int count, Registration& out) const {
   return variance;
 }
 
+// By how much what fits badly, and yet fits, may have drawn the result: 1 where the frame shows the target whole, or
+// equally well wherever it shows it. A cover that looks like the target by chance, or is made like it by a field and a
+// change of light, leaves errors that are rougher than those of the target.
+double RegistrationSolver::doubt_of_uneven(int count, const Registration& fit) const {
+  if (fit.inlier_share + fit.saturated_share > whole_target) return 1.0;
+  std::array<double, tiles> squares{}, weight{};
+  for (int k = 0; k < count; ++k) {
+    const double w = m_robust(k) * m_neighbours(k);
+    if (w <= 0.25) continue;
+    const double z = m_error(k) * m_noise_root(k);
+    squares[m_model.tile[k]] += w * z * z;
+    weight[m_model.tile[k]] += w;
+  }
+  std::vector<double> variances;
+  for (int tile = 0; tile < tiles; ++tile) {
+    if (weight[tile] > tile_weight) variances.push_back(std::max(squares[tile] / weight[tile], m_least_variance));
+  }
+  if (variances.size() < least_tiles) return 1.0;
+  std::sort(variances.begin(), variances.end());
+  const double ratio = variances[variances.size() * 3 / 4] / variances[variances.size() / 4];
+  return 1.0 + (ratio - 1.0) * std::clamp((ratio - even_ratio) / (uneven_ratio - even_ratio), 0.0, 1.0);
+}
+
 // A point beside the target's middle moves with every turn, and a template's own noise passes for evidence of one. The
 // turn that was found is believed by as much as makes its expected error least (Wiener's filter for one unknown): what
 // is expected of it before, against what the noise makes of it. The middle stays where it was found.
@@ -290,6 +319,10 @@ void RegistrationSolver::tell_uncertainty(Registration& out) const {
   const Eigen::Vector2d ratio(std::sqrt(std::max(1.0, by_parts(0) / noise(0, 0))),
                               std::sqrt(std::max(1.0, by_parts(1) / noise(1, 1))));
   out.covariance_px2 = ratio.asDiagonal() * noise * ratio.asDiagonal();
+  out.covariance_px2 *= std::pow(doubt_of_uneven(count, out), 2);
+  if (m_last_step_px > at_rest_px) {
+    out.covariance_px2.diagonal().array() += std::pow(steps_to_come * m_last_step_px, 2);
+  }
   believe_turn(inverse, factor, out);
   out.lens.per_px2 = m_lens;
   out.lens.sigma_per_px2 = std::sqrt(std::max(inverse(bend, bend) * factor, 0.0)) * registration_lens_unit;

@@ -23,6 +23,7 @@ constexpr int settle_iterations = 5;
 constexpr int sampling_rounds = 7;
 constexpr int reweightings = 5;
 constexpr double negligible_sigmas = 0.03;
+constexpr double most_unlit = 0.01;    // of the pixels
 constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was sampled needs no new sample
 
 }  // namespace
@@ -53,6 +54,10 @@ RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePa
   if (start.light) m_light = *start.light;
   m_light_known = start.light.has_value();
   if (m_field != nullptr) m_field_levels.setZero(m_field->size());
+  const auto mean_of = [n](const std::vector<float>& places) {
+    return Eigen::Map<const Eigen::VectorXf>(places.data(), n).mean() / static_cast<float>(length_px);
+  };
+  m_mean_place = {mean_of(model.x), mean_of(model.y)};
 }
 
 Eigen::Matrix2d RegistrationSolver::extra_blur_px2() const {
@@ -319,13 +324,24 @@ bool RegistrationSolver::glance() {
   return true;
 }
 
+// The weights are those before the last step. Where a cover's level happens to be the target's, a field that is held
+// by nothing else there may have left their pixels far behind with it.
+void RegistrationSolver::leave_out_gone() {
+  const auto reach = static_cast<float>(m_tukey * m_scale);
+  for (int k = 0; k < m_model.pixels; ++k) {
+    if (std::abs(m_error(k)) * m_noise_root(k) > reach) m_robust(k) = m_weight(k) = 0.0f;
+  }
+}
+
 bool RegistrationSolver::run() {
   const Eigen::Vector2d start = m_shift;
   if (!glance()) return false;
   find_noise_model(m_model.pixels / 4);
   for (int k = m_model.pixels / 4; k < m_model.pixels; ++k) fill_row(k);
   m_all_pixels = true;
-  return settle(m_model.pixels) && (m_shift - start).norm() < reach_px;
+  if (!settle(m_model.pixels) || m_unlit > most_unlit * m_model.pixels) return false;
+  leave_out_gone();
+  return (m_shift - start).norm() < reach_px;
 }
 
 void RegistrationSolver::hand_over(RegistrationStart& start) const {

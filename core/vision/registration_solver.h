@@ -86,6 +86,8 @@ class RegistrationSolver {
   bool reweighted_step(int count, bool ask_neighbours);
   bool settle(int count);
   void weigh(int count, bool ask_neighbours);
+  void leave_out_unlit(int count);
+  void leave_out_gone();
   void choose_tukey();
   bool outdated(int count, bool light_only) const;
   bool prepare_normal(int count, bool light_only);
@@ -97,6 +99,7 @@ class RegistrationSolver {
   template <typename PartOf>
   Eigen::Vector2d jackknife(const Scores& scores, PartOf part_of) const;
   Eigen::Vector2d variance_by_parts(const Scores& scores) const;
+  double doubt_of_uneven(int count, const Registration& fit) const;
   void believe_turn(const Normal& inverse, double factor, Registration& out) const;
 
   // Fields that are aligned alike stand together: the order leaves no gaps.
@@ -130,6 +133,7 @@ class RegistrationSolver {
   bool m_outline_alone;
   Eigen::Vector2d m_middle;
   Eigen::VectorXf m_field_levels;
+  Eigen::Vector2f m_mean_place;  // of the pixels, in units of the linear columns' length
   Rows m_rows;
   Eigen::VectorXf m_frame, m_error;
   Eigen::VectorXf m_noise_weight, m_noise_root;  // 1 / variance of the noise, in units of that of middle grey
@@ -143,6 +147,7 @@ class RegistrationSolver {
   Eigen::Matrix<double, light_count, 1> m_light;
   NeighbourWeights m_judge;
   int m_iterations = 0;
+  int m_unlit = 0;            // of the pixels
   bool m_all_pixels = false;  // after the glance
   bool m_light_known = false;
 };

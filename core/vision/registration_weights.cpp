@@ -20,6 +20,7 @@ constexpr double tukey_narrow = 4.7;             // 95 % efficient for normal no
 constexpr double outlier_sigmas = 4.0;
 constexpr double outlier_share = 0.0015;  // of the pixels: normal noise has 0.00006 beyond 4 sigma
 constexpr double least_weight = 0.4;      // of the pixels' own weight must be left by their neighbours
+constexpr double least_gain = 0.5;        // of the mean: so little light falls on no part of a target
 constexpr int scale_samples = 4000;       // of the errors are enough for their median
 constexpr std::size_t least_pixels = 100;
 
@@ -120,6 +121,7 @@ void RegistrationSolver::weigh(int count, bool ask_neighbours) {
   const auto inverse = static_cast<float>(1.0 / (tukey * m_scale));
   static_assert(FramePatch::seen == 0);
   tukey_weights(m_error.data(), m_noise_root.data(), inverse, m_pixel_state.data(), count, m_robust.data());
+  leave_out_unlit(count);
   if (ask_neighbours) {
     const Eigen::VectorXf standard = m_error.cwiseProduct(m_noise_root) / static_cast<float>(m_scale);
     m_judge.judge(standard, m_robust, m_neighbours);
@@ -128,6 +130,22 @@ void RegistrationSolver::weigh(int count, bool ask_neighbours) {
   }
   m_weight.head(count) =
       m_robust.head(count).cwiseProduct(m_neighbours.head(count)).cwiseProduct(m_noise_weight.head(count));
+}
+
+// A plane of gain that falls to nothing makes an even cover of the target: it explains all of the cover, and its edge
+// then draws the target. What would be lit so little says nothing of the target.
+void RegistrationSolver::leave_out_unlit(int count) {
+  const Eigen::Vector3f light = m_light.head<3>().cast<float>();
+  const Eigen::Vector3f at_mean(1.0f, m_mean_place(0), m_mean_place(1));
+  const float limit = static_cast<float>(least_gain) * light.dot(at_mean);
+  const float along = light(1) / static_cast<float>(registration_length_px);
+  const float down = light(2) / static_cast<float>(registration_length_px);
+  m_unlit = 0;
+  for (int k = 0; k < count; ++k) {
+    const bool unlit = light(0) + along * m_model.x[k] + down * m_model.y[k] < limit;
+    m_unlit += unlit;
+    m_robust(k) = unlit ? 0.0f : m_robust(k);
+  }
 }
 
 // Without outliers nothing need be paid for robustness.
