@@ -60,6 +60,9 @@ constexpr double rough_to_noise = 1.5;     // times what the template's noise ma
 constexpr double rough_sigma_px = 0.01;
 constexpr double hidden_sigma_px = 0.03;
 constexpr double nothing_hidden = 0.97;
+// With one of two edges hidden the target may seem to be another size, and the other edge to have moved with it. Bodies
+// that warm by tens of kelvin stretch by less than 0.001; how much of a camera's own motion is left open.
+constexpr double stretch_in_part = 0.012;
 // Of what does not fit: covers and chips stay below 0.25; mazes of thin lines are above 0.34, codes and letters 0.65.
 constexpr double another_print = 0.33;
 constexpr double least_seen = 0.70;
@@ -69,6 +72,11 @@ constexpr double rough_coarse_correlation = 0.5;
 constexpr double rough_place_px = 0.3;     // what is known worse is known as well by the coarse search, to half a pixel
 constexpr int least_moved = 3;             // frames in which the target is elsewhere
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
+
+// Of the linear part what is no turn.
+double stretch_of(const Registration& r) {
+  return (0.5 * (r.linear + r.linear.transpose()) - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
+}
 
 Refusal judge(const Registration& r, double coarse_correlation) {
   if (!r.converged) return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::too_different;
@@ -89,6 +97,7 @@ Refusal judge(const Registration& r, double coarse_correlation) {
   // better; noise is rough without hiding anything. That a round target hides its turn says nothing against the place.
   const double sigma_px = std::sqrt((r.covariance_px2 - r.unseen_turn_px2).diagonal().maxCoeff());
   if (r.inlier_share + r.saturated_share < nothing_hidden) {
+    if (!bent_by_glare && stretch_of(r) > stretch_in_part) return Refusal::occluded;
     const bool rough = r.residual > std::max(rough_residual, rough_to_noise * r.expected_residual);
     if (sigma_px > (rough ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
   }
