@@ -242,6 +242,7 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
     return !best.converged || best.residual > (best.inlier_share < some_hidden ? doubtful_residual : poor_residual);
   };
   const auto keep_better = [&](Registration other) {
+    best.partly_unlit = best.partly_unlit || other.partly_unlit;
     if (other.converged && (!best.converged || fit_of(other) > fit_of(best))) best = std::move(other);
   };
   if (!stuck()) return best;
@@ -336,6 +337,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
   Registration out;
   bool field_helped = false;
   bool on_trial = false;
+  bool unlit = false;
   const auto remodel = [&] {
     blurred_model.reset();
     if (!alike(setup, plain)) blurred_model = make_template_model(source, setup.template_blur, setup.frame_blur);
@@ -347,6 +349,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
     RegistrationSolver solver(model, course.patches.with(setup), field ? &*field : nullptr, course.start);
     if (!solver.run()) {
+      unlit = unlit || solver.was_partly_unlit();
       // A first attempt without the field may fail in a strong halo; one with it is the last.
       if (setup.with_field && (!course.glare || out.converged || alike(setup, plain))) break;
       // What looked like a strong blur may have been the halo.
@@ -390,6 +393,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     setup = next;
     if (blurs) remodel();
   }
+  out.partly_unlit = unlit;
   const TemplateModel& last = blurred_model ? *blurred_model : usual;
   out.expected_residual = source.noise_levels * std::sqrt(2.0 / last.noise_correlation);
   out.converged = out.converged && (out.covariance_px2.diagonal().array() > 0.0).all();

@@ -16,6 +16,7 @@ namespace zerodrift::vision {
 
 struct Registration {
   bool converged = false;
+  bool partly_unlit = false;  // where not converged: light that falls on no target was needed to explain a part of it
   Eigen::Vector2d displacement_px = Eigen::Vector2d::Zero();  // of the named point, right and down
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();       // affine part
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();

@@ -23,7 +23,6 @@ constexpr int settle_iterations = 5;
 constexpr int sampling_rounds = 7;
 constexpr int reweightings = 5;
 constexpr double negligible_sigmas = 0.03;
-constexpr double most_unlit = 0.01;    // of the pixels
 constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was sampled needs no new sample
 
 }  // namespace
@@ -339,7 +338,7 @@ bool RegistrationSolver::run() {
   find_noise_model(m_model.pixels / 4);
   for (int k = m_model.pixels / 4; k < m_model.pixels; ++k) fill_row(k);
   m_all_pixels = true;
-  if (!settle(m_model.pixels) || m_unlit > most_unlit * m_model.pixels) return false;
+  if (!settle(m_model.pixels) || m_partly_unlit) return false;
   leave_out_gone();
   return (m_shift - start).norm() < reach_px;
 }

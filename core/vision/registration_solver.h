@@ -46,6 +46,8 @@ class RegistrationSolver {
 
   /// On all pixels to the end; false when it ran away or too little was left.
   bool run();
+  /// Whether light that falls on no target explained a part of it, if only on the way: something may lie there.
+  bool was_partly_unlit() const { return m_was_partly_unlit; }
   /// On the first quarter of the pixels, which is spread evenly over the region.
   bool glance();
   /// What was found on the `count` pixels used, without its uncertainty.
@@ -147,7 +149,8 @@ class RegistrationSolver {
   Eigen::Matrix<double, light_count, 1> m_light;
   NeighbourWeights m_judge;
   int m_iterations = 0;
-  int m_unlit = 0;            // of the pixels
+  bool m_partly_unlit = false;
+  bool m_was_partly_unlit = false;
   bool m_all_pixels = false;  // after the glance
   bool m_light_known = false;
 };

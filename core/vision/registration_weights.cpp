@@ -21,6 +21,7 @@ constexpr double outlier_sigmas = 4.0;
 constexpr double outlier_share = 0.0015;  // of the pixels: normal noise has 0.00006 beyond 4 sigma
 constexpr double least_weight = 0.4;      // of the pixels' own weight must be left by their neighbours
 constexpr double least_gain = 0.5;        // of the mean: so little light falls on no part of a target
+constexpr double most_unlit = 0.01;       // of the pixels
 constexpr int scale_samples = 4000;       // of the errors are enough for their median
 constexpr std::size_t least_pixels = 100;
 
@@ -140,12 +141,14 @@ void RegistrationSolver::leave_out_unlit(int count) {
   const float limit = static_cast<float>(least_gain) * light.dot(at_mean);
   const float along = light(1) / static_cast<float>(registration_length_px);
   const float down = light(2) / static_cast<float>(registration_length_px);
-  m_unlit = 0;
+  int dark = 0;
   for (int k = 0; k < count; ++k) {
     const bool unlit = light(0) + along * m_model.x[k] + down * m_model.y[k] < limit;
-    m_unlit += unlit;
+    dark += unlit;
     m_robust(k) = unlit ? 0.0f : m_robust(k);
   }
+  m_partly_unlit = dark > most_unlit * count;
+  m_was_partly_unlit = m_was_partly_unlit || m_partly_unlit;
 }
 
 // Without outliers nothing need be paid for robustness.

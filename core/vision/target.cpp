@@ -79,7 +79,10 @@ double stretch_of(const Registration& r) {
 }
 
 Refusal judge(const Registration& r, double coarse_correlation) {
-  if (!r.converged) return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::too_different;
+  if (!r.converged) {
+    if (coarse_correlation < alike_correlation) return Refusal::missing;
+    return r.partly_unlit ? Refusal::occluded : Refusal::too_different;
+  }
   const bool fits = r.correlation > least_fine_correlation;
   if (r.seen_share < least_seen) return Refusal::out_of_view;
   if (r.contrast < least_contrast || r.contrast > largest_contrast) {
@@ -307,6 +310,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
       best = found;
       best_coarse = one.correlation;
     }
+    best.partly_unlit = best.partly_unlit || found.partly_unlit;
     if (judge(best, best_coarse) != Refusal::none || best.correlation <= sure_correlation) continue;
     if (best.inlier_share > clear_inliers) break;
   }
