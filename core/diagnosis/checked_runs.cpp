@@ -101,13 +101,18 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       sound.recording = std::move(part->recording);
     }
     ZD_TRY(auto more, physics::check_recording(machine, sound.recording));
+    bool one_is_missing = false;
     for (auto& warning : more) {
       const bool taken_out = std::any_of(sound.findings.begin(), sound.findings.end(), [&](const auto& finding) {
         return finding.action == analysis::FindingAction::dropped && warning.ends_with(" " + finding.channel);
       });
-      if (!taken_out) out.warnings.push_back(std::move(warning));
+      if (taken_out) continue;
+      one_is_missing = true;
+      out.warnings.push_back(std::move(warning));
     }
-    if (const std::string unknown = unknown_columns(machine, boundaries, sound.recording); !unknown.empty()) {
+    // A machine has more sensors than its description as a rule: only beside one that is missed they tell anything.
+    if (const std::string unknown = unknown_columns(machine, boundaries, sound.recording);
+        one_is_missing && !unknown.empty()) {
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
     ZD_CHECK(check_times(machine, sound.recording));
