@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 349> models = {{
+constexpr std::array<const char*, 351> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -426,6 +426,14 @@ constexpr std::array<const char*, 349> models = {{
         "core",
         "The recording has no column {column}: how the room went had to be guessed from the machine's own "
         "temperatures, and what follows the room can hardly be told from it."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
+        "fitted as well. Start after a rest of some hours to be surer."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be "
+        "fitted as well. Start after a rest of some hours to be surer."),
     QT_TRANSLATE_NOOP(
         "core",
         "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "

@@ -19,6 +19,7 @@
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/thinning.h"
+#include "core/physics/initial_state.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -244,15 +245,16 @@ void Diagnoser::decide() {
     const bool helps = !wrong && after.mean < 0.7 * before.mean;
     m_used = poor && !helps ? m_selection.base : m_selection.best;
   }
-  if (after.largest > least_evident || names_a_sensor()) {
-    m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data);
-  }
   m_far = far_from_description(*m_used);
+  if (after.largest > least_evident || names_a_sensor() || !m_far.empty()) {
+    m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits, m_context);
+  }
   if (m_misplaced || (found && is_doubtful(m_far))) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;
     m_used = m_selection.base;
   }
+  if (m_misplaced) m_far.clear();  // the numbers moved to suit the wrong place
   if (m_used == m_selection.base) {
     for (auto& other : m_out.held_out) other.explained = other.refitted;
   }
@@ -393,7 +395,11 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   }
   // Nobody knows how the room went: of 27 answers to runs robbed of its column three were wrong.
   const bool room_guessed = !m_machine.room.channel.empty() && !m_facts.room_logged;
-  const double guessed = room_guessed ? 0.9 : 1.0;
+  // Nor what ran before a start that is not at rest.
+  const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(), [&](const auto& component) {
+    return !component.lump && physics::start_above_room_K(m_machine, component.id, recording()) != 0.0;
+  });
+  const double guessed = room_guessed || warm ? 0.9 : 1.0;
   const double poor = (m_out.excess_after > 3.0 ? 0.8 : 1.0) * guessed;
   return poor * 0.99 / (1.0 + others);
 }

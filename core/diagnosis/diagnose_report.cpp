@@ -277,6 +277,13 @@ void Diagnoser::notes() {
   if (std::count(m_out.notes.begin(), m_out.notes.end(), "room_not_logged") != 0) {
     m_out.sentences.push_back(explain_note("room_not_logged", {{"column", m_machine.room.channel}}));
   }
+  for (const auto& component : m_machine.components) {
+    const double above_K = component.lump ? 0.0 : physics::start_above_room_K(m_machine, component.id, recording());
+    if (above_K == 0.0) continue;
+    m_out.sentences.push_back(
+        explain_note(above_K > 0.0 ? "starts_warm" : "starts_cold",
+                     {{"part", component.id}, {"above", fmt::format("{:.1f}", std::abs(above_K))}}));
+  }
   another_machine();
   worse_elsewhere();
   const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {

@@ -10,9 +10,11 @@ namespace zerodrift::diagnosis {
 namespace {
 
 constexpr int places_per_rod = 16;
+constexpr FitOptions fit_options{8, 0.1, true};
 
 struct Trial {
   Misplaced what;
+  bool typical = false;  // an exchange, or the described number in another unit: nothing is free to suit the data
   std::shared_ptr<Model> fit;
 };
 
@@ -21,19 +23,19 @@ physics::Sensor& sensor_of(physics::Machine& machine, const std::string& channel
                        [&](const auto& sensor) { return sensor.channel == channel; });
 }
 
-/// Sensors on rods, those that the base misses most first.
-std::vector<physics::Sensor> suspects(const Model& base) {
+/// Sensors on rods, those that the model misses most first.
+std::vector<physics::Sensor> missed_most(const Model& model) {
   struct Suspect {
     physics::Sensor sensor;
     double excess = 0.0;
   };
-  const Excess excess = excess_of(base);
+  const Excess excess = excess_of(model);
   std::vector<Suspect> list;
-  for (std::size_t c = 0; c < base.data().channels.size(); ++c) {
-    const MeasuredChannel& channel = base.data().channels[c];
-    const physics::Sensor* sensor = base.machine().sensor(channel.name);
+  for (std::size_t c = 0; c < model.data().channels.size(); ++c) {
+    const MeasuredChannel& channel = model.data().channels[c];
+    const physics::Sensor* sensor = model.machine().sensor(channel.name);
     if (channel.samples == 0 || sensor == nullptr) continue;
-    const physics::Component* rod = base.machine().find(sensor->component);
+    const physics::Component* rod = model.machine().find(sensor->component);
     if (rod == nullptr || rod->lump) continue;
     list.push_back({*sensor, excess.per_channel[c]});
   }
@@ -43,22 +45,57 @@ std::vector<physics::Sensor> suspects(const Model& base) {
   return sensors;
 }
 
+/// Those that the base or what explains it best misses most, and those that are said to be at fault.
+std::vector<physics::Sensor> suspects(const Model& base, const Model& best, const Model& sound) {
+  constexpr std::size_t most_of_each = 2;
+  std::vector<physics::Sensor> list;
+  const auto take = [&](const physics::Sensor& sensor) {
+    if (std::none_of(list.begin(), list.end(), [&](const auto& one) { return one.channel == sensor.channel; })) {
+      list.push_back(sensor);
+    }
+  };
+  for (const Model* model : {&base, &sound}) {
+    std::vector<physics::Sensor> missed = missed_most(*model);
+    missed.resize(std::min(most_of_each, missed.size()));
+    std::for_each(missed.begin(), missed.end(), take);
+  }
+  for (const auto& spec : best.machine().effects) {
+    if (!spec.candidate || !spec.id.starts_with("sensor_")) continue;
+    const physics::Sensor* at_fault = best.machine().sensor(spec.word_or("channel", ""));
+    const physics::Component* rod = at_fault == nullptr ? nullptr : best.machine().find(at_fault->component);
+    if (rod != nullptr && !rod->lump) take(*at_fault);
+  }
+  return list;
+}
+
 void add_trials(std::vector<Trial>& trials, const Model& base, const physics::Sensor& sensor,
                 const std::vector<physics::Sensor>& all) {
   constexpr double far = 0.1;  // of the length: what is nearer is a tape measure's error
   const double length_mm = base.machine().find(sensor.component)->length_mm;
+  const double here_mm = sensor.position_mm;
   for (int i = 0; i < places_per_rod; ++i) {
     const double at_mm = (i + 0.5) / places_per_rod * length_mm;
-    if (std::abs(at_mm - sensor.position_mm) > far * length_mm) {
-      trials.push_back({{sensor.channel, sensor.position_mm, at_mm, {}}, nullptr});
+    if (std::abs(at_mm - here_mm) > far * length_mm)
+      trials.push_back({{sensor.channel, here_mm, at_mm, {}}, false, {}});
+  }
+  for (const double unit_mm : {10.0, 25.4, 1000.0}) {
+    const double at_mm = here_mm * unit_mm;
+    if (at_mm <= length_mm && at_mm - here_mm > far * length_mm) {
+      trials.push_back({{sensor.channel, here_mm, at_mm, {}}, true, {}});
     }
   }
   for (const physics::Sensor& other : all) {
-    if (other.component != sensor.component || std::abs(other.position_mm - sensor.position_mm) < far * length_mm) {
-      continue;
-    }
-    trials.push_back({{sensor.channel, sensor.position_mm, other.position_mm, other.channel}, nullptr});
+    if (other.component != sensor.component || std::abs(other.position_mm - here_mm) < far * length_mm) continue;
+    trials.push_back({{sensor.channel, here_mm, other.position_mm, other.channel}, true, {}});
   }
+}
+
+std::shared_ptr<Model> refitted(physics::Machine machine, const Model& like,
+                                const std::shared_ptr<const Dataset>& data) {
+  auto model = std::make_shared<Model>(std::move(machine), data);
+  model->start_from(like, false);
+  model->fit(fit_options);
+  return model;
 }
 
 /// The trial's places with the effects of `like`.
@@ -68,43 +105,108 @@ void fit(Trial& trial, const Model& like, const std::shared_ptr<const Dataset>& 
   if (!trial.what.exchanged_with.empty()) {
     sensor_of(machine, trial.what.exchanged_with).position_mm = trial.what.described_mm;
   }
-  trial.fit = std::make_shared<Model>(std::move(machine), data);
-  trial.fit->start_from(like, false);
-  trial.fit->fit({8, 0.1, true});
+  trial.fit = refitted(std::move(machine), like, data);
 }
 
-/// What a wrong place looks like is often named as a fault of the sensor.
-std::shared_ptr<Model> without_sensor_faults(const Model& best) {
-  physics::Machine machine = best.machine();
+physics::Machine without_sensor_faults(physics::Machine machine) {
   std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate && spec.id.starts_with("sensor_"); });
-  auto model = std::make_shared<Model>(std::move(machine), best.shared_data());
-  return model;
+  return machine;
+}
+
+physics::Machine without_candidates(physics::Machine machine) {
+  std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate; });
+  return machine;
+}
+
+const physics::Component& rod_of(const Trial& trial) {
+  const physics::Machine& machine = trial.fit->machine();
+  return *machine.find(machine.sensor(trial.what.channel)->component);
+}
+
+/// The same sensor at much the same place.
+bool same_place(const Trial& a, const Trial& b) {
+  const auto& [channel, described_mm, at_mm, exchanged_with] = a.what;
+  const bool swapped = channel == b.what.exchanged_with && exchanged_with == b.what.channel;
+  if (!exchanged_with.empty() || !b.what.exchanged_with.empty()) {
+    return swapped || (channel == b.what.channel && exchanged_with == b.what.exchanged_with);
+  }
+  constexpr double near = 0.15;  // of the length
+  return channel == b.what.channel && std::abs(at_mm - b.what.at_mm) < near * rod_of(a).length_mm;
+}
+
+/// Descriptions are mostly right about places: the log evidence that a wrong one has to show.
+double clearly(const Trial& trial) {
+  return trial.typical ? 10.0 : 25.0;
 }
 
 bool likelier(const Trial& a, const Trial& b) {
-  return a.fit->log_evidence() > b.fit->log_evidence();
+  return a.fit->log_evidence() - clearly(a) > b.fit->log_evidence() - clearly(b);
 }
 
-bool reads_well(const Model& fit, const std::string& channel) {
-  const Excess excess = excess_of(fit);
-  for (std::size_t c = 0; c < fit.data().channels.size(); ++c) {
-    if (fit.data().channels[c].name == channel) return excess.per_channel[c] <= least_evident;
-  }
-  return true;
+/// Nothing is left that a place could not explain: what moves elsewhere would bend the temperatures to suit itself.
+bool leaves_little(const Model& fit) {
+  constexpr double least_that_counts = 3.0;
+  return excess_of(fit).largest <= least_that_counts;
 }
 
-/// Between two places that were tried.
-void narrow(Trial& found, const Model& like, const std::shared_ptr<const Dataset>& data, double length_mm) {
-  if (!found.what.exchanged_with.empty()) return;
-  std::vector<Trial> nearer;
-  for (const double steps : {-0.6, -0.3, 0.3, 0.6}) {
-    nearer.push_back(found);
-    nearer.back().what.at_mm = std::clamp(found.what.at_mm + steps * length_mm / places_per_rod, 0.0, length_mm);
+/// Which trial beats the description, and by how much it must.
+class Contest {
+ public:
+  Contest(const Model& base, const Model& best, std::shared_ptr<const Dataset> data)
+      : m_data(std::move(data)),
+        m_base(refitted(base.machine(), base, m_data)),
+        m_described(refitted(best.machine(), best, m_data)),
+        // The machine may lack something besides, but what a wrong place looks like is often named as a sensor's fault.
+        m_sound(refitted(without_sensor_faults(best.machine()), best, m_data)) {}
+
+  bool wins(const Trial& trial) const {
+    return trial.fit->log_evidence() > m_described->log_evidence() + clearly(trial) && leaves_little(*trial.fit);
   }
-  in_parallel(nearer.size(), [&](std::size_t i) { fit(nearer[i], like, data); });
-  for (Trial& one : nearer) {
-    if (likelier(one, found)) found = std::move(one);
+  std::vector<Trial> tried_beside(const Model& like, std::vector<Trial> trials) const {
+    in_parallel(trials.size(), [&](std::size_t i) { fit(trials[i], like, m_data); });
+    std::erase_if(trials,
+                  [&](const Trial& one) { return one.fit->log_evidence() < like.log_evidence() + clearly(one); });
+    std::sort(trials.begin(), trials.end(), likelier);
+    return trials;
   }
+  /// Between the places that were tried.
+  void narrow(Trial& found) const {
+    if (found.typical) return;
+    const double length_mm = rod_of(found).length_mm;
+    std::vector<Trial> nearer;
+    for (const double steps : {-0.6, -0.3, 0.3, 0.6}) {
+      nearer.push_back(found);
+      nearer.back().what.at_mm = std::clamp(found.what.at_mm + steps * length_mm / places_per_rod, 0.0, length_mm);
+    }
+    const Model like = *found.fit;
+    in_parallel(nearer.size(), [&](std::size_t i) { fit(nearer[i], like, m_data); });
+    for (Trial& one : nearer) {
+      if (likelier(one, found)) found = std::move(one);
+    }
+  }
+  const Model& base() const { return *m_base; }
+  const Model& sound() const { return *m_sound; }
+  const std::shared_ptr<const Dataset>& data() const { return m_data; }
+
+ private:
+  std::shared_ptr<const Dataset> m_data;
+  std::shared_ptr<Model> m_base, m_described, m_sound;
+};
+
+/// The best of each list in turn, each place once.
+std::vector<Trial> leaders(const std::vector<Trial>& one, const std::vector<Trial>& other) {
+  constexpr std::size_t most = 3;
+  std::vector<Trial> list;
+  for (std::size_t i = 0; i < std::max(one.size(), other.size()); ++i) {
+    for (const auto* trials : {&one, &other}) {
+      if (list.size() == most || i >= trials->size()) continue;
+      const Trial& next = (*trials)[i];
+      if (std::none_of(list.begin(), list.end(), [&](const Trial& had) { return same_place(next, had); })) {
+        list.push_back(next);
+      }
+    }
+  }
+  return list;
 }
 
 }  // namespace
@@ -115,33 +217,29 @@ std::string note_of(const Misplaced& found) {
 }
 
 std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
-                                          const std::shared_ptr<const Dataset>& data) {
-  constexpr std::size_t most_suspects = 2;
-  constexpr std::size_t most_refitted = 3;
-  constexpr double clearly = 25.0;  // of log evidence: descriptions are mostly right about places
-  const std::vector<physics::Sensor> sensors = suspects(base);
+                                          const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
+                                          SelectionOptions limits, const TaskContext& context) {
+  const Contest contest(base, best, data);
+  const std::vector<physics::Sensor> all = missed_most(base);
   std::vector<Trial> trials;
-  for (std::size_t i = 0; i < std::min(most_suspects, sensors.size()); ++i) {
-    add_trials(trials, base, sensors[i], sensors);
+  for (const physics::Sensor& sensor : suspects(base, best, contest.sound())) add_trials(trials, base, sensor, all);
+  const std::vector<Trial> alone = contest.tried_beside(contest.base(), trials);
+  const std::vector<Trial> beside = contest.tried_beside(contest.sound(), trials);
+  std::vector<Trial> leading = leaders(alone, beside);
+  if (leading.empty()) return std::nullopt;
+  Trial found = *std::min_element(leading.begin(), leading.end(), likelier);
+  contest.narrow(found);
+  if (contest.wins(found)) return found.what;
+  // What else is missing was sought with the sensor where it is not.
+  limits.others.clear();
+  for (Trial& one : leading) {
+    const auto selected = select_effects(without_candidates(one.fit->machine()), data, facts, limits, context);
+    if (!selected) return std::nullopt;
+    fit(one, *selected->best, data);
+    if (likelier(one, found)) found = one;
   }
-  if (trials.empty()) return std::nullopt;
-  in_parallel(trials.size(), [&](std::size_t i) { fit(trials[i], base, data); });
-  std::sort(trials.begin(), trials.end(), likelier);
-  trials.resize(std::min(most_refitted, trials.size()));
-  // The machine may lack something besides.
-  std::vector<Trial> beside = trials;
-  const std::shared_ptr<Model> sound = without_sensor_faults(best);
-  in_parallel(beside.size(), [&](std::size_t i) { fit(beside[i], *sound, data); });
-  trials.insert(trials.end(), beside.begin(), beside.end());
-  Trial& found = *std::min_element(trials.begin(), trials.end(), likelier);
-  Model as_described(best.machine(), data);
-  as_described.start_from(best, false);
-  as_described.fit({8, 0.1, true});
-  if (found.fit->log_evidence() < as_described.log_evidence() + clearly) return std::nullopt;
-  if (!reads_well(*found.fit, found.what.channel)) return std::nullopt;
-  if (!found.what.exchanged_with.empty() && !reads_well(*found.fit, found.what.exchanged_with)) return std::nullopt;
-  narrow(found, *found.fit, data, base.machine().find(sensors.front().component)->length_mm);
-  return found.what;
+  contest.narrow(found);
+  return contest.wins(found) ? std::optional(found.what) : std::nullopt;
 }
 
 }  // namespace zerodrift::diagnosis

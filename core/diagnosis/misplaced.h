@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/diagnosis/model.h"
+#include "core/diagnosis/selection.h"
 
 namespace zerodrift::diagnosis {
 
@@ -19,10 +19,11 @@ struct Misplaced {
 /// "misplaced:CHANNEL" or "exchanged:CHANNEL:CHANNEL".
 std::string note_of(const Misplaced& found);
 
-/// The sensor whose place, changed, explains the recording far better than `best` does, beside what `best`
-/// names of the machine; nothing where no place does, or where that sensor still reads otherwise. `data`: with default
-/// widths.
+/// The sensor whose place, changed, explains the recording far better than `best` does, beside what `best` names of
+/// the machine or what is found missing with the sensor there; nothing where no place does, or where much is
+/// left even so. `data`: with default widths.
 std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
-                                          const std::shared_ptr<const Dataset>& data);
+                                          const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
+                                          SelectionOptions limits, const TaskContext& context);
 
 }  // namespace zerodrift::diagnosis

@@ -55,6 +55,12 @@ constexpr std::array catalogue{
     Entry{"room_not_logged",
           "The recording has no column {column}: how the room went had to be guessed from the machine's own "
           "temperatures, and what follows the room can hardly be told from it."},
+    Entry{"starts_warm",
+          "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
+          "fitted as well. Start after a rest of some hours to be surer."},
+    Entry{"starts_cold",
+          "The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be "
+          "fitted as well. Start after a rest of some hours to be surer."},
     Entry{"held_out_differs",
           "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
           "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "

@@ -88,6 +88,7 @@ class NetworkBuilder {
   Probe length_probe(const Network::Place& at, int first, double factor) const;
   void add_lump(const Component& component);
   void add_initial_state();
+  void add_start_shapes(const Network::Place& at, double above_K);
   void add_sources();
   void add_source(const Component& component, const HeatSource& source);
   void add_couplings();

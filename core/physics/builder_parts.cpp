@@ -1,6 +1,9 @@
 // What every machine has: conduction, capacities, start, couplings, sensors, displacements.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/physics/effects/laws.h"
 #include "core/physics/initial_state.h"
@@ -123,12 +126,35 @@ void NetworkBuilder::add_initial_state() {
       slope.nodes.emplace_back(at.inner + i, (i + 0.5) / at.count - 0.5);
     m_network.initial_parts.push_back(std::move(slope));
     const auto profile = warm.find(at.component);
+    const double above_K = std::abs(start_above_room_K(m_machine, at.component, m_inputs));
+    if (above_K > 0.0) add_start_shapes(at, above_K);
+    if (above_K > 0.0 || profile != warm.end()) m_network.notes.push_back("warm_start:" + at.component);
     if (profile == warm.end()) continue;
     for (int i = 0; i < at.count; ++i) {
       m_network.initial_C[at.first + i] = profile_at(profile->second, (i + 0.5) * at.cell_m / m_per_mm);
       if (at.inner >= 0) m_network.initial_C[at.inner + i] = m_network.initial_C[at.first + i];
     }
-    m_network.notes.push_back("warm_start:" + at.component);
+  }
+}
+
+/// What ran before left a shape between the sensors that nobody saw: half waves along the rod, the longer the larger,
+/// as conduction leaves them.
+void NetworkBuilder::add_start_shapes(const Network::Place& at, double above_K) {
+  constexpr double uneven = 0.1;  // of what the rod is above its room, for the half wave from end to end
+  constexpr int half_waves = 5;
+  for (int wave = 1; wave <= half_waves; ++wave) {
+    Parameter shape;
+    shape.key = fmt::format("initial_wave_{}_K", wave);
+    shape.component = at.component;
+    shape.sigma = uneven * above_K / wave;
+    shape.per_recording = true;
+    InitialPart part{add_parameter(shape), {}};
+    for (int i = 0; i < at.count; ++i) {
+      const double height = std::cos(std::numbers::pi * wave * (i + 0.5) / at.count);
+      part.nodes.emplace_back(at.first + i, height);
+      if (at.inner >= 0) part.nodes.emplace_back(at.inner + i, height);
+    }
+    m_network.initial_parts.push_back(std::move(part));
   }
 }
 
@@ -245,8 +271,11 @@ void NetworkBuilder::add_displacements() {
     Parameter offset;
     offset.key = "offset_um";
     offset.channel = displacement.channel;
-    // A probe is set to zero at some moment: on a machine that starts warm that says little.
-    offset.sigma = starts_warm(m_machine, m_inputs) ? 30.0 : 1.5;
+    // A probe is set to zero at some moment: on a machine that starts warm that says little, and one that does not
+    // start at zero was set before.
+    const double first_um = first_value(m_inputs, displacement.channel);
+    offset.sigma =
+        std::max(starts_warm(m_machine, m_inputs) ? 30.0 : 1.5, std::isfinite(first_um) ? std::abs(first_um) : 0.0);
     offset.per_recording = true;
     seen.offset = add_parameter(offset);
     m_network.observations.push_back(std::move(seen));

@@ -67,8 +67,28 @@ std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const
   return warm;
 }
 
+double start_above_room_K(const Machine& machine, const std::string& component, const recording::Recording& inputs) {
+  constexpr double rested_K = 2.0;  // a room goes up and down by as much overnight, and its sensor may be wrong
+  double room_C = first_value(inputs, machine.room.channel);
+  if (!std::isfinite(room_C)) room_C = machine.room.temperature_C.value_or(std::nan(""));
+  std::vector<double> seen_C;
+  for (const auto& sensor : machine.sensors) {
+    const double value_C = sensor.component == component ? first_value(inputs, sensor.channel) : std::nan("");
+    if (std::isfinite(value_C)) seen_C.push_back(value_C);
+  }
+  if (seen_C.empty() || !std::isfinite(room_C)) return 0.0;
+  std::sort(seen_C.begin(), seen_C.end());
+  const double above_K = seen_C[seen_C.size() / 2] - room_C;
+  return std::abs(above_K) > rested_K ? above_K : 0.0;
+}
+
 bool starts_warm(const Machine& machine, const recording::Recording& inputs) {
   if (!warm_start_profiles(machine, inputs).empty()) return true;
+  if (std::any_of(machine.components.begin(), machine.components.end(), [&](const Component& component) {
+        return !component.lump && start_above_room_K(machine, component.id, inputs) != 0.0;
+      })) {
+    return true;
+  }
   std::vector<double> parts_C;  // what is driven from outside
   std::vector<double> others_C;
   double least_K = 0.8;

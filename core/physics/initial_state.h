@@ -18,7 +18,10 @@ using Profile = std::vector<std::pair<double, double>>;
 double first_value(const recording::Recording& recording, const std::string& channel);
 /// The start profile of each rod that is clearly not uniform.
 std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const recording::Recording& inputs);
-/// A rod is clearly not uniform, or parts that something else heats are warm already.
+/// By how much the middle of a rod's first samples is above its room (or below), in K; 0 where neither is known, or
+/// where a rest of some hours could have left it.
+double start_above_room_K(const Machine& machine, const std::string& component, const recording::Recording& inputs);
+/// A rod is clearly not uniform or not as warm as its room, or parts that something else heats are warm already.
 bool starts_warm(const Machine& machine, const recording::Recording& inputs);
 /// How far apart the first samples of a component's sensors are, in K, beyond what offsets and noise account for; 0
 /// where nothing speaks against a uniform start.

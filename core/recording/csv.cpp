@@ -118,6 +118,23 @@ std::string in_utf8(std::string text) {
   return plain ? text : nlohmann::json::parse(json_text(text)).get<std::string>();
 }
 
+/// The name of a column as every other file can hold it: bytes that are no UTF-8 are read as Latin-1, so that two names
+/// that differ still do.
+std::string column_name(std::string name) {
+  if (in_utf8(name) == name) return name;
+  std::string read;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      read += c;
+    } else {
+      read += static_cast<char>(0xC0 | (byte >> 6));
+      read += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return read;
+}
+
 }  // namespace
 
 int TextTable::column(std::string_view name) const {
@@ -178,6 +195,7 @@ Result<double> number_in(const TextTable& table, std::size_t row, int column) {
 Result<Recording> parse_recording(std::string_view text, const std::string& file, const CsvOptions& options) {
   ZD_TRY(TextTable table, parse_table(text, file));
   for (auto& name : table.header) {
+    name = column_name(std::move(name));
     if (const auto at = options.header_map.find(name); at != options.header_map.end()) name = at->second;
   }
   if (table.header.front() != "time_s") {

@@ -1,6 +1,7 @@
 #pragma once
 // Recordings and plain tables as CSV by the contract: UTF-8 (BOM accepted), decimal point, comma, semicolon or tab
-// found from the header, empty cell = missing. Numbers are written with the fewest digits that read back the same.
+// found from the header, empty cell = missing; a column's name that is no UTF-8 is read as Latin-1. Numbers are written
+// with the fewest digits that read back the same.
 
 #include <filesystem>
 #include <map>

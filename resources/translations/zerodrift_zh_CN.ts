@@ -3474,6 +3474,14 @@
         <translation>记录中没有列 {column}：室温的变化只能由机床自身的温度推测，跟随室温的效应难以与之区分。</translation>
     </message>
     <message>
+        <source>The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be fitted as well. Start after a rest of some hours to be surer.</source>
+        <translation>记录开始时 {part} 比室温高 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。</translation>
+    </message>
+    <message>
+        <source>The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be fitted as well. Start after a rest of some hours to be surer.</source>
+        <translation>记录开始时 {part} 比室温低 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。</translation>
+    </message>
+    <message>
         <source>{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is {after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? It says nothing for or against the answer.</source>
         <translation>留出的记录 {recording} 与拟合记录所示的机床不符：{channel} 在那里相差 {after} {unit}（均方根），在此为 {here}。它是否来自另一台机床，或其间有所改动？它既不支持也不否定此答案。</translation>
     </message>

@@ -104,6 +104,46 @@ TEST(WrongSetUp, TwoCablesExchangedAreNamed) {
   EXPECT_TRUE(notes(*answer, "exchanged:" + first + ":" + last) || notes(*answer, "exchanged:" + last + ":" + first));
 }
 
+TEST(WrongSetUp, APlaceInInchesIsNamedBesideAHiddenEffect) {
+  for (const auto& [seed, id] :
+       {std::pair{312U, "coolant"}, std::pair{313U, "extra_heat_source"}, std::pair{314U, "structure_ambient"}}) {
+    proof::Case one = proof::make_case(seed, id);
+    one.recordings.resize(1);
+    auto& sensor = sensor_named(one.machine, "T2_C");
+    const double at_mm = sensor["position_mm"];
+    sensor["position_mm"] = at_mm / 25.4;
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(answer->effects.empty()) << id << " and " << answer->effects.front().id;
+    EXPECT_TRUE(notes(*answer, "misplaced:T2_C")) << id;
+  }
+}
+
+TEST(WrongSetUp, AStartThatIsNotAtRestIsToldAndNothingIsInventedForIt) {
+  int warm_starts = 0;
+  for (const unsigned seed : {315U, 316U, 317U, 318U}) {
+    proof::Case one = proof::make_case(seed, "none");
+    one.recordings.resize(1);
+    recording::Recording& run = one.recordings[0];
+    const std::size_t rows = run.rows();
+    run = recording::slice(run, rows / 3, rows / 3 + rows / 4);
+    for (const bool set_to_zero : {false, true}) {
+      for (auto& channel : run.channels) {
+        if (!set_to_zero || !channel.name.ends_with("_um")) continue;
+        const double first = channel.values.front();
+        for (double& value : channel.values) value -= first;
+      }
+      const auto answer = answer_with_details(one);
+      ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+      const bool warm = run.find("T1_C")->values.front() > run.find("ambient_C")->values.front() + 3.0;
+      EXPECT_TRUE(!warm || (says(*answer, "starts_warm") && notes(*answer, "warm_start:"))) << seed;
+      warm_starts += warm ? 1 : 0;
+      EXPECT_TRUE(answer->effects.empty()) << seed << answer->effects.front().id;
+    }
+  }
+  EXPECT_GE(warm_starts, 4);
+}
+
 TEST(WrongSetUp, ACutOfTheFittedRunIsNoSecondOne) {
   proof::Case one = proof::make_case(308, "none");
   one.recordings.resize(1);

@@ -128,6 +128,16 @@ TEST(Csv, ACellIsUtf8WhateverTheFileWasCalled) {
   EXPECT_EQ(cell_text("\xe7\x83\xad.png"), "\xe7\x83\xad.png");
 }
 
+TEST(Csv, NamesOfAnotherEncodingStayApart) {
+  const auto read = parse_recording("time_s,\xD6l_C,\xDCl_C\n0,1,2\n", "run");
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->channels[0].name, "\xC3\x96l_C");
+  EXPECT_EQ(read->channels[1].name, "\xC3\x9Cl_C");
+  const auto again = parse_recording(to_csv(*read), "run");
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->channels[1].name, read->channels[1].name);
+}
+
 TEST(Csv, WritesWhatItReads) {
   const std::string text = "time_s,spindle_rpm,T1_C\n0,3000,20.0625\n0.1,,0.1\n";
   const auto recording = parse_recording(text, "a.csv");

@@ -76,6 +76,12 @@ std::vector<TextEntry> texts_of_physics() {
       {"The recording has no column {column}: how the room went had to be guessed from the machine's own "
        "temperatures, and what follows the room can hardly be told from it.",
        "记录中没有列 {column}：室温的变化只能由机床自身的温度推测，跟随室温的效应难以与之区分。"},
+      {"The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
+       "fitted as well. Start after a rest of some hours to be surer.",
+       "记录开始时 {part} 比室温高 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。"},
+      {"The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be "
+       "fitted as well. Start after a rest of some hours to be surer.",
+       "记录开始时 {part} 比室温低 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。"},
       {"{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
        "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "
        "It says nothing for or against the answer.",
