@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 351> models = {{
+constexpr std::array<const char*, 352> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -419,6 +419,8 @@ constexpr std::array<const char*, 351> models = {{
         "core",
         "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
         "check its place, and that it is in millimetres."),
+    QT_TRANSLATE_NOOP(
+        "core", "The sensors read as if their places were described in {unit}, not in mm: correct the description."),
     QT_TRANSLATE_NOOP(
         "core",
         "{channel} and {other} read as if they had changed places: check their cables and the order of the columns."),

@@ -237,11 +237,12 @@ bool Diagnoser::shows_too_little() const {
 
 void Diagnoser::tell_misplaced() {
   const std::string other = m_misplaced->exchanged_with;
-  m_out.sentences.push_back(explain_note(other.empty() ? "misplaced" : "exchanged",
-                                         {{"channel", m_misplaced->channel},
-                                          {"other", other},
-                                          {"described", fmt::format("{:.4g}", m_misplaced->described_mm)},
-                                          {"at", fmt::format("{:.0f}", m_misplaced->at_mm)}}));
+  const char* id = !m_misplaced->all_in.empty() ? "places_in" : other.empty() ? "misplaced" : "exchanged";
+  m_out.sentences.push_back(explain_note(id, {{"channel", m_misplaced->channel},
+                                              {"other", other},
+                                              {"unit", m_misplaced->all_in},
+                                              {"described", fmt::format("{:.4g}", m_misplaced->described_mm)},
+                                              {"at", fmt::format("{:.0f}", m_misplaced->at_mm)}}));
 }
 
 /// A simulation that agrees only with numbers far from the description's does not bear the description out.

@@ -235,7 +235,7 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     s.id += "_bent";
   }
   if (diagnosis.doubtful) {
-    s.id += noted("misplaced:") || noted("exchanged:") ? "_misplaced" : "_doubtful";
+    s.id += noted("misplaced:") || noted("exchanged:") || noted("places_in:") ? "_misplaced" : "_doubtful";
   } else if (diagnosis.verdict == Verdict::unexplained) {
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
     s.facts = {{"channel", channel}, {"regime", regime_or_always(diagnosis.mismatch.regime)}};

@@ -1,6 +1,7 @@
 #include "core/diagnosis/misplaced.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -12,9 +13,15 @@ namespace {
 constexpr int places_per_rod = 16;
 constexpr FitOptions fit_options{8, 0.1, true};
 
+struct Unit {
+  const char* symbol;
+  double mm;
+};
+constexpr std::array other_units{Unit{"cm", 10.0}, Unit{"in", 25.4}, Unit{"m", 1000.0}};
+
 struct Trial {
   Misplaced what;
-  bool typical = false;  // an exchange, or the described number in another unit: nothing is free to suit the data
+  bool typical = false;  // an exchange, or described numbers in another unit: nothing is free to suit the data
   std::shared_ptr<Model> fit;
 };
 
@@ -76,17 +83,33 @@ void add_trials(std::vector<Trial>& trials, const Model& base, const physics::Se
   for (int i = 0; i < places_per_rod; ++i) {
     const double at_mm = (i + 0.5) / places_per_rod * length_mm;
     if (std::abs(at_mm - here_mm) > far * length_mm)
-      trials.push_back({{sensor.channel, here_mm, at_mm, {}}, false, {}});
+      trials.push_back({{sensor.channel, here_mm, at_mm, {}, {}}, false, {}});
   }
-  for (const double unit_mm : {10.0, 25.4, 1000.0}) {
-    const double at_mm = here_mm * unit_mm;
-    if (at_mm <= length_mm && at_mm - here_mm > far * length_mm) {
-      trials.push_back({{sensor.channel, here_mm, at_mm, {}}, true, {}});
-    }
+  for (const Unit& unit : other_units) {
+    const double at_mm = here_mm * unit.mm;
+    if (at_mm > length_mm || at_mm - here_mm <= far * length_mm) continue;
+    trials.push_back({{sensor.channel, here_mm, at_mm, {}, {}}, true, {}});
   }
   for (const physics::Sensor& other : all) {
     if (other.component != sensor.component || std::abs(other.position_mm - here_mm) < far * length_mm) continue;
-    trials.push_back({{sensor.channel, here_mm, other.position_mm, other.channel}, true, {}});
+    trials.push_back({{sensor.channel, here_mm, other.position_mm, other.channel, {}}, true, {}});
+  }
+}
+
+/// All places of a rod in another unit, told by the sensor that is farthest from the fixed end.
+void add_units(std::vector<Trial>& trials, const Model& base, const std::vector<physics::Sensor>& all) {
+  constexpr double most_of_length = 0.15;  // a rod whose sensors are all at its one end is no usual one
+  for (const physics::Sensor& sensor : all) {
+    const bool farthest = std::none_of(all.begin(), all.end(), [&](const physics::Sensor& other) {
+      return other.component == sensor.component && other.position_mm > sensor.position_mm;
+    });
+    const double length_mm = base.machine().find(sensor.component)->length_mm;
+    if (!farthest || sensor.position_mm > most_of_length * length_mm) continue;
+    for (const Unit& unit : other_units) {
+      const double at_mm = sensor.position_mm * unit.mm;
+      if (at_mm <= length_mm)
+        trials.push_back({{sensor.channel, sensor.position_mm, at_mm, {}, unit.symbol}, true, {}});
+    }
   }
 }
 
@@ -101,6 +124,12 @@ std::shared_ptr<Model> refitted(physics::Machine machine, const Model& like,
 /// The trial's places with the effects of `like`.
 void fit(Trial& trial, const Model& like, const std::shared_ptr<const Dataset>& data) {
   physics::Machine machine = like.machine();
+  if (!trial.what.all_in.empty()) {
+    const std::string component = sensor_of(machine, trial.what.channel).component;
+    for (physics::Sensor& sensor : machine.sensors) {
+      if (sensor.component == component) sensor.position_mm *= trial.what.at_mm / trial.what.described_mm;
+    }
+  }
   sensor_of(machine, trial.what.channel).position_mm = trial.what.at_mm;
   if (!trial.what.exchanged_with.empty()) {
     sensor_of(machine, trial.what.exchanged_with).position_mm = trial.what.described_mm;
@@ -125,7 +154,8 @@ const physics::Component& rod_of(const Trial& trial) {
 
 /// The same sensor at much the same place.
 bool same_place(const Trial& a, const Trial& b) {
-  const auto& [channel, described_mm, at_mm, exchanged_with] = a.what;
+  const auto& [channel, described_mm, at_mm, exchanged_with, all_in] = a.what;
+  if (!all_in.empty() || !b.what.all_in.empty()) return all_in == b.what.all_in;
   const bool swapped = channel == b.what.exchanged_with && exchanged_with == b.what.channel;
   if (!exchanged_with.empty() || !b.what.exchanged_with.empty()) {
     return swapped || (channel == b.what.channel && exchanged_with == b.what.exchanged_with);
@@ -212,6 +242,7 @@ std::vector<Trial> leaders(const std::vector<Trial>& one, const std::vector<Tria
 }  // namespace
 
 std::string note_of(const Misplaced& found) {
+  if (!found.all_in.empty()) return "places_in:" + found.all_in;
   return found.exchanged_with.empty() ? "misplaced:" + found.channel
                                       : "exchanged:" + found.channel + ":" + found.exchanged_with;
 }
@@ -223,6 +254,7 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
   const std::vector<physics::Sensor> all = missed_most(base);
   std::vector<Trial> trials;
   for (const physics::Sensor& sensor : suspects(base, best, contest.sound())) add_trials(trials, base, sensor, all);
+  add_units(trials, base, all);
   const std::vector<Trial> alone = contest.tried_beside(contest.base(), trials);
   const std::vector<Trial> beside = contest.tried_beside(contest.sound(), trials);
   std::vector<Trial> leading = leaders(alone, beside);
@@ -235,7 +267,7 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
   for (Trial& one : leading) {
     const auto selected = select_effects(without_candidates(one.fit->machine()), data, facts, limits, context);
     if (!selected) return std::nullopt;
-    fit(one, *selected->best, data);
+    one.fit = refitted(selected->best->machine(), *selected->best, data);
     if (likelier(one, found)) found = one;
   }
   contest.narrow(found);

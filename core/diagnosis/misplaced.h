@@ -14,9 +14,10 @@ struct Misplaced {
   double described_mm = 0.0;
   double at_mm = 0.0;          // where it reads as if it sat
   std::string exchanged_with;  // the channel with which it changes places; empty: it alone
+  std::string all_in;  // the unit that suits the places of all sensors of its component: "cm", "in", "m"; or empty
 };
 
-/// "misplaced:CHANNEL" or "exchanged:CHANNEL:CHANNEL".
+/// "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT".
 std::string note_of(const Misplaced& found);
 
 /// The sensor whose place, changed, explains the recording far better than `best` does, beside what `best` names of

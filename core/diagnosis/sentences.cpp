@@ -50,6 +50,8 @@ constexpr std::array catalogue{
     Entry{"misplaced",
           "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
           "check its place, and that it is in millimetres."},
+    Entry{"places_in",
+          "The sensors read as if their places were described in {unit}, not in mm: correct the description."},
     Entry{"exchanged",
           "{channel} and {other} read as if they had changed places: check their cables and the order of the columns."},
     Entry{"room_not_logged",

@@ -3466,6 +3466,10 @@
         <translation>{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm 处的：请检查其位置以及单位是否为毫米。</translation>
     </message>
     <message>
+        <source>The sensors read as if their places were described in {unit}, not in mm: correct the description.</source>
+        <translation>各传感器的读数表明其位置是以 {unit} 而非 mm 描述的：请更正描述。</translation>
+    </message>
+    <message>
         <source>{channel} and {other} read as if they had changed places: check their cables and the order of the columns.</source>
         <translation>{channel} 与 {other} 的读数像是互换了位置：请检查接线和列的顺序。</translation>
     </message>

@@ -105,8 +105,7 @@ TEST(WrongSetUp, TwoCablesExchangedAreNamed) {
 }
 
 TEST(WrongSetUp, APlaceInInchesIsNamedBesideAHiddenEffect) {
-  for (const auto& [seed, id] :
-       {std::pair{312U, "coolant"}, std::pair{313U, "extra_heat_source"}, std::pair{314U, "structure_ambient"}}) {
+  for (const auto& [seed, id] : {std::pair{313U, "extra_heat_source"}, std::pair{314U, "structure_ambient"}}) {
     proof::Case one = proof::make_case(seed, id);
     one.recordings.resize(1);
     auto& sensor = sensor_named(one.machine, "T2_C");
@@ -117,6 +116,19 @@ TEST(WrongSetUp, APlaceInInchesIsNamedBesideAHiddenEffect) {
     EXPECT_TRUE(answer->effects.empty()) << id << " and " << answer->effects.front().id;
     EXPECT_TRUE(notes(*answer, "misplaced:T2_C")) << id;
   }
+}
+
+TEST(WrongSetUp, AllPlacesInInchesAreNamed) {
+  proof::Case one = proof::make_case(319, "coolant");
+  one.recordings.resize(1);
+  for (auto& sensor : one.machine["sensors"]) {
+    if (sensor.contains("position_mm")) sensor["position_mm"] = sensor["position_mm"].get<double>() / 25.4;
+  }
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(answer->effects.empty());
+  EXPECT_TRUE(notes(*answer, "places_in:in"));
+  EXPECT_TRUE(says(*answer, "places_in"));
 }
 
 TEST(WrongSetUp, AStartThatIsNotAtRestIsToldAndNothingIsInventedForIt) {

@@ -71,6 +71,8 @@ std::vector<TextEntry> texts_of_physics() {
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "
        "处的：请检查其位置以及单位是否为毫米。"},
+      {"The sensors read as if their places were described in {unit}, not in mm: correct the description.",
+       "各传感器的读数表明其位置是以 {unit} 而非 mm 描述的：请更正描述。"},
       {"{channel} and {other} read as if they had changed places: check their cables and the order of the columns.",
        "{channel} 与 {other} 的读数像是互换了位置：请检查接线和列的顺序。"},
       {"The recording has no column {column}: how the room went had to be guessed from the machine's own "
