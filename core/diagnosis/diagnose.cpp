@@ -52,12 +52,20 @@ Excess excess_under(const physics::Prediction& prediction, const Dataset& data) 
   return e;
 }
 
+/// What is fitted to this recording keeps its meaning in others.
+Machine told_at(Machine machine, const Recording& recording) {
+  if (!machine.reference_temperature_C) {
+    machine.reference_temperature_C = physics::mean_initial_temperature_C(machine, recording);
+  }
+  return machine;
+}
+
 }  // namespace
 
 Diagnoser::Diagnoser(const Machine& machine, const std::vector<Recording>& recordings, const DiagnoseOptions& options,
                      const TaskContext& context)
     : m_machine(machine),
-      m_bodies(with_inner_bodies(machine)),
+      m_bodies(told_at(with_inner_bodies(machine), recordings.front())),
       m_recordings(recordings),
       m_fitted(thinned(recordings.front(), most_rows)),
       m_options(options),

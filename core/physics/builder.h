@@ -37,6 +37,8 @@ class NetworkBuilder {
   const Network::Place& place(const std::string& component) const;
   double reference_C(const std::string& component) const;  // initial temperature
   double mean_initial_C() const { return m_mean_initial_C; }
+  /// At which a law has the strength described: the machine's, or the start.
+  double law_reference_C() const { return m_machine.reference_temperature_C.value_or(m_mean_initial_C); }
 
   int add_parameter(Parameter parameter);
   /// A parameter of an effect: for a candidate with the effect's own prior, for a described effect around its value
@@ -116,5 +118,7 @@ Network build_network(const Machine& machine, const recording::Recording& inputs
 double nominal_heat_W(const HeatSource& source, double input, double full_speed_rpm);
 /// The initial temperature of each component: the description's, or the first samples.
 std::map<std::string, double> initial_temperatures(const Machine& machine, const recording::Recording& inputs);
+/// Their mean over what nothing else heats.
+double mean_initial_temperature_C(const Machine& machine, const recording::Recording& inputs);
 
 }  // namespace zerodrift::physics

@@ -284,14 +284,7 @@ void NetworkBuilder::add_displacements() {
 
 void NetworkBuilder::build() {
   m_initial_C = initial_temperatures(m_machine, m_inputs);
-  double sum = 0.0;
-  int count = 0;
-  for (const auto& [id, value] : m_initial_C) {
-    if (m_machine.find(id)->prescribed) continue;  // something else heats it
-    sum += value;
-    ++count;
-  }
-  if (count > 0) m_mean_initial_C = sum / count;
+  m_mean_initial_C = mean_initial_temperature_C(m_machine, m_inputs);
   Parameter hold;
   hold.key = "hold";
   // An input switches anywhere between two samples, unless its time is known better (or worse).

@@ -47,6 +47,17 @@ std::map<std::string, double> initial_temperatures(const Machine& machine, const
   return result;
 }
 
+double mean_initial_temperature_C(const Machine& machine, const recording::Recording& inputs) {
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& [id, value] : initial_temperatures(machine, inputs)) {
+    if (machine.find(id)->prescribed) continue;
+    sum += value;
+    ++count;
+  }
+  return count > 0 ? sum / count : machine.initial_temperature_C.value_or(20.0);
+}
+
 std::map<std::string, Profile> warm_start_profiles(const Machine& machine, const recording::Recording& inputs) {
   std::map<std::string, Profile> warm;
   const auto initial = initial_temperatures(machine, inputs);

@@ -163,6 +163,9 @@ struct Machine {
   std::string file;  // for messages
   std::string name;
   std::optional<double> initial_temperature_C;
+  /// At which the laws that change with temperature have the strength described; the start, where it is not stated. A
+  /// law that was fitted to one recording has to be the same in the next, which starts on another morning.
+  std::optional<double> reference_temperature_C;
   std::vector<Component> components;
   std::vector<Coupling> couplings;
   std::vector<Fluid> fluids;

@@ -115,12 +115,14 @@ void read_inner_body(JsonObject& o, Component& component) {
   inner.coupling_rise = o.number_or("coupling_rise", 0.0, not_negative);
   inner.growth_share = o.number_or("growth_share", inner.section_share, share);
   inner.shaft_in_cartridge = o.flag_or("shaft_in_cartridge", false);
+  JsonObject* heat_share = o.object_if("heat_share");
+  JsonObject* contact_W_K = o.object_if("contact_W_K");
   for (const auto& source : component.sources) {
-    if (JsonObject* part = o.object_if("heat_share"); part != nullptr && part->has(source.id)) {
-      inner.heat_share[source.id] = part->number(source.id, share);
+    if (heat_share != nullptr && heat_share->has(source.id)) {
+      inner.heat_share[source.id] = heat_share->number(source.id, share);
     }
-    if (JsonObject* part = o.object_if("contact_W_K"); part != nullptr && part->has(source.id)) {
-      inner.contact_W_K[source.id] = part->number(source.id, positive);
+    if (contact_W_K != nullptr && contact_W_K->has(source.id)) {
+      inner.contact_W_K[source.id] = contact_W_K->number(source.id, positive);
     }
   }
   if (JsonObject* near = o.object_if("near_field_K_W")) {
@@ -325,6 +327,7 @@ Machine read_root(JsonObject& root) {
   if (format != "zerodrift-machine/1") root.reject("format", format, "zerodrift-machine/1");
   machine.name = root.text_or("name", "");
   machine.initial_temperature_C = root.number_if("initial_temperature_C", temperature_range);
+  machine.reference_temperature_C = root.number_if("reference_temperature_C", temperature_range);
   machine.input_timing_sigma_s = root.number_or("input_timing_sigma_s", 0.0, not_negative);
   const bool make_lumps = !root.has("components");
   for (JsonObject& o : root.objects_or_empty("components")) {

@@ -74,6 +74,7 @@ json to_json(const Machine& machine) {
   document["format"] = "zerodrift-machine/1";
   document["name"] = machine.name;
   if (machine.initial_temperature_C) document["initial_temperature_C"] = *machine.initial_temperature_C;
+  if (machine.reference_temperature_C) document["reference_temperature_C"] = *machine.reference_temperature_C;
   for (const auto& component : machine.components)
     write_component(entry(document["components"], component.id), component);
   for (std::size_t i = 0; i < machine.couplings.size() && document.contains("couplings"); ++i) {

@@ -20,7 +20,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     BearingModifier m;
     m.kind = form.kind;
     m.parameter = builder.effect_parameter(spec, index, form.key);
-    m.reference_C = builder.mean_initial_C();
+    m.reference_C = builder.law_reference_C();
     modify_bearings(builder, spec, m);
   }
 }

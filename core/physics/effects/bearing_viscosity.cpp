@@ -8,7 +8,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   BearingModifier m;
   m.kind = BearingModifier::Kind::viscosity;
   m.parameter = builder.effect_parameter(spec, index, "beta_1_K");
-  m.reference_C = spec.number_or("reference_C", builder.mean_initial_C());
+  m.reference_C = spec.number_or("reference_C", builder.law_reference_C());
   modify_bearings(builder, spec, m);
 }
 

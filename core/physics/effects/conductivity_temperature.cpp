@@ -30,7 +30,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
       term.links = {{at.first + face - 1, at.first + face, 1.0}};
       term.driver = {{at.first + face - 1, 0.5}, {at.first + face, 0.5}};
       term.parameters = {slope, builder.conductivity(component.id)};
-      term.law = face_law(component.section_m2() / at.cell_m, builder.reference_C(component.id));
+      term.law = face_law(component.section_m2() / at.cell_m, builder.law_reference_C());
       builder.add(std::move(term));
     }
   });

@@ -41,7 +41,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     if (!fluid.flow_channel.empty()) flow = fluid.flow_channel;
   }
   if (liquid.series < 0) {
-    liquid.parts.push_back({builder.effect_parameter(spec, index, "temperature_C", builder.mean_initial_C()), -1});
+    liquid.parts.push_back({builder.effect_parameter(spec, index, "temperature_C", builder.law_reference_C()), -1});
     // A tank without a chiller follows the room, one with a chiller does not.
     Parameter follows;
     follows.key = "follows_room";
@@ -52,7 +52,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     follows.sigma = spec.candidate ? 0.4 : 0.0;
     follows.low = 0.0;
     follows.high = 1.0;
-    liquid.parts.push_back({builder.add_parameter(follows), room_rise_signal(builder)});
+    liquid.parts.push_back({builder.add_parameter(follows), room_rise_signal(builder, builder.law_reference_C())});
   }
   const int environment = builder.environment(std::move(liquid));
   for_components(builder, spec, [&](const Component& component) {

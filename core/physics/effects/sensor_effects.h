@@ -22,11 +22,11 @@ inline std::vector<EffectSpec> one_a_sensor(const Machine& machine, const RunFac
   return list;
 }
 
-/// A signal: room temperature less the start temperature.
-inline int room_rise_signal(NetworkBuilder& builder) {
+/// A signal: room temperature less the start temperature, or less another.
+inline int room_rise_signal(NetworkBuilder& builder, std::optional<double> from_C = std::nullopt) {
   const Environment& room = builder.network().environments[builder.room()];
   const int series = room.series;
-  const double start_C = builder.mean_initial_C();
+  const double start_C = from_C.value_or(builder.mean_initial_C());
   return builder.signal({"room_rise", [=](const double*, const double* linear, double) {
                            return series >= 0 ? linear[series] - start_C : 0.0;
                          }});
