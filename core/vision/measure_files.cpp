@@ -247,7 +247,7 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
                                                     const fs::path& folder, std::vector<std::string>* warnings,
                                                     const TaskContext& context) {
   ZD_TRY(const std::vector<fs::path> files, pictures_in(folder, warnings));
-  const Target taught = request.learn ? target.learned_from(sample_of(files)) : target;
+  const Target taught = request.learn ? target.learned_from(sample_of(files), Cover::possible) : target;
   std::vector<FramePosition> out;
   for (const fs::path& file : files) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);

@@ -70,6 +70,7 @@ constexpr double part_correlation = 0.98;
 constexpr double rough_correlation = 0.9;
 constexpr double rough_coarse_correlation = 0.5;
 constexpr double rough_place_px = 0.3;     // what is known worse is known as well by the coarse search, to half a pixel
+constexpr double some_covered = 0.05;      // of the region, by what neither travels nor stood there before
 constexpr int least_moved = 3;             // frames in which the target is elsewhere
 constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
 
@@ -135,34 +136,6 @@ double merit(const Registration& r) {
 
 }  // namespace
 
-std::string_view words_of(Refusal refusal) {
-  switch (refusal) {
-    case Refusal::none:
-      return "";
-    case Refusal::missing:
-      return "target missing";
-    case Refusal::wrong_target:
-      return "target occluded, or another one";
-    case Refusal::occluded:
-      return "target occluded";
-    case Refusal::glare:
-      return "glare";
-    case Refusal::blurred:
-      return "too blurred";
-    case Refusal::out_of_view:
-      return "target out of view";
-    case Refusal::too_different:
-      return "too different from the template";
-    case Refusal::ambiguous:
-      return "seen in part, may be a period further";
-    case Refusal::moved_apart:
-      return "parts of the region have moved apart";
-    case Refusal::other_size:
-      return "another resolution than the template";
-  }
-  return "";
-}
-
 struct Target::Impl {
   GrayImage image;
   Region region;
@@ -224,6 +197,20 @@ struct Target::Impl {
       }
       out.push_back(candidates[order[k]]);
     }
+    return out;
+  }
+
+  RegisteredFrame place_of(const GrayImage& frame, const Location& at) const {
+    return {&frame, {at.point.x_px - point.x_px, at.point.y_px - point.y_px}, at.linear, at.lens};
+  }
+
+  // Empty where hardly anything lies over the target: as it moves, it hides and uncovers some of what stands behind it.
+  std::vector<std::uint8_t> under_a_cover(const GrayImage& frame, const Location& at,
+                                          const std::vector<float>& residual_map) const {
+    std::vector<std::uint8_t> out = pixels_under_a_cover(image, region, point, place_of(frame, at), residual_map);
+    std::size_t covered = 0;
+    for (std::size_t k = 0; k < out.size(); ++k) covered += out[k] != 0 && mask[k] != 0;
+    if (static_cast<double>(covered) <= some_covered * static_cast<double>(mask.size())) out.clear();
     return out;
   }
 
@@ -352,6 +339,16 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   return out;
 }
 
+namespace {
+
+// Though it may be refused.
+bool roughly_known(const Location& at, const Registration& fit) {
+  const double sigma_px = std::sqrt(fit.covariance_px2.diagonal().maxCoeff());
+  return at.correlation > rough_correlation && at.inlier_share > least_inliers && sigma_px < rough_place_px;
+}
+
+}  // namespace
+
 // Where a frame shows the target; `rough`: as far as can be told before what stands behind it is known.
 std::optional<RegisteredFrame> Target::place_in(const GrayImage& frame, bool rough) const {
   Registration fit;
@@ -359,8 +356,7 @@ std::optional<RegisteredFrame> Target::place_in(const GrayImage& frame, bool rou
   if (at.ok) return RegisteredFrame{&frame, {at.x_px, at.y_px}, at.linear, at.lens};
   if (!rough) return std::nullopt;
   RegisteredFrame out{&frame, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), {}};
-  const double sigma_px = std::sqrt(fit.covariance_px2.diagonal().maxCoeff());
-  if (at.correlation > rough_correlation && at.inlier_share > least_inliers && sigma_px < rough_place_px) {
+  if (roughly_known(at, fit)) {
     out.displacement_px = {at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px};
     return out;
   }
@@ -374,6 +370,19 @@ std::vector<RegisteredFrame> Target::places_in(const std::vector<GrayImage>& fra
   std::vector<RegisteredFrame> out;
   for (const GrayImage& frame : frames) {
     if (const auto place = place_in(frame, rough)) out.push_back(*place);
+  }
+  return out;
+}
+
+// What lies over the target in some frames would be learned as what stands behind it.
+std::vector<GrayImage> Target::without_covered(const std::vector<GrayImage>& frames) const {
+  std::vector<GrayImage> out;
+  for (const GrayImage& frame : frames) {
+    Registration fit;
+    std::vector<float> map;
+    const Location at = search(frame, &map, &fit);
+    const bool known = at.ok || roughly_known(at, fit);
+    if (!known || m_impl->under_a_cover(frame, at, map).empty()) out.push_back(frame);
   }
   return out;
 }
@@ -397,25 +406,28 @@ Target Target::learned_backdrop(const std::vector<GrayImage>& frames) const {
 
 // A region with much of what stands still in it looks hidden in part until that has been left out: `in_part` counts
 // such frames, where the others are too few to learn from.
-Target Target::without_what_stands(const std::vector<GrayImage>& frames, bool in_part) const {
-  std::vector<std::vector<float>> whole, part;
+Target Target::without_what_stands(const std::vector<GrayImage>& frames, bool in_part, Cover cover) const {
+  std::vector<ShownFrame> whole, part;
   int moved = 0, moved_in_part = 0;
   for (const GrayImage& frame : frames) {
-    std::vector<float> map;
-    const Location at = search(frame, &map);
+    ShownFrame shown;
+    const Location at = search(frame, &shown.residual_map);
+    if (!at.ok && !fits_in_part(at)) continue;
+    if (cover == Cover::possible) shown.under_a_cover = m_impl->under_a_cover(frame, at, shown.residual_map);
     const bool moves =
         std::hypot(at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px) > least_move_px;
-    if (at.ok) whole.push_back(map), moved += moves;
-    if (at.ok || fits_in_part(at)) part.push_back(std::move(map)), moved_in_part += moves;
+    if (at.ok) whole.push_back(shown), moved += moves;
+    part.push_back(std::move(shown)), moved_in_part += moves;
   }
   if (!in_part) return moved >= least_moved ? with_mask(travelling_pixels(m_impl->region, whole)) : *this;
   if (moved >= least_moved || moved_in_part < least_moved) return *this;
   return with_mask(travelling_pixels(m_impl->region, part));
 }
 
-Target Target::learned_from(const std::vector<GrayImage>& frames) const {
-  const Target seen = without_what_stands(frames, true);
-  const Target masked = seen.learned_backdrop(frames).without_what_stands(frames, false);
+Target Target::learned_from(const std::vector<GrayImage>& frames, Cover cover) const {
+  const Target seen = without_what_stands(frames, true, cover);
+  const std::vector<GrayImage> open = cover == Cover::possible ? seen.without_covered(frames) : frames;
+  const Target masked = seen.learned_backdrop(open).without_what_stands(open, false, cover);
   std::vector<LensTerm> lenses;
   for (const GrayImage& frame : frames) {
     const Location at = masked.search(frame);

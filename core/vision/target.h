@@ -55,6 +55,9 @@ struct Location {
 
 struct Registration;
 
+/// Whether something may lie over the target in frames that are learned from. In a calibration's views nothing does.
+enum class Cover { none, possible };
+
 class Target {
  public:
   /// `name` is the file's, for messages. Without a point the centre of the region is measured. A region within a
@@ -68,7 +71,7 @@ class Target {
   /// The same target, having learned from frames in which it was moved (the calibration's): what stands behind it,
   /// which pixels of its region do not travel with it, and the lens. Frames in which it is not found are left out;
   /// fewer than three teach no mask.
-  Target learned_from(const std::vector<GrayImage>& frames) const;
+  Target learned_from(const std::vector<GrayImage>& frames, Cover cover = Cover::none) const;
   /// The same with what was measured of the lens.
   Target with_lens(const LensTerm& lens) const;
 
@@ -91,7 +94,8 @@ class Target {
   std::optional<RegisteredFrame> place_in(const GrayImage& frame, bool rough) const;
   std::vector<RegisteredFrame> places_in(const std::vector<GrayImage>& frames, bool rough) const;
   Target learned_backdrop(const std::vector<GrayImage>& frames) const;
-  Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part) const;
+  std::vector<GrayImage> without_covered(const std::vector<GrayImage>& frames) const;
+  Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part, Cover cover) const;
   Location search(const GrayImage& frame, std::vector<float>* residual_map = nullptr,
                   Registration* fit = nullptr) const;
   explicit Target(std::shared_ptr<const Impl> impl, LensTerm lens = {}) : m_impl(std::move(impl)), m_lens(lens) {}

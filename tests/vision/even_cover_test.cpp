@@ -20,7 +20,7 @@ constexpr double middle_x = 160.0;
 constexpr double middle_y = 120.0;
 const Region face_region{79, 39, 164, 164};
 
-struct Cover {
+struct EvenCover {
   double towards_rad = 0.0;
   double from_middle_px = 1e3;  // of the target: there its straight edge is
   double level = 0.0;
@@ -59,7 +59,7 @@ std::vector<double> blurred_along(const std::vector<double>& from, int step, int
   return out;
 }
 
-GrayImage face(double dx, double dy, unsigned seed, const Cover& cover = {}) {
+GrayImage face(double dx, double dy, unsigned seed, const EvenCover& cover = {}) {
   constexpr int parts = 3;
   std::vector<double> levels(static_cast<std::size_t>(picture_width) * picture_height);
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -92,8 +92,8 @@ int measured_under_covers(const Target& target) {
   constexpr double dx = 4.3, dy = -2.6;
   int measured = 0;
   for (int k = 0; k < 24; ++k) {
-    const Cover cover{k * std::numbers::pi / 4.0 + 0.2, 30.0 - 10.0 * (k / 8),
-                      k % 3 == 0 ? 40.0 : 45.0 + 15.0 * (k % 3)};
+    const EvenCover cover{k * std::numbers::pi / 4.0 + 0.2, 30.0 - 10.0 * (k / 8),
+                          k % 3 == 0 ? 40.0 : 45.0 + 15.0 * (k % 3)};
     const Location at = target.locate(face(dx, dy, 50u + static_cast<unsigned>(k), cover));
     if (!at.ok) continue;
     ++measured;
@@ -119,6 +119,21 @@ TEST(EvenCover, AsBrightAsWhatIsKnownToStandBehindIsNoTarget) {
 
 TEST(EvenCover, IsNoChangeOfLight) {
   measured_under_covers(face_at_rest());
+}
+
+// Covers that hide the same part in each frame, each a little differently, are no part of the target that stands still,
+// and what is as bright as they are does not stand behind it.
+TEST(EvenCover, TeachesNothingOfTheTarget) {
+  std::vector<GrayImage> frames;
+  for (int k = 0; k < 9; ++k) {
+    const EvenCover cover{0.15 * (k % 3 - 1), 30.0 + k, 40.0 + 5.0 * k};
+    frames.push_back(face(6.0 * (k / 3 - 1), 6.0 * (k % 3 - 1), 90u + static_cast<unsigned>(k), cover));
+  }
+  const Target target = face_at_rest();
+  EXPECT_NE(target.learned_from(frames).mask(), target.mask());
+  const Target taught = target.learned_from(frames, Cover::possible);
+  EXPECT_EQ(taught.mask(), target.mask());
+  EXPECT_FALSE(taught.backdrop());
 }
 
 // A lamp that has moved lights one side half as much again as the other: that is no cover.
