@@ -75,6 +75,17 @@ CLI::App* Cli::add(const std::string& name, const std::string& description, Comm
   return command;
 }
 
+CLI::App* Cli::add(const std::string& name, const std::string& description, FillingCommand run) {
+  return add(name, description, [this, run = std::move(run)](const TaskContext& context) -> Result<CommandOutput> {
+    CommandOutput output;
+    if (const Status done = run(context, output); !done) {
+      warnings_of_failed = std::move(output.warnings);
+      return fail(done.error());
+    }
+    return output;
+  });
+}
+
 Result<std::vector<double>> numbers_from(const std::string& text, const std::string& option, std::size_t count) {
   std::vector<double> numbers;
   for (const auto& part : split(text)) {

@@ -23,6 +23,8 @@ struct CommandOutput {
 };
 
 using Command = std::function<Result<CommandOutput>(const TaskContext&)>;
+/// The same for a command whose warnings are told when it fails, too.
+using FillingCommand = std::function<Status(const TaskContext&, CommandOutput&)>;
 
 class Cli {
  public:
@@ -31,11 +33,13 @@ class Cli {
   /// Declares a subcommand with --json; `run` is called when it was chosen. Options are added to the returned App and
   /// may be bound to a struct kept alive by the command (std::make_shared<Options>() captured by `run`).
   CLI::App* add(const std::string& name, const std::string& description, Command run);
+  CLI::App* add(const std::string& name, const std::string& description, FillingCommand run);
   CLI::App& app() { return m_app; }
 
   bool json_output = false;
   Command chosen;
   std::string chosen_name;
+  std::vector<std::string> warnings_of_failed;  // what was gathered before the error
 
  private:
   CLI::App& m_app;

@@ -78,8 +78,10 @@ int run_command(zerodrift::cli::Cli& cli) {
   if (terminal) context.report = show_progress;
   const auto output = cli.chosen(context);
   if (terminal) std::fprintf(stderr, "\r%70s\r", "");
+  for (const auto& warning : output ? output->warnings : cli.warnings_of_failed) {
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  }
   if (!output) return print_error(output.error());
-  for (const auto& warning : output->warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const std::string text = cli.json_output ? zerodrift::json_text(output->json, 2) : output->text;
   if (!text.empty()) std::printf("%s\n", text.c_str());
   return 0;

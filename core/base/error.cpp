@@ -36,6 +36,17 @@ int error_code_count() {
   return static_cast<int>(rows.size());
 }
 
+std::string shortened(std::string found) {
+  constexpr std::size_t longest = 60;
+  constexpr std::string_view more = "...";
+  if (found.size() <= longest) return found;
+  std::size_t end = longest - more.size();
+  // Not within a character of several bytes (UTF-8).
+  while (end > 0 && (static_cast<unsigned char>(found[end]) & 0xC0) == 0x80) --end;
+  found.resize(end);
+  return found.append(more);
+}
+
 std::string describe(const Error& error) {
   std::string text(name_of(error.code));
   for (const auto& [key, value] : error.context) {

@@ -29,6 +29,8 @@ std::string_view name_of(ErrorCode code);
 std::string_view context_keys_of(ErrorCode code);
 /// Number of codes; codes are 0 .. count - 1.
 int error_code_count();
+/// What was found, for a message: as it is, or its beginning where it is long - a whole picture in base64, for example.
+std::string shortened(std::string found);
 /// One line for logs and test messages: "csv_bad_number file=a.csv line=3".
 std::string describe(const Error& error);
 

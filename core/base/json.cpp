@@ -13,10 +13,7 @@ using nlohmann::json;
 namespace {
 
 std::string shown(const json& value) {
-  std::string text = json_text(value);
-  if (text.size() <= 60) return text;
-  text.resize(57);
-  return text + "...";
+  return shortened(json_text(value));
 }
 
 /// The library's sentence without its own name and position: what was found and what was expected.
@@ -25,6 +22,13 @@ std::string words_of(const json::exception& error) {
   for (const std::string_view before : {std::string_view("] "), std::string_view("syntax error ")}) {
     const std::size_t at = text.find(before);
     if (at != std::string::npos) text = text.substr(at + before.size());
+  }
+  // It quotes all of the value at which it stopped.
+  constexpr std::string_view quote = "last read: '";
+  if (const std::size_t at = text.find(quote); at != std::string::npos) {
+    const std::size_t begin = at + quote.size();
+    const std::size_t end = std::max(text.rfind('\''), begin);
+    text = text.substr(0, begin) + shortened(text.substr(begin, end - begin)) + text.substr(end);
   }
   return text;
 }
@@ -84,9 +88,11 @@ bool JsonObject::has(std::string_view key) const {
 }
 
 void JsonObject::reject(std::string_view key, std::string found, std::string expected) const {
-  throw JsonFault{
-      {ErrorCode::json_bad_value,
-       {{"file", m_file}, {"key", full(key)}, {"found", std::move(found)}, {"expected", std::move(expected)}}}};
+  throw JsonFault{{ErrorCode::json_bad_value,
+                   {{"file", m_file},
+                    {"key", full(key)},
+                    {"found", shortened(std::move(found))},
+                    {"expected", std::move(expected)}}}};
 }
 
 void JsonObject::missing(std::string_view key, std::string expected) const {

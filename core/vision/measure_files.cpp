@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_cell = 60;  // of a file from elsewhere, in a message
 const char* const folder_of_pictures = "a folder of PNG, JPEG, BMP or TIFF pictures";
 
 void warn(std::vector<std::string>* warnings, std::string text) {
@@ -174,7 +173,7 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::s
     if (columns[k] >= 0) continue;
     return fail(ErrorCode::csv_bad_header, {{"file", file.string()},
                                             {"column", std::to_string(k + 1)},
-                                            {"found", k < table.header.size() ? table.header[k] : ""},
+                                            {"found", k < table.header.size() ? shortened(table.header[k]) : ""},
                                             {"expected", "image,x_mm,y_mm"}});
   }
   std::vector<ViewRow> out;
@@ -191,7 +190,7 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::s
         continue;
       }
       const std::string& cell = table.rows[row][static_cast<std::size_t>(columns[k])];
-      const std::string found = cell.empty() ? "an empty cell" : cell.substr(0, longest_cell);
+      const std::string found = cell.empty() ? "an empty cell" : shortened(cell);
       const std::string place = fmt::format("{}, line {}, {}", file.string(), table.lines[row], names[k]);
       warn(warnings, fmt::format("{}: \"{}\" is no position in mm; {} was left out", place, found, view.name));
       if (!first_fault) {
@@ -256,8 +255,7 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
     position.frame = file.filename().string();
     const Result<DecodedImage> picture = read_image(file);
     if (!picture) {
-      position.location = unreadable(short_reason(picture.error()));
-      warn(warnings, position.frame + ": " + position.location.reason);
+      position.location = unreadable(short_reason(picture.error()));  // told with the frame's row
     } else {
       if (!picture->note.empty()) warn(warnings, position.frame + ": " + picture->note);
       std::vector<Location> marks;

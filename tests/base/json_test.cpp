@@ -22,6 +22,23 @@ TEST(Json, SyntaxErrorNamesLineAndColumn) {
   EXPECT_EQ(document.error().context.at("line"), "3");
 }
 
+// A damaged file may hold a whole picture in one value.
+TEST(Json, OnlyTheBeginningOfALongValueIsShown) {
+  const std::string picture(2000, 'A');
+  const auto open = parse_json("{\"picture\": \"" + picture, "a.json");
+  ASSERT_FALSE(open);
+  EXPECT_LT(open.error().context.at("detail").size(), 200U);
+  EXPECT_NE(open.error().context.at("detail").find("AAA...'"), std::string::npos);
+  std::vector<std::string> warnings;
+  const auto word = read(("{\"a\": \"" + picture + "\"}").c_str(), warnings, [](JsonObject& o) {
+    o.word("a", {"yes", "no"});
+  });
+  ASSERT_FALSE(word);
+  EXPECT_EQ(word.error().context.at("found"), std::string(57, 'A') + "...");
+  EXPECT_EQ(shortened(std::string(58, 'A') + "\u00b5m"), std::string(57, 'A') + "...");
+  EXPECT_EQ(shortened(std::string(56, 'A') + "\u00b5mmmm"), std::string(56, 'A') + "...");
+}
+
 TEST(Json, MissingKeyNamesItsPath) {
   std::vector<std::string> warnings;
   const auto status = read(R"({"steps": [{"a": 1}]})", warnings, [](JsonObject& o) {

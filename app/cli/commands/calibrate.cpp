@@ -34,8 +34,7 @@ std::string text_of(const vision::Calibration& c) {
   return text;
 }
 
-Result<CommandOutput> run(const Options& options, const TaskContext& context) {
-  CommandOutput output;
+Status run(const Options& options, const TaskContext& context, CommandOutput& output) {
   vision::TemplateChoice choice{options.image, {}, {}};
   ZD_TRY(choice.region, region_from(options.region, "--roi"));
   ZD_TRY(choice.point, point_from(options.point, "--point"));
@@ -54,7 +53,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   ZD_CHECK(write_json_file(options.out, output.json));
   for (const std::string& warning : result.calibration.warnings) output.warnings.push_back(warning);
   output.text = text_of(result.calibration);
-  return output;
+  return {};
 }
 
 }  // namespace calibrate_command
@@ -62,8 +61,9 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
 void add_calibrate(Cli& cli) {
   using namespace calibrate_command;
   auto options = std::make_shared<Options>();
-  CLI::App* command = cli.add("calibrate", "Calibrate a camera from views of the target at known machine positions",
-                              [options](const TaskContext& context) { return run(*options, context); });
+  CLI::App* command =
+      cli.add("calibrate", "Calibrate a camera from views of the target at known machine positions",
+              [options](const TaskContext& context, CommandOutput& output) { return run(*options, context, output); });
   command->add_option("--template", options->image, "Picture of the target at rest")->required();
   command->add_option("--roi", options->region, "Region of the target, X,Y,W,H in px; found by itself if absent")
       ->check(check_region);

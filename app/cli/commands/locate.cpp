@@ -73,6 +73,10 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
   }
   ZD_TRY(vision::Target target, std::move(loaded));
   if (stored) ZD_CHECK(vision::made_with(*stored, target, options.calibration, options.image));
+  if (request.calibration && !(stored && stored->picture)) {
+    warnings.push_back(options.calibration +
+                       " does not hold its target's picture: whether it was made with this target is not checked");
+  }
   if (!options.views.empty()) {
     ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views, &warnings));
     ZD_TRY(const vision::FileCalibration learned, vision::calibrate_from_files(target, views, &warnings, context));
@@ -119,8 +123,7 @@ nlohmann::json json_of(const vision::FramePosition& p) {
   return out;
 }
 
-Result<CommandOutput> run(const Options& options, const TaskContext& context) {
-  CommandOutput output;
+Status run(const Options& options, const TaskContext& context, CommandOutput& output) {
   ZD_TRY(const Prepared prepared, prepare(options, output.warnings, context));
   ZD_TRY(const std::vector<vision::FramePosition> positions,
          vision::locate_in_folder(prepared.target, prepared.request, options.frames, &output.warnings, context));
@@ -147,7 +150,7 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   output.json["frames"] = positions.size();
   output.json["measured"] = good;
   output.text += fmt::format("{} of {} frames measured, written to {}", good, positions.size(), options.out);
-  return output;
+  return {};
 }
 
 }  // namespace locate_command
@@ -155,8 +158,9 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
 void add_locate(Cli& cli) {
   using namespace locate_command;
   auto options = std::make_shared<Options>();
-  CLI::App* command = cli.add("locate", "Measure the target's displacement in the frames of a folder",
-                              [options](const TaskContext& context) { return run(*options, context); });
+  CLI::App* command =
+      cli.add("locate", "Measure the target's displacement in the frames of a folder",
+              [options](const TaskContext& context, CommandOutput& output) { return run(*options, context, output); });
   command->add_option("--template", options->image, "Picture of the target at rest")->required();
   command
       ->add_option("--roi", options->region,
