@@ -8,6 +8,9 @@ namespace {
 
 constexpr double least_significance = 3.0;  // of the term over its own standard uncertainty
 constexpr double well_known_share = 0.1;    // of the prior's uncertainty
+// Times the stated uncertainty: as far off is what small moves (+-11 px) tell, rms over six targets of another
+// renderer.
+constexpr double beyond_stated = 3.0;
 
 }  // namespace
 
@@ -24,15 +27,18 @@ LensTerm combined(const LensTerm& prior, const std::vector<LensTerm>& updated) {
   // The template's noise is the same in all frames: they know less together than their number says.
   constexpr double common = 0.5;
   if (information <= 0.0) return prior;
-  LensTerm out;
-  const double total = prior_information + common * information;
-  out.per_px2 = (prior_information * prior.per_px2 + common * sum) / total;
-  out.sigma_per_px2 = 1.0 / std::sqrt(total);
+  const auto trusted = [&](double share) {
+    const double total = prior_information + share * information;
+    return LensTerm{(prior_information * prior.per_px2 + share * sum) / total, 1.0 / std::sqrt(total)};
+  };
+  const LensTerm out = trusted(common);
   // Small moves bend the target by less than a blurred outline or what shows behind it does, which no formula for noise
-  // knows of. What they say of the lens counts when it stands out, or when they know it far better than everybody does.
+  // knows of. What they say of the lens counts when it stands out, or when they know it far better than everybody does;
+  // else it counts with an uncertainty that holds, so that the prior draws most of it back.
   const double significance = std::abs(sum / information) * std::sqrt(common * information);
   const bool well_known = out.sigma_per_px2 < well_known_share * prior.sigma_per_px2;
-  return significance > least_significance || well_known ? out : prior;
+  if (significance > least_significance || well_known) return out;
+  return trusted(common / (beyond_stated * beyond_stated));
 }
 
 }  // namespace zerodrift::vision

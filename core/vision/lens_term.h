@@ -12,8 +12,8 @@ struct LensTerm {
   double sigma_per_px2 = 1.5e-8;  // 0.24 % at 400 px, as machine-vision lenses have; narrower once it was measured
 };
 
-/// What frames say together, each of which was registered with the prior and has updated it; the prior where that is
-/// not significant.
+/// What frames say together, each of which was registered with the prior and has updated it; drawn back to the prior
+/// where that is not significant.
 LensTerm combined(const LensTerm& prior, const std::vector<LensTerm>& updated);
 
 }  // namespace zerodrift::vision
