@@ -404,9 +404,8 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   // Nobody knows how the room went: of 27 answers to runs robbed of its column three were wrong.
   const bool room_guessed = !m_machine.room.channel.empty() && !m_facts.room_logged;
   // Nor what ran before a start that is not at rest.
-  const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(), [&](const auto& component) {
-    return !component.lump && physics::start_above_room_K(m_machine, component.id, recording()) != 0.0;
-  });
+  const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
+                                [&](const auto& component) { return start_above_room_K(component) != 0.0; });
   const double guessed = room_guessed || warm ? 0.9 : 1.0;
   const double poor = (m_out.excess_after > 3.0 ? 0.8 : 1.0) * guessed;
   return poor * 0.99 / (1.0 + others);

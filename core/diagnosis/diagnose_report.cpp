@@ -235,6 +235,14 @@ bool Diagnoser::shows_too_little() const {
   return 2 * hidden > std::ssize(m_out.detectable);
 }
 
+/// 0 too where the room's sensor is at fault: it is the room's column that is off, not the machine.
+double Diagnoser::start_above_room_K(const physics::Component& component) const {
+  const auto& effects = m_selection.best->machine().effects;
+  const bool fault = std::any_of(effects.begin(), effects.end(),
+                                 [](const auto& spec) { return spec.candidate && spec.id == "room_sensor_fault"; });
+  return component.lump || fault ? 0.0 : physics::start_above_room_K(m_machine, component.id, recording());
+}
+
 void Diagnoser::tell_misplaced() {
   const std::string other = m_misplaced->exchanged_with;
   const char* id = !m_misplaced->all_in.empty() ? "places_in" : other.empty() ? "misplaced" : "exchanged";
@@ -279,7 +287,7 @@ void Diagnoser::notes() {
     m_out.sentences.push_back(explain_note("room_not_logged", {{"column", m_machine.room.channel}}));
   }
   for (const auto& component : m_machine.components) {
-    const double above_K = component.lump ? 0.0 : physics::start_above_room_K(m_machine, component.id, recording());
+    const double above_K = start_above_room_K(component);
     if (above_K == 0.0) continue;
     m_out.sentences.push_back(
         explain_note(above_K > 0.0 ? "starts_warm" : "starts_cold",

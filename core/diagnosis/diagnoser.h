@@ -48,6 +48,7 @@ class Diagnoser {
   void rivals();
   bool shows_too_little() const;
   void tell_misplaced();
+  double start_above_room_K(const physics::Component& component) const;
   bool steady_inputs() const;
   void hidden_by_steadiness();
   void tell_rivals(std::vector<std::shared_ptr<Model>> nearest);

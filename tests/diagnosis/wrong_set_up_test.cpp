@@ -156,6 +156,17 @@ TEST(WrongSetUp, AStartThatIsNotAtRestIsToldAndNothingIsInventedForIt) {
   EXPECT_GE(warm_starts, 4);
 }
 
+TEST(WrongSetUp, ARoomSensorThatReadsWrongIsNoWarmStart) {
+  proof::Case one = proof::make_case(322, "none");
+  one.recordings.resize(1);
+  for (double& value : one.recordings[0].find("ambient_C")->values) value -= 4.0;
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  ASSERT_EQ(answer->effects.size(), 1U);
+  EXPECT_EQ(answer->effects.front().id, "room_sensor_fault");
+  EXPECT_FALSE(says(*answer, "starts_warm"));
+}
+
 TEST(WrongSetUp, WhatOneRunShowsHoldsInOneThatStartsWarm) {
   for (const auto& [seed, id] : {std::pair{320U, "coolant"}, std::pair{321U, "bearing_viscosity"}}) {
     proof::Case one = proof::make_case(seed, id);
