@@ -24,7 +24,7 @@ std::string words_of(const json::exception& error) {
     if (at != std::string::npos) text = text.substr(at + before.size());
   }
   // It quotes all of the value at which it stopped.
-  constexpr std::string_view quote = "last read: '";
+  constexpr std::string_view quote = "read: '";
   if (const std::size_t at = text.find(quote); at != std::string::npos) {
     const std::size_t begin = at + quote.size();
     const std::size_t end = std::max(text.rfind('\''), begin);
