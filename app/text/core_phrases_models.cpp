@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 352> models = {{
+constexpr std::array<const char*, 353> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -419,6 +419,10 @@ constexpr std::array<const char*, 352> models = {{
         "core",
         "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
         "check its place, and that it is in millimetres."),
+    QT_TRANSLATE_NOOP("core",
+                      "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time "
+                      "had passed, and the "
+                      "times were taken so."),
     QT_TRANSLATE_NOOP(
         "core", "The sensors read as if their places were described in {unit}, not in mm: correct the description."),
     QT_TRANSLATE_NOOP(

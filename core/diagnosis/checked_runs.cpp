@@ -1,10 +1,13 @@
 #include "core/diagnosis/checked_runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "core/analysis/checked.h"
+#include "core/diagnosis/clock_jumps.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/long_gaps.h"
 #include "core/diagnosis/plausible.h"
@@ -116,6 +119,12 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
     ZD_CHECK(check_times(machine, sound.recording));
+    for (const ClockJump& jump : take_out_clock_jumps(machine, sound.recording)) {
+      out.warnings.push_back(fmt::format("clock_jumped:{}:{:.0f}:{:.0f}", one.name, jump.at_s, jump.by_s));
+      out.told.push_back(explain_note("clock_jumped", {{"recording", one.name},
+                                                       {"by", fmt::format("{:.3g}", jump.by_s / 60.0)},
+                                                       {"at", fmt::format("{:.0f}", jump.at_s / 60.0)}}));
+    }
     out.recordings.push_back(std::move(sound.recording));
   }
   tell_findings(out);

@@ -50,6 +50,10 @@ constexpr std::array catalogue{
     Entry{"misplaced",
           "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
           "check its place, and that it is in millimetres."},
+    Entry{"clock_jumped",
+          "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
+          "and the "
+          "times were taken so."},
     Entry{"places_in",
           "The sensors read as if their places were described in {unit}, not in mm: correct the description."},
     Entry{"exchanged",

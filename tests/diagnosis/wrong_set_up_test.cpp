@@ -156,6 +156,31 @@ TEST(WrongSetUp, AStartThatIsNotAtRestIsToldAndNothingIsInventedForIt) {
   EXPECT_GE(warm_starts, 4);
 }
 
+TEST(WrongSetUp, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
+  proof::Case one = proof::make_case(323, "none");
+  one.recordings.resize(1);
+  const recording::Recording whole = one.recordings[0];
+  const std::size_t row = whole.rows() / 2;
+  for (std::size_t k = row; k < whole.rows(); ++k) one.recordings[0].time_s[k] += 240.0;
+  const auto jumped = answer_with_details(one);
+  ASSERT_TRUE(jumped.has_value()) << describe(jumped.error());
+  EXPECT_EQ(jumped->verdict, Verdict::consistent);
+  EXPECT_TRUE(says(*jumped, "clock_jumped"));
+
+  constexpr std::ptrdiff_t missed = 5;
+  one.recordings[0] = whole;
+  const auto take_out = [&](std::vector<double>& values) {
+    const auto from = values.begin() + static_cast<std::ptrdiff_t>(row);
+    values.erase(from, from + missed);
+  };
+  for (auto& channel : one.recordings[0].channels) take_out(channel.values);
+  take_out(one.recordings[0].time_s);
+  const auto paused = answer_with_details(one);
+  ASSERT_TRUE(paused.has_value()) << describe(paused.error());
+  EXPECT_EQ(paused->verdict, Verdict::consistent);
+  EXPECT_FALSE(says(*paused, "clock_jumped"));
+}
+
 TEST(WrongSetUp, ARoomSensorThatReadsWrongIsNoWarmStart) {
   proof::Case one = proof::make_case(322, "none");
   one.recordings.resize(1);

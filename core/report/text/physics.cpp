@@ -71,6 +71,10 @@ std::vector<TextEntry> texts_of_physics() {
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "
        "处的：请检查其位置以及单位是否为毫米。"},
+      {"In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
+       "and the "
+       "times were taken so.",
+       "记录 {recording} 的时钟在第 {at} 分钟向前跳了 {by} 分钟：机床的变化表明其间没有时间流逝，时间已据此更正。"},
       {"The sensors read as if their places were described in {unit}, not in mm: correct the description.",
        "各传感器的读数表明其位置是以 {unit} 而非 mm 描述的：请更正描述。"},
       {"{channel} and {other} read as if they had changed places: check their cables and the order of the columns.",
