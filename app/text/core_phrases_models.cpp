@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 353> models = {{
+constexpr std::array<const char*, 356> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -96,6 +96,7 @@ constexpr std::array<const char*, 353> models = {{
     QT_TRANSLATE_NOOP("core", "%1 as its middle value"),
     QT_TRANSLATE_NOOP("core", "degrees Celsius (is it in kelvin or millidegrees?)"),
     QT_TRANSLATE_NOOP("core", "%1, column time_s"),
+    QT_TRANSLATE_NOOP("core", "%1, column spindle_rpm"),
     QT_TRANSLATE_NOOP("core", "a row each %1 s, %2 s in all"),
     QT_TRANSLATE_NOOP("core",
                       "seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one "
@@ -448,6 +449,8 @@ constexpr std::array<const char*, 353> models = {{
     QT_TRANSLATE_NOOP("core",
                       "Recording {recording}: the machine description does not name {columns}, which was not used."),
     QT_TRANSLATE_NOOP("core", "about {:.3g} um for {} (is it in mm?)"),
+    QT_TRANSLATE_NOOP("core", "at most {:.3g} rpm"),
+    QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)"),
     QT_TRANSLATE_NOOP("core", "{} of its rows number for number in {}"),
     QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),
     QT_TRANSLATE_NOOP("core",

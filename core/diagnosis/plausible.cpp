@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/physics/initial_state.h"
+
 namespace zerodrift::diagnosis {
 namespace {
 
@@ -131,7 +133,24 @@ bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nomi
   return slope < -0.5 && slope > -2.0 && xy * xy > like * xx * yy;
 }
 
+/// A spindle that turns, but never with one two-hundredth of its motor's rated speed, is told in another unit.
+static Status check_speed(const physics::Machine& machine, const recording::Recording& recording) {
+  constexpr double hardly = 0.005;  // in 1000 rpm it is at most a thousandth
+  const recording::Channel* speed = recording.find("spindle_rpm");
+  const double rated_rpm = machine.rated_speed_rpm();
+  if (speed == nullptr) return {};
+  double most_rpm = 0.0;
+  for (const double value : speed->values) most_rpm = std::max(most_rpm, std::isfinite(value) ? std::abs(value) : 0.0);
+  if (most_rpm == 0.0 || most_rpm > hardly * rated_rpm) return {};
+  return fail(ErrorCode::data_does_not_fit,
+              {{"what", recording.name + ", column spindle_rpm"},
+               {"found", fmt::format("at most {:.3g} rpm", most_rpm)},
+               {"expected", fmt::format("speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)", rated_rpm)}});
+}
+
 Status check_times(const physics::Machine& machine, const recording::Recording& recording) {
+  ZD_CHECK(check_speed(machine, recording));
+  if (physics::starts_warm(machine, recording)) return {};  // what it was on its way to, nobody knows
   // A right description whose machine misses its main cooling leaves 0.8, times off by 60 leave more than 1.
   constexpr double nothing_like = 0.9;  // of the movement, rms
   constexpr double like = 0.75;         // of what is left with the times as they are

@@ -3498,6 +3498,14 @@
         <translation>记录 {recording}：机床描述中没有 {columns}，未予使用。</translation>
     </message>
     <message>
+        <source>at most {:.3g} rpm</source>
+        <translation>最高 {:.3g} rpm</translation>
+    </message>
+    <message>
+        <source>speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)</source>
+        <translation>额定转速 {:g} rpm 的电机应有的转速（单位是否为 1000 rpm？）</translation>
+    </message>
+    <message>
         <source>about {:.3g} um for {} (is it in mm?)</source>
         <translation>{1} 约 {0:.3g} um（单位是否为 mm？）</translation>
     </message>
@@ -3788,6 +3796,10 @@
     <message>
         <source>The sensors rose nearly together: a stretch with the spindle at rest separates them.</source>
         <translation>各传感器几乎同步升温：增加一段主轴静止的过程可将它们区分开。</translation>
+    </message>
+    <message>
+        <source>%1, column spindle_rpm</source>
+        <translation>%1，列 spindle_rpm</translation>
     </message>
     <message>
         <source>%1, column time_s</source>

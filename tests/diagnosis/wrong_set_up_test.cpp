@@ -181,6 +181,15 @@ TEST(WrongSetUp, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
   EXPECT_FALSE(says(*paused, "clock_jumped"));
 }
 
+TEST(WrongSetUp, SpeedsInThousandsAreRefusedByName) {
+  proof::Case one = proof::make_case(324, "none");
+  for (double& value : one.recordings[0].find("spindle_rpm")->values) value *= 0.001;
+  const auto answer = answer_with_details(one);
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+  EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
+}
+
 TEST(WrongSetUp, ARoomSensorThatReadsWrongIsNoWarmStart) {
   proof::Case one = proof::make_case(322, "none");
   one.recordings.resize(1);
