@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 356> models = {{
+constexpr std::array<const char*, 362> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -183,6 +183,7 @@ constexpr std::array<const char*, 356> models = {{
     QT_TRANSLATE_NOOP("core", "stopped during the run"),
     QT_TRANSLATE_NOOP("core", "never moves"),
     QT_TRANSLATE_NOOP("core", "repeats another sensor"),
+    QT_TRANSLATE_NOOP("core", "dropped out for a while"),
     QT_TRANSLATE_NOOP("core", "has isolated spikes"),
     QT_TRANSLATE_NOOP("core", "has gaps"),
     QT_TRANSLATE_NOOP("core", "looks like degrees Fahrenheit and was converted"),
@@ -273,6 +274,8 @@ constexpr std::array<const char*, 356> models = {{
     QT_TRANSLATE_NOOP("core", "%1 never moves (%2)"),
     QT_TRANSLATE_NOOP("core", "%1 repeats another sensor"),
     QT_TRANSLATE_NOOP("core", "%1 repeats another sensor (%2)"),
+    QT_TRANSLATE_NOOP("core", "%1 dropped out for a while (%2)"),
+    QT_TRANSLATE_NOOP("core", "reads %1 from %2 to %3 s"),
     QT_TRANSLATE_NOOP("core", "%1 has isolated spikes"),
     QT_TRANSLATE_NOOP("core", "%1 has isolated spikes (%2)"),
     QT_TRANSLATE_NOOP("core", "%1 has gaps"),
@@ -450,6 +453,16 @@ constexpr std::array<const char*, 356> models = {{
                       "Recording {recording}: the machine description does not name {columns}, which was not used."),
     QT_TRANSLATE_NOOP("core", "about {:.3g} um for {} (is it in mm?)"),
     QT_TRANSLATE_NOOP("core", "at most {:.3g} rpm"),
+    QT_TRANSLATE_NOOP("core",
+                      "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is "
+                      "spindle_load_W in kW?"),
+    QT_TRANSLATE_NOOP("core",
+                      "{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at "
+                      "{factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} "
+                      "({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}."),
+    QT_TRANSLATE_NOOP("core",
+                      "With the heat of {part} {factor} times what is described, the recording is explained as well "
+                      "without {@name}: check the power of {part} first."),
     QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)"),
     QT_TRANSLATE_NOOP("core", "{} of its rows number for number in {}"),
     QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),

@@ -52,6 +52,12 @@ bool lies(const Finding& fault, const Channel& channel, const std::set<std::stri
   return true;
 }
 
+void take_out_dropouts(const std::string& channel, const std::vector<double>& time_s, std::vector<double>& values,
+                       std::vector<Finding>& findings) {
+  const std::vector<Finding> list = told(remove_dropouts(values), channel, time_s);
+  findings.insert(findings.end(), list.begin(), list.end());
+}
+
 }  // namespace
 
 std::vector<std::optional<Finding>> check_temperatures(const std::vector<std::string>& channels,
@@ -66,6 +72,7 @@ std::vector<std::optional<Finding>> check_temperatures(const std::vector<std::st
   convert_units(channels, values, findings);
   std::vector<std::optional<Finding>> faults;
   for (std::size_t c = 0; c < channels.size(); ++c) {
+    take_out_dropouts(channels[c], time_s, values[c], findings);
     const int spikes = remove_spikes(values[c]);
     faults.push_back(fatal_fault(channels[c], time_s, values[c]));
     if (spikes == 0 || faults.back()) continue;
@@ -86,10 +93,17 @@ Checked checked(const Recording& recording, const std::set<std::string>& may_sta
   }
   convert_units(names, converted, out.findings);
   for (std::size_t c = 0; c < names.size(); ++c) out.recording.find(names[c])->values = converted[c];
+  for (Channel& channel : out.recording.channels) {
+    const bool measured = is_temperature(channel) || channel.kind() == ChannelKind::error;
+    const bool held = channel.kind() == ChannelKind::temperature && may_stand_still.count(channel.name) != 0;
+    if (!measured || held) continue;
+    take_out_dropouts(channel.name, recording.time_s, channel.values, out.findings);
+  }
   const std::vector<double> moved = rises(out.recording);
   const bool at_rest = moved.empty() || moved.back() < much_K;
-  std::vector<Finding> told;  // units are converted already, and spikes are left to whoever looks at the samples
-  const auto faults = check_temperatures(names, recording.time_s, converted, told);
+  std::vector<Finding>
+      again;  // units are converted already, dropouts out, and spikes are left to whoever looks at the samples
+  const auto faults = check_temperatures(names, recording.time_s, converted, again);
   const auto out_of_reach = std::count_if(
       faults.begin(), faults.end(), [](const auto& fault) { return fault && fault->kind == FindingKind::implausible; });
   const bool wrong_unit = 2 * out_of_reach > std::ssize(names);  // not some sensors: the comparison refuses them

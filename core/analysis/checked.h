@@ -25,9 +25,9 @@ struct Checked {
   std::vector<Finding> findings;
 };
 
-/// For what can do with holes and with series that end early: samples stay as they are but for their unit, and a
-/// channel that lies - stood still while it should move, out of reach, empty - is taken out. `may_stand_still`: what a
-/// thermostat may hold for hours, a chiller say.
+/// For what can do with holes and with series that end early: samples stay as they are but for their unit and for
+/// dropouts, and a channel that lies - stood still while it should move, out of reach, empty - is taken out.
+/// `may_stand_still`: what a thermostat may hold for hours, a chiller say.
 Checked checked(const recording::Recording& recording, const std::set<std::string>& may_stand_still = {});
 
 /// One run given twice is neither trained on twice nor held out.

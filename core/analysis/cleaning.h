@@ -22,6 +22,20 @@ int remove_spikes(std::vector<double>& values);
 /// and by far more than neighbours scatter.
 int remove_wild_errors(std::vector<double>& values);
 
+/// A stretch in which a sensor gave one value that is not its own: it left at once for it and came back at once (a
+/// transmitter that reads 0 while its cable is off). Made missing; less than half of the samples. A value repeated for
+/// long by what is noisy otherwise needs smaller jumps. What a sensor that froze repeats is its own last value, and
+/// none.
+struct Dropout {
+  std::size_t first = 0;
+  std::size_t last = 0;  // row after it
+  double value = 0.0;
+};
+std::vector<Dropout> remove_dropouts(std::vector<double>& values);
+/// "reads 0 from 6540 to 8340 s" each.
+std::vector<Finding> told(const std::vector<Dropout>& dropouts, const std::string& channel,
+                          const std::vector<double>& time_s);
+
 /// A fault that makes the whole series useless, if there is one: dead, died half-way, constant.
 std::optional<Finding> fatal_fault(const std::string& channel, const std::vector<double>& time_s,
                                    const std::vector<double>& values);

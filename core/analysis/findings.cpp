@@ -17,6 +17,8 @@ std::string_view sentence_of(FindingKind kind) {
       return "never moves";
     case FindingKind::duplicate_sensor:
       return "repeats another sensor";
+    case FindingKind::dropout:
+      return "dropped out for a while";
     case FindingKind::spikes:
       return "has isolated spikes";
     case FindingKind::gaps:
@@ -61,6 +63,8 @@ std::string_view name_of(FindingKind kind) {
       return "constant_sensor";
     case FindingKind::duplicate_sensor:
       return "duplicate_sensor";
+    case FindingKind::dropout:
+      return "dropout";
     case FindingKind::spikes:
       return "spikes";
     case FindingKind::gaps:

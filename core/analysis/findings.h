@@ -14,6 +14,7 @@ enum class FindingKind {
   sensor_died,        // samples end, or freeze, before the run ends
   constant_sensor,    // never moves
   duplicate_sensor,   // the same series as another one
+  dropout,            // one value for a while that is not the sensor's own
   spikes,             // isolated samples far from their neighbours
   gaps,               // samples missing for long
   fahrenheit,         // values that only make sense in degrees Fahrenheit

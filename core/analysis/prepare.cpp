@@ -119,6 +119,9 @@ Status take_errors(const Recording& recording, const PrepareOptions& options, Pr
   for (const auto& name : names) {
     ZD_TRY(const Channel* channel, recording.require(name));
     std::vector<double> values = channel->values;
+    for (Finding& finding : told(remove_dropouts(values), name, recording.time_s)) {
+      out.findings.push_back(std::move(finding));
+    }
     const int wild = remove_wild_errors(values);
     if (wild > 0) {
       out.findings.push_back(

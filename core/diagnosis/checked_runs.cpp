@@ -119,6 +119,11 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
     ZD_CHECK(check_times(machine, sound.recording));
+    if (const auto largest = load_in_kilowatts(machine, sound.recording)) {
+      out.warnings.push_back("load_in_kilowatts:" + one.name);
+      out.told.push_back(
+          explain_note("load_in_kilowatts", {{"recording", one.name}, {"most", fmt::format("{:.3g}", *largest)}}));
+    }
     for (const ClockJump& jump : take_out_clock_jumps(machine, sound.recording)) {
       out.warnings.push_back(fmt::format("clock_jumped:{}:{:.0f}:{:.0f}", one.name, jump.at_s, jump.by_s));
       out.told.push_back(explain_note("clock_jumped", {{"recording", one.name},

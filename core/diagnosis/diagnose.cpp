@@ -15,6 +15,7 @@
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/heat_of_effect.h"
 #include "core/diagnosis/locate.h"
+#include "core/diagnosis/misstated.h"
 #include "core/diagnosis/place.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
@@ -33,6 +34,7 @@ constexpr double least_of_a_joint = 0.006;
 // A tenth of a cell: what is simulated knows no place better.
 constexpr double least_of_a_source = 0.0025;
 constexpr double sharp = 0.005;          // of the length: a peak so narrow stands for the whole distribution
+constexpr double hardly_any = 0.1;       // of a mismatch: the fit without an effect bends what is described instead
 constexpr double widest_point_mm = 6.0;  // what is known worse is told as a stretch
 
 /// Excess of a prediction under other noise assumptions.
@@ -103,13 +105,13 @@ Result<Diagnosis> Diagnoser::run() {
     ZD_CHECK(select());
     held_out();
   }
+  m_out.notes = m_selection.base->network().notes;
   for (const auto stage : {&Diagnoser::decide, &Diagnoser::series, &Diagnoser::mismatch, &Diagnoser::effects,
                            &Diagnoser::rivals, &Diagnoser::details}) {
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     (this->*stage)();
   }
   if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-  m_out.notes = m_selection.base->network().notes;
   if (!m_moved_elsewhere.empty()) m_out.notes.push_back("moved_elsewhere:" + m_moved_elsewhere);
   if (!m_selection.settling.empty()) m_out.notes.push_back("settles_by_itself:" + m_selection.settling);
   const bool blind = shows_too_little();
@@ -118,6 +120,7 @@ Result<Diagnosis> Diagnoser::run() {
   if (m_misplaced) m_out.notes.push_back(note_of(*m_misplaced));
   m_out.sentences.push_back(explain_verdict(m_out));
   if (m_misplaced) tell_misplaced();
+  m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show();
   notes();
@@ -344,8 +347,12 @@ void Diagnoser::effects() {
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
     const Shown shown = show_best(found, other);
     found.confidence = confidence_of(found);
+    doubt_description(found, *without);
     end_within_the_run(found);
-    found.explanation = explain_effect(found, m_out.time_s.back(), shown.before, shown.after, shown.channel);
+    const std::vector<FarParameter> far = far_from_description(*without);
+    const bool bent = !far.empty() && m_far.empty() && shown.before - shown.after < hardly_any * shown.before;
+    found.explanation = bent ? explain_bent(found, m_out.time_s.back(), shown.channel, far.front())
+                             : explain_effect(found, m_out.time_s.back(), shown.before, shown.after, shown.channel);
     m_out.effects.push_back(std::move(found));
   }
   std::stable_sort(m_out.effects.begin(), m_out.effects.end(),
@@ -372,6 +379,27 @@ Diagnoser::Shown Diagnoser::show_best(FoundEffect& found, const physics::Predict
     largest = named && widths > 1.0 ? 1e300 : widths;
   }
   return best;
+}
+
+/// Heat in the place of a described one and in step with it may as well be that one's.
+void Diagnoser::doubt_description(FoundEffect& found, const Model& without) {
+  constexpr double either = 0.5;
+  const Model& best = *m_selection.best;
+  const std::vector<std::size_t> named = m_selection.effects();
+  // Two of a kind may share what one described heat lacks.
+  const bool several = std::count_if(named.begin(), named.end(), [&](std::size_t index) {
+                         return best.machine().effects[index].id == found.id;
+                       }) > 1;
+  const std::optional<Misstated> heat = misstated_heat(best, several ? *fitted_without(best, found.id) : without);
+  if (!heat) return;
+  found.confidence = std::min(found.confidence, either);
+  const std::string note = fmt::format("misstated:{}:{:.3g}", heat->source, heat->factor);
+  if (std::count(m_out.notes.begin(), m_out.notes.end(), note) != 0) return;
+  m_out.notes.push_back(note);
+  std::string part = heat->source;
+  std::replace(part.begin(), part.end(), '_', ' ');
+  m_misstated.push_back(
+      explain_note("misstated", {{"name", found.id}, {"part", part}, {"factor", fmt::format("{:.2g}", heat->factor)}}));
 }
 
 /// What was still going on when the recording ended has no end that it knows.

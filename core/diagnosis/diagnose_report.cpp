@@ -260,12 +260,7 @@ std::vector<Sentence> Diagnoser::far_parameters() {
   for (const FarParameter& one : m_far) {
     m_out.notes.push_back(fmt::format("far_from_description:{}:{}:{:.3g}", one.quantity.substr(9), one.of, one.factor));
     if (told.size() == most_told) continue;
-    std::string part = one.of;
-    std::replace(part.begin(), part.end(), '_', ' ');
-    told.push_back(explain_note("far_from_description", {{"quantity", one.quantity},
-                                                         {"part", part},
-                                                         {"factor", fmt::format("{:.2g}", one.factor)},
-                                                         {"widths", fmt::format("{:.0f}", one.widths)}}));
+    told.push_back(explain_far(one));
   }
   return told;
 }

@@ -45,6 +45,7 @@ class Diagnoser {
   Shown show_best(FoundEffect& found, const physics::Prediction& without) const;
   void end_within_the_run(FoundEffect& found) const;
   double confidence_of(const FoundEffect& found) const;
+  void doubt_description(FoundEffect& found, const Model& without);
   void rivals();
   bool shows_too_little() const;
   void tell_misplaced();
@@ -91,6 +92,7 @@ class Diagnoser {
   std::shared_ptr<Model> m_used;
   std::vector<FarParameter> m_far;  // of what explains best
   std::optional<Misplaced> m_misplaced;
+  std::vector<Sentence> m_misstated;     // of what is named beside them
   std::optional<SeenByAll> m_of_others;  // the best in the others, where it fits them; once asked
   physics::Prediction m_explained;
   std::vector<double> m_contribution, m_contribution_in_time;

@@ -188,16 +188,14 @@ std::string regime_of_effect(const FoundEffect& effect, double end_s) {
   return "all the time";
 }
 
-Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
-                        const std::string& worst_channel) {
+namespace {
+
+/// What it is, how large and where, and when it acts.
+Sentence about_effect(const FoundEffect& effect, double end_s, const std::string& worst_channel) {
   Sentence s;
-  s.id = "effect_found";
   s.facts = {{"name", effect.id},
              {"parameters", parameters_in_words(effect)},
              {"channel", worst_channel},
-             {"before", fmt::format("{:.2g}", before)},
-             {"unit", unit_of(worst_channel)},
-             {"removed_percent", fmt::format("{:.0f}", 100.0 * (1.0 - after / std::max(before, 1e-12)))},
              {"fingerprint", std::string(physics::find_effect(effect.id)->fingerprint)},
              {"regime", regime_of_effect(effect, end_s)}};
   put_place(s, effect.channel, effect.position_mm, effect.component);
@@ -211,6 +209,41 @@ Sentence explain_effect(const FoundEffect& effect, double end_s, double before, 
     s.facts["from"] = fmt::format("{:.0f}", between_mm->first);
     s.facts["to"] = fmt::format("{:.0f}", between_mm->second);
   }
+  return s;
+}
+
+void put_far(Sentence& s, const FarParameter& far) {
+  std::string part = far.of;
+  std::replace(part.begin(), part.end(), '_', ' ');
+  s.facts["quantity"] = far.quantity;
+  s.facts["part"] = part;
+  s.facts["factor"] = fmt::format("{:.2g}", far.factor);
+  s.facts["widths"] = fmt::format("{:.0f}", far.widths);
+}
+
+}  // namespace
+
+Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
+                        const std::string& worst_channel) {
+  Sentence s = about_effect(effect, end_s, worst_channel);
+  s.id = "effect_found";
+  s.facts["before"] = fmt::format("{:.2g}", before);
+  s.facts["unit"] = unit_of(worst_channel);
+  s.facts["removed_percent"] = fmt::format("{:.0f}", 100.0 * (1.0 - after / std::max(before, 1e-12)));
+  return finished(std::move(s));
+}
+
+Sentence explain_bent(const FoundEffect& effect, double end_s, const std::string& worst_channel,
+                      const FarParameter& far) {
+  Sentence s = about_effect(effect, end_s, worst_channel);
+  s.id = "effect_found_bent";
+  put_far(s, far);
+  return finished(std::move(s));
+}
+
+Sentence explain_far(const FarParameter& far) {
+  Sentence s{"far_from_description", {}, ""};
+  put_far(s, far);
   return finished(std::move(s));
 }
 

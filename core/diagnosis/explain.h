@@ -2,12 +2,16 @@
 // Sentences a technician understands, from the numbers: ids with their facts (core/diagnosis/sentences.h).
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/plausible.h"
 
 namespace zerodrift::diagnosis {
 
 /// `before`, `after`: rms that the simulation without and with it is off in that channel; `end_s`: of the recording.
 Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
                         const std::string& channel);
+/// Where the fit without it moved a number of the description instead of leaving a mismatch.
+Sentence explain_bent(const FoundEffect& effect, double end_s, const std::string& channel, const FarParameter& far);
+Sentence explain_far(const FarParameter& far);
 /// When an effect acts, in English: "while the coolant runs", "from 155 min on".
 std::string regime_of_effect(const FoundEffect& effect, double end_s);
 Sentence explain_rival(const Rival& rival);

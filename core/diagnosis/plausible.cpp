@@ -133,19 +133,41 @@ bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nomi
   return slope < -0.5 && slope > -2.0 && xy * xy > like * xx * yy;
 }
 
+namespace {
+
+double largest_of(const recording::Recording& recording, const std::string& column) {
+  const recording::Channel* channel = recording.find(column);
+  double most = 0.0;
+  if (channel == nullptr) return most;
+  for (const double value : channel->values) most = std::max(most, std::isfinite(value) ? std::abs(value) : 0.0);
+  return most;
+}
+
 /// A spindle that turns, but never with one two-hundredth of its motor's rated speed, is told in another unit.
-static Status check_speed(const physics::Machine& machine, const recording::Recording& recording) {
+Status check_speed(const physics::Machine& machine, const recording::Recording& recording) {
   constexpr double hardly = 0.005;  // in 1000 rpm it is at most a thousandth
-  const recording::Channel* speed = recording.find("spindle_rpm");
   const double rated_rpm = machine.rated_speed_rpm();
-  if (speed == nullptr) return {};
-  double most_rpm = 0.0;
-  for (const double value : speed->values) most_rpm = std::max(most_rpm, std::isfinite(value) ? std::abs(value) : 0.0);
+  const double most_rpm = largest_of(recording, "spindle_rpm");
   if (most_rpm == 0.0 || most_rpm > hardly * rated_rpm) return {};
   return fail(ErrorCode::data_does_not_fit,
               {{"what", recording.name + ", column spindle_rpm"},
                {"found", fmt::format("at most {:.3g} rpm", most_rpm)},
                {"expected", fmt::format("speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)", rated_rpm)}});
+}
+
+}  // namespace
+
+std::optional<double> load_in_kilowatts(const physics::Machine& machine, const recording::Recording& recording) {
+  constexpr double least = 0.05, most = 2.0;  // of the rated power, in W for a load in kW
+  double rated_W = 0.0;
+  for (const auto& component : machine.components) {
+    for (const auto& source : component.sources) {
+      if (source.kind == physics::SourceKind::motor) rated_W = std::max(rated_W, source.rated_power_W);
+    }
+  }
+  const double largest = largest_of(recording, "spindle_load_W");
+  if (rated_W == 0.0 || 1000.0 * largest < least * rated_W || 1000.0 * largest > most * rated_W) return std::nullopt;
+  return largest;
 }
 
 Status check_times(const physics::Machine& machine, const recording::Recording& recording) {

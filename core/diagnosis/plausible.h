@@ -2,6 +2,7 @@
 // Is the description of this machine, and the recording of this description? Units that are off, a machine that was
 // never driven and a sign the wrong way round are no missing physics.
 
+#include <optional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -15,6 +16,9 @@ Status check_scale(const physics::Machine& machine, const Dataset& data, const p
 /// An error where the times only make sense in minutes, hours or milliseconds: the machine as described is nothing like
 /// the recording, but is like it with other times.
 Status check_times(const physics::Machine& machine, const recording::Recording& recording);
+
+/// The largest load where it would be one of this machine's motor in kW, and hardly any in W; the fit goes on.
+std::optional<double> load_in_kilowatts(const physics::Machine& machine, const recording::Recording& recording);
 
 /// What a fit has made of a number of the description.
 struct FarParameter {

@@ -27,6 +27,13 @@ constexpr std::array catalogue{
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
           "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."},
+    Entry{"effect_found_bent",
+          "{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} "
+          "times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of "
+          "that{@heat}. Typical of it: {@fingerprint}."},
+    Entry{"misstated",
+          "With the heat of {part} {factor} times what is described, the recording is explained as well without "
+          "{@name}: check the power of {part} first."},
     Entry{"heat_none", ""},
     Entry{"heat_brought", "; it brings {watts} on average while it acts"},
     Entry{"heat_taken", "; it takes away {watts} on average while it acts"},
@@ -54,6 +61,9 @@ constexpr std::array catalogue{
           "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
           "and the "
           "times were taken so."},
+    Entry{"load_in_kilowatts",
+          "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
+          "kW?"},
     Entry{"places_in",
           "The sensors read as if their places were described in {unit}, not in mm: correct the description."},
     Entry{"exchanged",

@@ -2638,6 +2638,10 @@
         <translation>与另一传感器重复</translation>
     </message>
     <message>
+        <source>dropped out for a while</source>
+        <translation>曾短时失去读数</translation>
+    </message>
+    <message>
         <source>has isolated spikes</source>
         <translation>有孤立的尖峰</translation>
     </message>
@@ -2946,6 +2950,14 @@
         <translation>%1 与另一传感器重复（%2）</translation>
     </message>
     <message>
+        <source>%1 dropped out for a while (%2)</source>
+        <translation>%1 曾短时失去读数（%2）</translation>
+    </message>
+    <message>
+        <source>reads %1 from %2 to %3 s</source>
+        <translation>自 %2 至 %3 s 读数为 %1</translation>
+    </message>
+    <message>
         <source>%1 has isolated spikes</source>
         <translation>%1 有孤立的尖峰</translation>
     </message>
@@ -3164,6 +3176,14 @@
     <message>
         <source>{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} ({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}.</source>
         <translation>{@regime}，不计入该效应时 {channel} 与最佳仿真相差 {before} {unit}（rms）。计入{@where}{@name}（{parameters}）可消除其中的 {removed_percent} %{@heat}。典型特征：{@fingerprint}。</translation>
+    </message>
+    <message>
+        <source>{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}.</source>
+        <translation>{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} 倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。</translation>
+    </message>
+    <message>
+        <source>With the heat of {part} {factor} times what is described, the recording is explained as well without {@name}: check the power of {part} first.</source>
+        <translation>若{part}的发热量为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对{part}的功率。</translation>
     </message>
     <message>
         <source>; it brings {watts} on average while it acts</source>
@@ -3500,6 +3520,10 @@
     <message>
         <source>at most {:.3g} rpm</source>
         <translation>最高 {:.3g} rpm</translation>
+    </message>
+    <message>
+        <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in kW?</source>
+        <translation>{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 kW？</translation>
     </message>
     <message>
         <source>speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)</source>

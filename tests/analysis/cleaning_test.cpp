@@ -82,6 +82,32 @@ TEST(Cleaning, AReadingThatIsNotRenewedForAWhileIsNamed) {
   EXPECT_EQ(data->findings.size(), 1U);
 }
 
+TEST(Cleaning, ADropoutIsNamedAndLeftOutAndTheRestIsUsed) {
+  auto r = machine_run({});
+  for (const char* channel : {"T4_C", "dX_um"}) {
+    auto& v = values(r, channel);
+    std::fill(v.begin() + 500, v.begin() + 560, 0.0);
+  }
+  const auto data = prepare(r);
+  ASSERT_TRUE(data) << describe(data.error());
+  EXPECT_TRUE(names(*data, FindingKind::dropout, "T4_C", FindingAction::repaired));
+  EXPECT_THAT(data->sensors, Contains("T4_C"));
+  EXPECT_TRUE(names(*data, FindingKind::dropout, "dX_um", FindingAction::repaired));
+  const Checked sound = checked(r);
+  for (const char* channel : {"T4_C", "dX_um"}) {
+    const auto& v = sound.recording.find(channel)->values;
+    EXPECT_TRUE(std::all_of(v.begin() + 500, v.begin() + 560, [](double one) { return std::isnan(one); })) << channel;
+    EXPECT_TRUE(std::any_of(v.begin() + 560, v.end(), [](double one) { return std::isfinite(one); })) << channel;
+  }
+}
+
+TEST(Cleaning, AStepThatStaysIsNoDropout) {
+  auto r = machine_run({});
+  for (std::size_t i = 500; i < r.rows(); ++i) values(r, "dX_um")[i] += 60.0;
+  for (std::size_t i = 500; i < 560; ++i) values(r, "T4_C")[i] += 15.0;  // it moves on while it is off
+  EXPECT_TRUE(checked(r).findings.empty());
+}
+
 TEST(Cleaning, ACoarseSensorThatRestsIsSound) {
   auto r = machine_run({});
   auto& coarse = values(r, "T4_C");

@@ -190,6 +190,46 @@ TEST(WrongSetUp, SpeedsInThousandsAreRefusedByName) {
   EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
 }
 
+TEST(WrongSetUp, LoadsInKilowattsAreTold) {
+  proof::Case one = proof::make_case(325, "cutting_heat");
+  one.recordings.resize(1);
+  const auto right = answer_with_details(one);
+  ASSERT_TRUE(right.has_value()) << describe(right.error());
+  EXPECT_FALSE(says(*right, "load_in_kilowatts"));
+  auto& load_W = one.recordings[0].find("spindle_load_W")->values;
+  const double rated_W = physics::machine_from_json(one.machine, one.name)->components[0].sources[0].rated_power_W;
+  const double times = 0.0005 * rated_W / *std::max_element(load_W.begin(), load_W.end());
+  for (double& value : load_W) value *= times;
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(says(*answer, "load_in_kilowatts"));
+}
+
+TEST(WrongSetUp, AMotorDescribedAsAThirdOfItselfIsNotSurelyAnotherHeat) {
+  proof::Case one = proof::make_case(326, "none");
+  const auto& sources = one.machine["components"][0]["heat_sources"];
+  const auto motor = std::find_if(sources.begin(), sources.end(), [](const auto& s) { return s["kind"] == "motor"; });
+  ASSERT_NE(motor, sources.end());
+  auto& described = one.machine["components"][0]["heat_sources"][motor - sources.begin()];
+  // What is lost of the rated power heats.
+  described["efficiency"] = 1.0 - (1.0 - described["efficiency"].get<double>()) / 3.0;
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(notes(*answer, "misstated:motor:") || notes(*answer, "far_from_description:heat:motor:"));
+  for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << found.id;
+}
+
+TEST(WrongSetUp, AProbeThatDropsOutIsNoBracketThatSlipped) {
+  proof::Case one = proof::make_case(327, "none");
+  auto& dZ = one.recordings[0].find("dZ_um")->values;
+  const auto middle = dZ.begin() + static_cast<std::ptrdiff_t>(dZ.size() / 2);
+  std::fill(middle, middle + 60, 0.0);
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::consistent);
+  EXPECT_TRUE(says(*answer, "run_finding"));
+}
+
 TEST(WrongSetUp, ARoomSensorThatReadsWrongIsNoWarmStart) {
   proof::Case one = proof::make_case(322, "none");
   one.recordings.resize(1);

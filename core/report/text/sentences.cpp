@@ -56,6 +56,8 @@ std::vector<TextEntry> texts_of_sentences() {
       {"{} never moves ({})", "{} 始终不变（{}）"},
       {"{} repeats another sensor", "{} 与另一传感器重复"},
       {"{} repeats another sensor ({})", "{} 与另一传感器重复（{}）"},
+      {"{} dropped out for a while ({})", "{} 曾短时失去读数（{}）"},
+      {"reads {} from {} to {} s", "自 {1} 至 {2} s 读数为 {0}"},
       {"{} has isolated spikes", "{} 有孤立尖峰"},
       {"{} has isolated spikes ({})", "{} 有孤立尖峰（{}）"},
       {"{} has gaps", "{} 有缺口"},
