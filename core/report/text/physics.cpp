@@ -53,6 +53,17 @@ std::vector<TextEntry> texts_of_physics() {
       {"No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
        "those described.",
        "没有缺少效应库中的效应，但只有在参数与描述相差很大时，仿真才与记录一致。"},
+      {"{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} times "
+       "what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of "
+       "that{@heat}. Typical of it: {@fingerprint}.",
+       "{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} "
+       "倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。"},
+      {"With the heat of {part} {factor} times what is described, the recording is explained as well without {@name}: "
+       "check the power of {part} first.",
+       "若{part}的发热量为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对{part}的功率。"},
+      {"In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
+       "kW?",
+       "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 kW？"},
       {"To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: "
        "check units, sizes and powers.",
        "为了拟合，{part}的{@quantity}须为所述值的 {factor} 倍，偏差为其容差的 {widths} 倍：请检查单位、尺寸和功率。"},
