@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 362> models = {{
+constexpr std::array<const char*, 365> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -452,6 +452,13 @@ constexpr std::array<const char*, 362> models = {{
     QT_TRANSLATE_NOOP("core",
                       "Recording {recording}: the machine description does not name {columns}, which was not used."),
     QT_TRANSLATE_NOOP("core", "about {:.3g} um for {} (is it in mm?)"),
+    QT_TRANSLATE_NOOP("core",
+                      "This recording cannot tell whether there is {+effects}: what drives that never acted in it."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: "
+        "record a row every 60 s or more often to be surer."),
+    QT_TRANSLATE_NOOP("core", ", "),
     QT_TRANSLATE_NOOP("core", "at most {:.3g} rpm"),
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is "

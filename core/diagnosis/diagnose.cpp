@@ -434,7 +434,7 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   // Nor what ran before a start that is not at rest.
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });
-  const double guessed = room_guessed || warm ? 0.9 : 1.0;
+  const double guessed = nothing_drives() ? 0.7 : room_guessed || warm ? 0.9 : 1.0;
   const double poor = (m_out.excess_after > 3.0 ? 0.8 : 1.0) * guessed;
   return poor * 0.99 / (1.0 + others);
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -275,6 +276,44 @@ void Diagnoser::cannot_show() {
     if (least.value > physics::find_effect(least.id)->parameter(least.key).high) unseen.push_back(least.id);
   }
   if (!unseen.empty()) m_out.sentences.push_back(explain_unseen(unseen));
+  never_driven();
+}
+
+/// Inputs that the recording logs and that never acted: what acts with them alone was not asked about.
+void Diagnoser::never_driven() {
+  const auto logged = [&](const char* column) { return recording().find(column) != nullptr; };
+  physics::RunFacts all = m_facts;
+  all.has_speed = all.has_speed || logged("spindle_rpm");
+  all.has_coolant = all.has_coolant || logged("coolant_on");
+  all.has_load = all.has_load || logged("spindle_load_W");
+  std::vector<std::string> untold;
+  for (const physics::Effect* effect : physics::all_effects()) {
+    const std::string id(effect->id);
+    if (physics::log_prior_of(id) < 0.0) continue;
+    // More forms of it is enough: a coolant that never ran may be there beside one that always does.
+    if (effect->candidates(m_machine, all).size() > effect->candidates(m_machine, m_facts).size() &&
+        std::none_of(m_out.detectable.begin(), m_out.detectable.end(), [&](const auto& one) { return one.id == id; })) {
+      untold.push_back(id);
+    }
+  }
+  if (untold.empty()) return;
+  m_out.notes.push_back(fmt::format("never_driven:{}", fmt::join(untold, ",")));
+  m_out.sentences.push_back(explain_note("never_driven", {{"effects", fmt::format("{}", fmt::join(untold, ","))}}));
+}
+
+/// What switches between two rows that are far apart has moved the machine by an unknown amount.
+void Diagnoser::coarse_rows() {
+  constexpr double coarse_s = 120.0;
+  const std::vector<double>& time_s = m_recordings.front().time_s;
+  const double between_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  if (m_out.verdict == Verdict::consistent || between_s < coarse_s || nothing_drives()) return;
+  m_out.notes.emplace_back("coarse_rows");
+  m_out.sentences.push_back(explain_note("coarse_rows", {{"seconds", fmt::format("{:.0f}", between_s)}}));
+}
+
+/// The room alone says little about the machine; what cools down from warm does.
+bool Diagnoser::nothing_drives() const {
+  return physics::nothing_drives(m_selection.base->inputs()) && !physics::starts_warm(m_machine, recording());
 }
 
 void Diagnoser::notes() {
@@ -288,6 +327,7 @@ void Diagnoser::notes() {
         explain_note(above_K > 0.0 ? "starts_warm" : "starts_cold",
                      {{"part", component.id}, {"above", fmt::format("{:.1f}", std::abs(above_K))}}));
   }
+  coarse_rows();
   another_machine();
   worse_elsewhere();
   const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
@@ -297,10 +337,7 @@ void Diagnoser::notes() {
     }
     return high - low > 12.0 * c.noise;
   });
-  // The room alone says little about the machine; what cools down from warm does.
-  const bool still =
-      physics::nothing_drives(m_selection.base->inputs()) && !physics::starts_warm(m_machine, recording());
-  if (!excited || still) {
+  if (!excited || nothing_drives()) {
     m_out.notes.emplace_back("no_excitation");
     m_out.sentences.push_back(explain_note("no_excitation"));
   }

@@ -67,6 +67,9 @@ class Diagnoser {
   bool only_comes_and_goes() const;
   void details();
   void cannot_show();
+  void never_driven();
+  void coarse_rows();
+  bool nothing_drives() const;
   std::vector<Sentence> far_parameters();
   const ChannelReport* missed_by_far(const HeldOut& other) const;
   bool of_another_machine(const HeldOut& other) const;

@@ -165,7 +165,8 @@ struct DiagnoseOptions {
 /// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that
 /// recording does not fit this machine. Note "room_not_logged": the recording lacks the room's channel. Note
 /// "settles_by_itself:CHANNEL": a displacement moves by itself and slows down, and nothing shows that it follows the
-/// room. Note "no_excitation": nothing moves, or nothing drives the machine.
+/// room. Note "no_excitation": nothing moves, or nothing drives the machine. Note "never_driven:ID,ID": what drives
+/// them never acted. Note "coarse_rows": switching times are hardly known.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

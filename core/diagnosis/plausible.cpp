@@ -182,6 +182,7 @@ Status check_times(const physics::Machine& machine, const recording::Recording& 
   };
   constexpr Unit units[] = {{60.0, "minutes"}, {3600.0, "hours"}, {1e-3, "milliseconds"}};
   constexpr double longest_row_s = 3600.0;
+  constexpr double shortest_run_s = 600.0;  // what is shorter warms nothing: it is the description that is off
   const bool has_driven_rod = std::any_of(machine.components.begin(), machine.components.end(),
                                           [](const auto& one) { return !one.lump && !one.sources.empty(); });
   if (has_unknown_heat(machine) || !has_driven_rod) return {};  // nothing says how fast it warms
@@ -189,7 +190,8 @@ Status check_times(const physics::Machine& machine, const recording::Recording& 
   if (!(as_it_is > nothing_like)) return {};
   const double whole_s = recording.time_s.back() - recording.time_s.front();
   for (const Unit& unit : units) {
-    if (unit.seconds * whole_s > longest_row_s * static_cast<double>(recording.rows())) continue;
+    const double told_s = unit.seconds * whole_s;
+    if (told_s > longest_row_s * static_cast<double>(recording.rows()) || told_s < shortest_run_s) continue;
     recording::Recording other = recording;
     for (double& t : other.time_s) t *= unit.seconds;
     if (shape_missed(machine, other) > like * as_it_is) continue;
@@ -240,7 +242,12 @@ Status check_scale(const physics::Machine& machine, const Dataset& data, const p
     const double much = temperature ? 5.0 : 20.0;
     const bool too_large = largest.measured > much && largest.simulated > little &&
                            largest.measured > beyond_any_effect * largest.simulated;
-    const bool too_small = largest.simulated > much && largest.simulated > beyond_any_effect * largest.measured;
+    // No machine tool warms by so much: less than a hundredfold tells then (sizes in cm heat by ninety times as much).
+    constexpr double absurd_K = 150.0;
+    constexpr double beyond_most_effects = 20.0;
+    const bool absurd = temperature && largest.simulated > absurd_K;
+    const bool too_small = largest.simulated > much &&
+                           largest.simulated > largest.measured * (absurd ? beyond_most_effects : beyond_any_effect);
     if (!too_large && !too_small) continue;
     const char* unit = temperature ? "K" : "um";
     return fail(ErrorCode::data_does_not_fit,

@@ -44,6 +44,12 @@ constexpr std::array catalogue{
     Entry{
         "cannot_show",
         "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."},
+    Entry{"coarse_rows",
+          "The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a "
+          "row "
+          "every 60 s or more often to be surer."},
+    Entry{"never_driven",
+          "This recording cannot tell whether there is {+effects}: what drives that never acted in it."},
     Entry{
         "verdict_consistent_bent",
         "No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
@@ -125,6 +131,7 @@ constexpr std::array catalogue{
     Entry{"where_between", " between {from} and {to} mm"},
     Entry{"where_component", " of {component}"},
     Entry{"and", " and "},
+    Entry{"comma", ", "},
     Entry{"convection", "convection to the room"},
     Entry{"speed_convection", "convection that grows with speed"},
     Entry{"radiation", "radiation to the room"},
@@ -204,7 +211,8 @@ class Speaker {
     std::size_t from = 0;
     while (from < found->second.size()) {
       const std::size_t comma = std::min(found->second.find(',', from), found->second.size());
-      joined += (joined.empty() ? "" : say("and")) + say(found->second.substr(from, comma - from));
+      const bool last = comma == found->second.size();
+      joined += (joined.empty() ? "" : say(last ? "and" : "comma")) + say(found->second.substr(from, comma - from));
       from = comma + 1;
     }
     return joined;

@@ -1,6 +1,7 @@
 #include "core/physics/inputs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace zerodrift::physics {
@@ -28,6 +29,39 @@ double noise_width(const std::vector<double>& values, double floor) {
   return std::max(sigma, floor);
 }
 
+namespace {
+
+constexpr double noise_widths = 8.0;
+constexpr double times_around = 2.5;
+
+/// The two nearest samples that are there and no spikes, from `at` in steps of `step`; NaN where there are none near.
+std::array<double, 2> sound_from(const std::vector<double>& values, const std::vector<bool>& mark, std::ptrdiff_t at,
+                                 std::ptrdiff_t step) {
+  constexpr int reach = 5;
+  std::array<double, 2> found{std::nan(""), std::nan("")};
+  std::size_t count = 0;
+  for (int k = 0; k < reach && count < found.size() && at >= 0 && at < std::ssize(values); ++k, at += step) {
+    if (std::isfinite(values[at]) && !mark[at]) found[count++] = values[at];
+  }
+  return found;
+}
+
+/// Two in a row hide each other: each is compared with the two sound samples before both and the two after.
+void mark_pairs(const std::vector<double>& values, double sigma, std::vector<bool>& mark) {
+  for (std::ptrdiff_t i = 0; i + 1 < std::ssize(values); ++i) {
+    if (mark[i] || mark[i + 1] || !(std::abs(values[i + 1] - values[i]) >= 0.0)) continue;
+    const auto before = sound_from(values, mark, i - 1, -1);
+    const auto after = sound_from(values, mark, i + 2, 1);
+    if (!std::isfinite(before[1]) || !std::isfinite(after[1])) continue;
+    const auto [low, high] = std::minmax({before[0], before[1], after[0], after[1]});
+    const double far = std::max(noise_widths * sigma, times_around * (high - low));
+    const double middle = 0.5 * (low + high);
+    if (std::abs(values[i] - middle) > far && std::abs(values[i + 1] - middle) > far) mark[i] = mark[i + 1] = true;
+  }
+}
+
+}  // namespace
+
 std::vector<bool> spikes(const std::vector<double>& values, double sigma) {
   const std::ptrdiff_t n = std::ssize(values);
   std::vector<bool> mark(values.size(), false);
@@ -53,8 +87,9 @@ std::vector<bool> spikes(const std::vector<double>& values, double sigma) {
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const double left = i > 0 ? deviation[i - 1] : deviation[i + 1];
     const double right = i + 1 < n ? deviation[i + 1] : deviation[i - 1];
-    mark[i] = deviation[i] > 8.0 * sigma && deviation[i] > 2.5 * left && deviation[i] > 2.5 * right;
+    mark[i] = deviation[i] > noise_widths * sigma && deviation[i] > times_around * std::max(left, right);
   }
+  mark_pairs(values, sigma, mark);
   return mark;
 }
 

@@ -29,7 +29,7 @@ InputSet make_inputs(const Network& network, const recording::Recording& recordi
 std::vector<double> mended(const std::vector<double>& values, const std::vector<double>& time_s);
 /// Noise of a slowly varying series: trimmed rms of second differences / sqrt(6), at least its step / sqrt(12).
 double noise_width(const std::vector<double>& values, double floor);
-/// Marks isolated spikes.
+/// Marks isolated spikes, and two in a row.
 std::vector<bool> spikes(const std::vector<double>& values, double sigma);
 
 }  // namespace zerodrift::physics

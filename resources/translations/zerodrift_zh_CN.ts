@@ -3518,6 +3518,18 @@
         <translation>记录 {recording}：机床描述中没有 {columns}，未予使用。</translation>
     </message>
     <message>
+        <source>This recording cannot tell whether there is {+effects}: what drives that never acted in it.</source>
+        <translation>本次记录无法判断是否存在{+effects}：驱动它的输入从未动作。</translation>
+    </message>
+    <message>
+        <source>The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a row every 60 s or more often to be surer.</source>
+        <translation>各行相隔 {seconds} s，其间转速或冷却切换的时刻无法知道得更准：要更可靠，请至少每 60 s 记录一行。</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
+    </message>
+    <message>
         <source>at most {:.3g} rpm</source>
         <translation>最高 {:.3g} rpm</translation>
     </message>

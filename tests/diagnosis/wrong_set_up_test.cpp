@@ -219,6 +219,40 @@ TEST(WrongSetUp, AMotorDescribedAsAThirdOfItselfIsNotSurelyAnotherHeat) {
   for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << found.id;
 }
 
+TEST(WrongSetUp, WhatNeverRanIsNotSaidToBeSound) {
+  proof::Case one = proof::make_case(328, "none");
+  one.recordings.resize(1);
+  const auto whole = answer_with_details(one);
+  ASSERT_TRUE(whole.has_value()) << describe(whole.error());
+  EXPECT_FALSE(notes(*whole, "never_driven"));
+  auto& coolant = one.recordings[0].find("coolant_on")->values;
+  std::fill(coolant.begin(), coolant.end(), 0.0);
+  const auto without = answer_with_details(one);
+  ASSERT_TRUE(without.has_value()) << describe(without.error());
+  EXPECT_TRUE(notes(*without, "never_driven:coolant"));
+  EXPECT_TRUE(says(*without, "never_driven"));
+}
+
+TEST(WrongSetUp, ADescriptionInCentimetresIsOfNoMachine) {
+  proof::Case one = proof::make_case(329, "none");
+  auto& spindle = one.machine["components"][0];
+  for (const char* key : {"length_mm", "outer_diameter_mm", "bore_diameter_mm"}) {
+    if (spindle.contains(key)) spindle[key] = spindle[key].get<double>() / 10.0;
+  }
+  for (auto& source : spindle["heat_sources"]) {
+    for (const char* key : {"from_mm", "to_mm", "mean_diameter_mm"}) {
+      if (source.contains(key)) source[key] = source[key].get<double>() / 10.0;
+    }
+  }
+  for (auto& sensor : one.machine["sensors"]) {
+    if (sensor.contains("position_mm")) sensor["position_mm"] = sensor["position_mm"].get<double>() / 10.0;
+  }
+  const auto answer = answer_with_details(one);
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+  EXPECT_EQ(describe(answer.error()).find("milliseconds"), std::string::npos) << describe(answer.error());
+}
+
 TEST(WrongSetUp, AProbeThatDropsOutIsNoBracketThatSlipped) {
   proof::Case one = proof::make_case(327, "none");
   auto& dZ = one.recordings[0].find("dZ_um")->values;

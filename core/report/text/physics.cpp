@@ -64,6 +64,12 @@ std::vector<TextEntry> texts_of_physics() {
       {"In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
        "kW?",
        "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 kW？"},
+      {"This recording cannot tell whether there is {+effects}: what drives that never acted in it.",
+       "本次记录无法判断是否存在{+effects}：驱动它的输入从未动作。"},
+      {"The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a row "
+       "every 60 s or more often to be surer.",
+       "各行相隔 {seconds} s，其间转速或冷却切换的时刻无法知道得更准：要更可靠，请至少每 60 s 记录一行。"},
+      {", ", "、"},
       {"To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: "
        "check units, sizes and powers.",
        "为了拟合，{part}的{@quantity}须为所述值的 {factor} 倍，偏差为其容差的 {widths} 倍：请检查单位、尺寸和功率。"},
