@@ -468,8 +468,8 @@ constexpr std::array<const char*, 365> models = {{
                       "{factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} "
                       "({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}."),
     QT_TRANSLATE_NOOP("core",
-                      "With the heat of {part} {factor} times what is described, the recording is explained as well "
-                      "without {@name}: check the power of {part} first."),
+                      "With {@quantity} of {part} at {factor} times what is described, the recording is explained as "
+                      "well without {@name}: check that number first."),
     QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)"),
     QT_TRANSLATE_NOOP("core", "{} of its rows number for number in {}"),
     QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),

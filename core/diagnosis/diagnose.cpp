@@ -15,7 +15,6 @@
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/heat_of_effect.h"
 #include "core/diagnosis/locate.h"
-#include "core/diagnosis/misstated.h"
 #include "core/diagnosis/place.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
@@ -220,7 +219,7 @@ void Diagnoser::tell_tried() {
   }
 }
 
-void Diagnoser::decide() {
+void Diagnoser::judge() {
   const physics::Prediction of_base = m_selection.base->prediction();
   const physics::Prediction of_best = m_selection.best->prediction();
   const Excess before = excess_under(of_base, *m_default_data);
@@ -257,10 +256,15 @@ void Diagnoser::decide() {
     m_used = poor && !helps ? m_selection.base : m_selection.best;
   }
   m_far = far_from_description(*m_used);
-  if (after.largest > least_evident || names_a_sensor() || !m_far.empty()) {
+}
+
+void Diagnoser::decide() {
+  judge();
+  if (m_out.excess_after > least_evident || names_a_sensor() || !m_far.empty()) {
     m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits, m_context);
   }
-  if (m_misplaced || (found && is_doubtful(m_far))) {
+  if (!m_misplaced && correct_description()) judge();
+  if (m_misplaced || (!m_selection.effects().empty() && is_doubtful(m_far))) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;
     m_used = m_selection.base;
@@ -269,6 +273,7 @@ void Diagnoser::decide() {
   if (m_used == m_selection.base) {
     for (auto& other : m_out.held_out) other.explained = other.refitted;
   }
+  if (m_corrected) m_far.insert(m_far.begin(), *m_corrected);
   m_out.refined = refined_machine(*m_used);
 }
 
@@ -347,7 +352,7 @@ void Diagnoser::effects() {
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
     const Shown shown = show_best(found, other);
     found.confidence = confidence_of(found);
-    doubt_description(found, *without);
+    doubt_description(found, *without_kind(i));
     end_within_the_run(found);
     const std::vector<FarParameter> far = far_from_description(*without);
     const bool bent = !far.empty() && m_far.empty() && shown.before - shown.after < hardly_any * shown.before;
@@ -379,27 +384,6 @@ Diagnoser::Shown Diagnoser::show_best(FoundEffect& found, const physics::Predict
     largest = named && widths > 1.0 ? 1e300 : widths;
   }
   return best;
-}
-
-/// Heat in the place of a described one and in step with it may as well be that one's.
-void Diagnoser::doubt_description(FoundEffect& found, const Model& without) {
-  constexpr double either = 0.5;
-  const Model& best = *m_selection.best;
-  const std::vector<std::size_t> named = m_selection.effects();
-  // Two of a kind may share what one described heat lacks.
-  const bool several = std::count_if(named.begin(), named.end(), [&](std::size_t index) {
-                         return best.machine().effects[index].id == found.id;
-                       }) > 1;
-  const std::optional<Misstated> heat = misstated_heat(best, several ? *fitted_without(best, found.id) : without);
-  if (!heat) return;
-  found.confidence = std::min(found.confidence, either);
-  const std::string note = fmt::format("misstated:{}:{:.3g}", heat->source, heat->factor);
-  if (std::count(m_out.notes.begin(), m_out.notes.end(), note) != 0) return;
-  m_out.notes.push_back(note);
-  std::string part = heat->source;
-  std::replace(part.begin(), part.end(), '_', ' ');
-  m_misstated.push_back(
-      explain_note("misstated", {{"name", found.id}, {"part", part}, {"factor", fmt::format("{:.2g}", heat->factor)}}));
 }
 
 /// What was still going on when the recording ended has no end that it knows.
@@ -434,7 +418,7 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   // Nor what ran before a start that is not at rest.
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });
-  const double guessed = nothing_drives() ? 0.7 : room_guessed || warm ? 0.9 : 1.0;
+  const double guessed = nothing_drives() ? 0.7 : m_corrected ? 0.8 : room_guessed || warm ? 0.9 : 1.0;
   const double poor = (m_out.excess_after > 3.0 ? 0.8 : 1.0) * guessed;
   return poor * 0.99 / (1.0 + others);
 }

@@ -34,7 +34,10 @@ class Diagnoser {
   Status choose_drift();
   double leftover(const physics::Prediction& prediction) const;
   void tell_tried();
+  void judge();
   void decide();
+  bool correct_description();
+  std::shared_ptr<Model> without_kind(std::size_t i) const;
   bool names_a_sensor() const;
   void tell_place(FoundEffect& found, std::size_t index);
   struct Shown {
@@ -93,7 +96,8 @@ class Diagnoser {
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;
-  std::vector<FarParameter> m_far;  // of what explains best
+  std::vector<FarParameter> m_far;          // of what explains best
+  std::optional<FarParameter> m_corrected;  // the description is taken with this number changed
   std::optional<Misplaced> m_misplaced;
   std::vector<Sentence> m_misstated;     // of what is named beside them
   std::optional<SeenByAll> m_of_others;  // the best in the others, where it fits them; once asked

@@ -154,13 +154,13 @@ struct DiagnoseOptions {
 /// "decided_with_others:ID"); what is fitted is fitted to the first alone, but a place is told with what all recordings
 /// show of it where all fit (the refined description keeps the first's). Note "heat_falls_with_speed:CHANNEL": no law
 /// has such heat, and nothing is named there. Note "far_from_description:QUANTITY:OF:FACTOR": the fit moved a number of
-/// the description by more than four of its tolerances. Note "misstated:SOURCE:FACTOR": with that heat times so much,
-/// the recording is explained as well without an effect that is named (misstated.h). Note "sign_turned:CHANNEL": the
-/// displacement follows the description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording
-/// shows that something moves the nose that the description has not. Note "shows_too_little": nothing is found missing,
-/// but most effects of usual size would not have shown. Note "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or
-/// "places_in:UNIT": the sensors are not where the description has them (misplaced.h). Note
-/// "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much (clock_jumps.h). Note
+/// the description by more than four of its tolerances. Note "misstated:QUANTITY:OF:FACTOR": with that number times so
+/// much, the recording is explained as well without an effect that is named (misstated.h). Note "sign_turned:CHANNEL":
+/// the displacement follows the description with its sign turned. Note "moved_elsewhere:CHANNEL": only another
+/// recording shows that something moves the nose that the description has not. Note "shows_too_little": nothing is
+/// found missing, but most effects of usual size would not have shown. Note "misplaced:CHANNEL",
+/// "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the sensors are not where the description has them (misplaced.h).
+/// Note "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much (clock_jumps.h). Note
 /// "load_in_kilowatts:RECORDING": its load would be one in kW, and is next to nothing in W. Note
 /// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that
 /// recording does not fit this machine. Note "room_not_logged": the recording lacks the room's channel. Note

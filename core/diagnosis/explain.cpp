@@ -247,6 +247,12 @@ Sentence explain_far(const FarParameter& far) {
   return finished(std::move(s));
 }
 
+Sentence explain_misstated(const std::string& effect, const FarParameter& number) {
+  Sentence s{"misstated", {{"name", effect}}, ""};
+  put_far(s, number);
+  return finished(std::move(s));
+}
+
 Sentence explain_rival(const Rival& rival) {
   Sentence s;
   s.id = rival.behind < 0.0 ? "rival_hidden" : "rival_left";

@@ -12,6 +12,8 @@ Sentence explain_effect(const FoundEffect& effect, double end_s, double before, 
 /// Where the fit without it moved a number of the description instead of leaving a mismatch.
 Sentence explain_bent(const FoundEffect& effect, double end_s, const std::string& channel, const FarParameter& far);
 Sentence explain_far(const FarParameter& far);
+/// That the number, described as the fit would have it, explains the recording without the effect.
+Sentence explain_misstated(const std::string& effect, const FarParameter& number);
 /// When an effect acts, in English: "while the coolant runs", "from 155 min on".
 std::string regime_of_effect(const FoundEffect& effect, double end_s);
 Sentence explain_rival(const Rival& rival);

@@ -98,7 +98,7 @@ std::vector<FarParameter> far_from_description(const Model& model) {
     const std::size_t colon = p.key.find(':');
     std::string of = colon == std::string::npos ? p.component : p.key.substr(colon + 1);
     if (of.empty()) of = model.machine().components.front().id;
-    list.push_back({quantity, std::move(of), model.value(i) / p.mean, widths});
+    list.push_back({quantity, std::move(of), model.value(i) / p.mean, widths, i});
   }
   std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.widths > b.widths; });
   return list;

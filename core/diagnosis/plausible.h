@@ -22,10 +22,11 @@ std::optional<double> load_in_kilowatts(const physics::Machine& machine, const r
 
 /// What a fit has made of a number of the description.
 struct FarParameter {
-  std::string quantity;  // id in the catalogue of sentences: "quantity_heat" ...
-  std::string of;        // component or source
-  double factor = 1.0;   // fitted over described
-  double widths = 0.0;   // of its tolerance
+  std::string quantity;     // id in the catalogue of sentences: "quantity_heat" ...
+  std::string of;           // component or source
+  double factor = 1.0;      // fitted over described
+  double widths = 0.0;      // of its tolerance
+  std::size_t unknown = 0;  // of the model that was asked
 };
 /// Numbers of the description that a fit has moved out of all tolerance (more than four widths), farthest first.
 std::vector<FarParameter> far_from_description(const Model& model);

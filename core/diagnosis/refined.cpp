@@ -23,29 +23,6 @@ void take_inside(physics::InnerBody& inner, const physics::Parameter& p, double 
   for (auto& [id, contact] : inner.contact_W_K) contact = key == "inner_contact_W_K:" + id ? value : contact;
 }
 
-void take(Machine& machine, const physics::Parameter& p, double value) {
-  for (auto& component : machine.components) {
-    if (component.id != p.component) continue;
-    if (p.key == "conductivity_W_mK") component.material.conductivity_W_mK = value;
-    if (p.key == "heat_capacity_J_kgK") component.material.heat_capacity_J_kgK = value;
-    if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value;
-    if (p.key == "expansion_1_K") component.material.expansion_1_K = value;
-    if (component.inner) take_inside(*component.inner, p, value);
-    for (auto& source : component.sources) {
-      if (p.key == "scale:" + source.id) source.scale = value;
-      for (const auto& law : source.law) {
-        if (p.key == "watts_" + law + ":" + source.id) source.law_watts[law] = value;
-      }
-    }
-  }
-  for (auto& coupling : machine.couplings) {
-    if (p.key == "conductance_W_K" && p.effect < 0 &&
-        p.component == coupling.first.component + "-" + coupling.second.component) {
-      coupling.conductance_W_K = value;
-    }
-  }
-}
-
 /// What is new in each recording - start temperatures, offsets - as its first ten minutes tell it, with the priors of
 /// the description. Nothing later is looked at. An error of 0.05 K here would stay in the growth for hours.
 std::vector<double> values_at_start(const Machine& refined, const recording::Recording& recording,
@@ -87,6 +64,29 @@ physics::Prediction predict_with_own_room(const Machine& refined, const recordin
 
 }  // namespace
 
+void take_value(Machine& machine, const physics::Parameter& p, double value) {
+  for (auto& component : machine.components) {
+    if (component.id != p.component) continue;
+    if (p.key == "conductivity_W_mK") component.material.conductivity_W_mK = value;
+    if (p.key == "heat_capacity_J_kgK") component.material.heat_capacity_J_kgK = value;
+    if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value;
+    if (p.key == "expansion_1_K") component.material.expansion_1_K = value;
+    if (component.inner) take_inside(*component.inner, p, value);
+    for (auto& source : component.sources) {
+      if (p.key == "scale:" + source.id) source.scale = value;
+      for (const auto& law : source.law) {
+        if (p.key == "watts_" + law + ":" + source.id) source.law_watts[law] = value;
+      }
+    }
+  }
+  for (auto& coupling : machine.couplings) {
+    if (p.key == "conductance_W_K" && p.effect < 0 &&
+        p.component == coupling.first.component + "-" + coupling.second.component) {
+      coupling.conductance_W_K = value;
+    }
+  }
+}
+
 physics::EffectSpec fitted_effect(const Model& model, std::size_t index, std::map<std::string, double>* sigma) {
   physics::EffectSpec spec = model.machine().effects[index];
   for (auto it = spec.numbers.begin(); it != spec.numbers.end();) {
@@ -103,7 +103,7 @@ physics::EffectSpec fitted_effect(const Model& model, std::size_t index, std::ma
 
 Machine refined_machine(const Model& model) {
   Machine machine = model.machine();
-  for (std::size_t i = 0; i < model.unknowns(); ++i) take(machine, model.unknown(i), model.value(i));
+  for (std::size_t i = 0; i < model.unknowns(); ++i) take_value(machine, model.unknown(i), model.value(i));
   for (std::size_t e = 0; e < machine.effects.size(); ++e) {
     machine.effects[e] = fitted_effect(model, e);
     machine.effects[e].candidate = false;

@@ -7,6 +7,8 @@ namespace zerodrift::diagnosis {
 
 /// The description of today with the fitted values; candidates become described effects.
 physics::Machine refined_machine(const Model& model);
+/// A number of the description takes this value; what the description has no number for stays as it is.
+void take_value(physics::Machine& machine, const physics::Parameter& parameter, double value);
 /// Predicts another recording with it: its own start (first samples) gives the sensors' offsets of that recording.
 /// `hold`: share of a sample interval that already has the next sample's inputs; 0 as inputs are defined, else what
 /// another recording of the same logger showed.

@@ -32,8 +32,8 @@ constexpr std::array catalogue{
           "times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of "
           "that{@heat}. Typical of it: {@fingerprint}."},
     Entry{"misstated",
-          "With the heat of {part} {factor} times what is described, the recording is explained as well without "
-          "{@name}: check the power of {part} first."},
+          "With {@quantity} of {part} at {factor} times what is described, the recording is explained as well without "
+          "{@name}: check that number first."},
     Entry{"heat_none", ""},
     Entry{"heat_brought", "; it brings {watts} on average while it acts"},
     Entry{"heat_taken", "; it takes away {watts} on average while it acts"},

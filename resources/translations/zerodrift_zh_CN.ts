@@ -3182,8 +3182,8 @@
         <translation>{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} 倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。</translation>
     </message>
     <message>
-        <source>With the heat of {part} {factor} times what is described, the recording is explained as well without {@name}: check the power of {part} first.</source>
-        <translation>若{part}的发热量为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对{part}的功率。</translation>
+        <source>With {@quantity} of {part} at {factor} times what is described, the recording is explained as well without {@name}: check that number first.</source>
+        <translation>若{part}的{@quantity}为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对该数值。</translation>
     </message>
     <message>
         <source>; it brings {watts} on average while it acts</source>

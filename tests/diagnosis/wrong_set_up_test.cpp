@@ -215,7 +215,7 @@ TEST(WrongSetUp, AMotorDescribedAsAThirdOfItselfIsNotSurelyAnotherHeat) {
   described["efficiency"] = 1.0 - (1.0 - described["efficiency"].get<double>()) / 3.0;
   const auto answer = answer_with_details(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_TRUE(notes(*answer, "misstated:motor:") || notes(*answer, "far_from_description:heat:motor:"));
+  EXPECT_TRUE(notes(*answer, "misstated:heat:motor:") || notes(*answer, "far_from_description:heat:motor:"));
   for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << found.id;
 }
 

@@ -58,9 +58,9 @@ std::vector<TextEntry> texts_of_physics() {
        "that{@heat}. Typical of it: {@fingerprint}.",
        "{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} "
        "倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。"},
-      {"With the heat of {part} {factor} times what is described, the recording is explained as well without {@name}: "
-       "check the power of {part} first.",
-       "若{part}的发热量为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对{part}的功率。"},
+      {"With {@quantity} of {part} at {factor} times what is described, the recording is explained as well without "
+       "{@name}: check that number first.",
+       "若{part}的{@quantity}为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对该数值。"},
       {"In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
        "kW?",
        "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 kW？"},
