@@ -221,7 +221,8 @@ void NetworkBuilder::add_sensors() {
     Observation seen;
     seen.channel = sensor.channel;
     seen.probe = probe(probe_at(component->id, sensor.position_mm));
-    seen.reference = reference_C(component->id);
+    // What reads its rise wrong does so from the room on, where a warm start has left it long ago.
+    seen.reference = reference_C(component->id) - start_above_room_K(m_machine, component->id, m_inputs);
     Parameter offset;
     offset.key = "offset_K";
     offset.channel = sensor.channel;

@@ -60,12 +60,10 @@ void mark_pairs(const std::vector<double>& values, double sigma, std::vector<boo
   }
 }
 
-}  // namespace
-
-std::vector<bool> spikes(const std::vector<double>& values, double sigma) {
+/// Those whose neighbours on both sides stand by the running median of five.
+std::vector<bool> alone(const std::vector<double>& values, double sigma) {
   const std::ptrdiff_t n = std::ssize(values);
   std::vector<bool> mark(values.size(), false);
-  if (n < 5) return mark;
   // Reflected ends: with edge padding a spike in the first sample would be its own median.
   const auto at = [&](std::ptrdiff_t i) {
     if (i < 0) i = -i;
@@ -89,7 +87,26 @@ std::vector<bool> spikes(const std::vector<double>& values, double sigma) {
     const double right = i + 1 < n ? deviation[i + 1] : deviation[i - 1];
     mark[i] = deviation[i] > noise_widths * sigma && deviation[i] > times_around * std::max(left, right);
   }
-  mark_pairs(values, sigma, mark);
+  return mark;
+}
+
+}  // namespace
+
+std::vector<bool> spikes(const std::vector<double>& values, double sigma) {
+  constexpr int most_passes = 3;  // a large one hides a small one beside it
+  std::vector<bool> mark(values.size(), false);
+  if (values.size() < 5) return mark;
+  std::vector<double> left = values;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    std::vector<bool> now = alone(left, sigma);
+    mark_pairs(left, sigma, now);
+    if (std::none_of(now.begin(), now.end(), [](bool one) { return one; })) break;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (!now[i]) continue;
+      mark[i] = true;
+      left[i] = std::nan("");
+    }
+  }
   return mark;
 }
 

@@ -36,7 +36,9 @@ TEST(Inputs, SpikesAreMarkedAloneAndTwoInARow) {
   values[120] += 20.0;  // two alike, and one more close by
   values[121] += 30.0;
   values[123] += 60.0;
-  EXPECT_EQ(marked(values), (std::vector<std::size_t>{30, 32, 80, 81, 120, 121, 123}));
+  values[160] -= 4.0;  // a small one beside a large one
+  values[161] += 50.0;
+  EXPECT_EQ(marked(values), (std::vector<std::size_t>{30, 32, 80, 81, 120, 121, 123, 160, 161}));
 }
 
 TEST(Inputs, AStepAndAShortRiseAreNoSpikes) {
