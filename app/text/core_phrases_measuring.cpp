@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 231> measuring = {{
+constexpr std::array<const char*, 232> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -194,6 +194,7 @@ constexpr std::array<const char*, 231> measuring = {{
     QT_TRANSLATE_NOOP("core", "a region of 100 megapixels at most"),
     QT_TRANSLATE_NOOP("core", "width and height in pixels"),
     QT_TRANSLATE_NOOP("core", "it stood %1 px from where it is"),
+    QT_TRANSLATE_NOOP("core", "the template shows something else in the region it was made with"),
     QT_TRANSLATE_NOOP("core", "a number from -1e-05 to 1e-05"),
     QT_TRANSLATE_NOOP("core", "a number above 0, up to 1e-05"),
     QT_TRANSLATE_NOOP("core", "at least 2x2"),

@@ -152,7 +152,13 @@ Location locate_against(const Target& target, const std::vector<Target>& referen
   const bool with_turn = taken_off_by(seen_places) == TakenOff::shift_turn_scale;
   const bool expected = taken_off_by(places) == TakenOff::shift_turn_scale;
   const CameraTurn last = expected && turn != nullptr ? *turn : CameraTurn{};
-  const CameraMotion motion = motion_at(at.point, seen, with_turn, last);
+  // Of the place where the target is, which the camera's own motion shows elsewhere.
+  constexpr int corrections = 2;
+  CameraMotion motion = motion_at(at.point, seen, with_turn, last);
+  for (int i = 0; i < corrections; ++i) {
+    const PixelPoint place{at.point.x_px - motion.shift_px(0), at.point.y_px - motion.shift_px(1)};
+    motion = motion_at(place, seen, with_turn, last);
+  }
   if (turn != nullptr) *turn = motion.turn;
   // With no more than one mark from the start, what remains is said once, beside all figures.
   if (expected) at.shared_sigma_px = motion.unseen_px;

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/base/base64.h"
 #include "core/base/json.h"
 #include "core/vision/image_codec.h"
+#include "core/vision/opencv_image.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -189,6 +191,18 @@ Result<std::optional<StoredTarget>> target_from_json(const nlohmann::json& calib
   });
 }
 
+namespace {
+
+/// Correlation of a picture with a region of its size.
+double likeness(const GrayImage& picture, const GrayImage& image, const Region& region) {
+  cv::Mat score;
+  cv::matchTemplate(mat_view(image)(cv::Rect(region.x, region.y, region.width, region.height)), mat_view(picture),
+                    score, cv::TM_CCOEFF_NORMED);
+  return score.at<float>(0, 0);
+}
+
+}  // namespace
+
 Status made_with(const StoredTarget& stored, const Target& target, const std::string& file,
                  const std::string& template_name) {
   const GrayImage& image = target.image();
@@ -200,7 +214,13 @@ Status made_with(const StoredTarget& stored, const Target& target, const std::st
     return other(fmt::format("{}: {}x{} pixels, the template has {}x{}", file, (*stored.size_px)[0],
                              (*stored.size_px)[1], image.width, image.height));
   }
-  if (!stored.picture || target.region() != stored.region) return {};
+  if (!stored.picture) return {};
+  if (target.region() != stored.region) {
+    // Another region of the same picture: the camera is the same, if it shows there what it showed then.
+    constexpr double alike = 0.5;
+    if (inside(stored.region, image) && likeness(*stored.picture, image, stored.region) > alike) return {};
+    return other("the template shows something else in the region it was made with");
+  }
   GrayImage as_it_was = image;
   for (int row = 0; row < stored.region.height; ++row) {
     const auto from = stored.picture->pixels.begin() + std::ptrdiff_t{row} * stored.region.width;

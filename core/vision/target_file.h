@@ -29,8 +29,8 @@ Result<std::optional<StoredTarget>> target_from_json(const nlohmann::json& calib
                                                      const std::string& file);
 
 /// Whether the calibration was made with this target: pictures of one size, and in the same region what it shows is
-/// looked for with the template at hand, which may be another picture of the same. Errors:
-/// calibration_of_another_target.
+/// looked for with the template at hand, which may be another picture of the same. With another region, whether the
+/// template shows there what the calibration's did. Errors: calibration_of_another_target.
 Status made_with(const StoredTarget& stored, const Target& target, const std::string& file,
                  const std::string& template_name);
 

@@ -3942,6 +3942,10 @@
         <translation>以像素为单位的宽和高</translation>
     </message>
     <message>
+        <source>the template shows something else in the region it was made with</source>
+        <translation>模板图像在其标定所用区域中显示的是别的内容</translation>
+    </message>
+    <message>
         <source>it stood %1 px from where it is</source>
         <translation>其位置与现在相差 %1 px</translation>
     </message>

@@ -253,6 +253,34 @@ TEST(WrongSetUp, ADescriptionInCentimetresIsOfNoMachine) {
   EXPECT_EQ(describe(answer.error()).find("milliseconds"), std::string::npos) << describe(answer.error());
 }
 
+TEST(WrongSetUp, AConductivityThreeTimesTooLargeIsNoJoint) {
+  for (const char* hidden : {"none", "sensor_offset"}) {
+    proof::Case one = proof::make_case(301, hidden);
+    auto& material = one.machine["components"][0]["material"];
+    material["conductivity_W_mK"] = 3.0 * material["conductivity_W_mK"].get<double>();
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(notes(*answer, "far_from_description:conductivity:") || notes(*answer, "misstated:conductivity:"));
+    for (const FoundEffect& found : answer->effects) {
+      EXPECT_LE(found.confidence, found.id == hidden ? 0.8 : 0.5) << hidden << ": " << found.id;
+    }
+    EXPECT_EQ(hidden == std::string("none"), answer->effects.empty());
+  }
+}
+
+TEST(WrongSetUp, ABearingDescribedAsAThirdOfItselfDoesNotHideWhatElseIsMissing) {
+  proof::Case one = proof::make_case(301, "sensor_offset");
+  for (auto& source : one.machine["components"][0]["heat_sources"]) {
+    if (source["kind"] != "bearing") continue;
+    for (const char* key : {"f0", "f1"}) source[key] = source[key].get<double>() / 3.0;
+    break;
+  }
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  ASSERT_EQ(answer->effects.size(), 1U);
+  EXPECT_EQ(answer->effects[0].id, "sensor_offset");
+}
+
 TEST(WrongSetUp, AProbeThatDropsOutIsNoBracketThatSlipped) {
   proof::Case one = proof::make_case(327, "none");
   auto& dZ = one.recordings[0].find("dZ_um")->values;

@@ -77,6 +77,11 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
     warnings.push_back(options.calibration +
                        " does not hold its target's picture: whether it was made with this target is not checked");
   }
+  if (request.calibration && request.calibration->handedness_assumed) {
+    warnings.push_back(options.calibration +
+                       " was made with two positions: a mirrored camera does not show, and across their line the "
+                       "micrometres may have the other sign");
+  }
   if (!options.views.empty()) {
     ZD_TRY(const std::vector<vision::ViewRow> views, vision::read_views(options.views, &warnings));
     ZD_TRY(const vision::FileCalibration learned, vision::calibrate_from_files(target, views, &warnings, context));
