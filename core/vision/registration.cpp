@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -49,6 +50,10 @@ constexpr double outline_bias = 6.0;        // one frame in twenty without need:
 constexpr double outline_in_part = 0.75;    // of the gradient energy: less of it is no better than the whole
 constexpr double drawn_middle_px = 5.0;     // a point further from the middle was named on purpose
 constexpr double all_of_it = 0.98;          // of the pixels
+constexpr double turn_step_px = 0.8;        // at the region's edge: a glance follows thin lines half as far
+constexpr double least_turn_step_rad = 0.004;
+constexpr double nearly_all = 0.9;       // of the gradient energy
+constexpr double more_explained = 1.05;  // times what is explained without a turn; covers change it by less
 
 // More of the target explained, and to a smaller residual.
 double fit_of(const Registration& r) {
@@ -107,6 +112,10 @@ bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
   if (std::max(next.template_blur.trace(), next.frame_blur.trace()) > largest_blur_px2) return false;
   setup = next;
   return true;
+}
+
+Eigen::Matrix2d turn_of(const Eigen::Matrix2d& linear) {
+  return Eigen::Rotation2Dd(std::atan2(linear(1, 0) - linear(0, 1), linear.trace())).toRotationMatrix();
 }
 
 bool alike(const ImageSetup& a, const ImageSetup& b) {
@@ -262,6 +271,42 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   return best;
 }
 
+// Where a turn moves the ends of thin lines by more than their width, they lie on even paper and count as outliers: the
+// middle alone is then fitted, and nothing of what is left pulls towards the turn. Among many starts one fits part of
+// nearly anything: only a turn that shows nearly all of the target is worth a look.
+std::optional<Registration> Registrar::run_turned(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
+                                                  double largest_turn_rad, bool with_residual_map) const {
+  PatchOfFrame patches(frame, patch_at(dx_px, dy_px));
+  const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
+  RegistrationStart start;
+  start.whole_px = {dx_px, dy_px};
+  start.lens = lens;
+  const auto explained_from = [&] {
+    RegistrationSolver solver(m_model, patch, nullptr, start);
+    if (!solver.glance()) return 0.0;
+    const Registration seen = solver.fit(m_model.pixels / 4);
+    return seen.informed_share * std::max(seen.correlation, 0.0);
+  };
+  double most = std::max(more_explained * explained_from(), nearly_all);
+  double best_rad = 0.0;
+  const auto turn_to = [&](double turn_rad) {
+    start.linear = Eigen::Rotation2Dd(turn_rad).toRotationMatrix();
+    start.shift_px = m_middle - start.linear * m_middle;
+  };
+  const double half_px = 0.5 * std::max(m_source.region.width, m_source.region.height);
+  const double step_rad = std::max(turn_step_px / half_px, least_turn_step_rad);
+  const int steps = static_cast<int>(std::lround(largest_turn_rad / step_rad));
+  for (int k = -steps; k <= steps; ++k) {
+    if (k == 0) continue;
+    turn_to(k * step_rad);
+    const double explained = explained_from();
+    if (explained > most) most = explained, best_rad = k * step_rad;
+  }
+  if (best_rad == 0.0) return std::nullopt;
+  turn_to(best_rad);
+  return attempt(patches, start, with_residual_map);
+}
+
 std::vector<std::uint8_t> Registrar::unlike(const GrayImage& frame, int dx_px, int dy_px) const {
   const Region& region = m_source.region;
   FloatImage weight(region.width, region.height);
@@ -301,11 +346,25 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   // the residual shows.
   if (course.setup.with_field && whole.structure < doubtful_structure) return whole;
   course.setup.with_field = false;
-  course.start.linear.setIdentity();
   course.start.outline_alone = true;
-  course.blurred_model.reset();
-  Registration outline = solve(*m_outline, *m_outline_model, course.start, course);
+  const RegistrationStart seen_whole = course.start;
+  const ImageSetup setup = course.setup;
+  const auto outline_from = [&](const Eigen::Matrix2d& linear) {
+    course.setup = setup;
+    course.start = seen_whole;
+    course.start.linear = linear;
+    course.blurred_model.reset();
+    return solve(*m_outline, *m_outline_model, course.start, course);
+  };
+  Registration outline = outline_from(Eigen::Matrix2d::Identity());
   if (!outline.converged) return whole;
+  // The outline of thin lines shows a turn, and may do so only from where they overlap: else it is found at the middle
+  // alone, and the rest looks hidden. A round one does not care where it starts.
+  if (linear_change(whole) > straight && more_explained * outline.informed_share < whole.informed_share) {
+    Registration turned = outline_from(turn_of(whole.linear));
+    if (turned.converged && turned.informed_share > more_explained * outline.informed_share)
+      outline = std::move(turned);
+  }
   if (whole.structure < structure_limit && !biased_at_middle(whole, outline, outline_bias, outline_known_px)) {
     // A print turns with the target and fits all over; what is reflected turns with the lamp and does not.
     const bool all_fits = whole.inlier_share + whole.saturated_share > all_of_it;

@@ -63,7 +63,11 @@ class Registrar {
   /// Starts with the region displaced by whole pixels; the point may end up to 8 px from there.
   Registration run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens = {},
                    bool with_residual_map = false) const;
-  /// The same on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
+  /// From the turn about the target's middle at which a glance explains nearly all of it, and more than unturned; empty
+  /// where none does.
+  std::optional<Registration> run_turned(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
+                                         double largest_turn_rad, bool with_residual_map) const;
+  /// As run, on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
   std::vector<Registration> glances(const GrayImage& frame, const std::vector<std::array<int, 2>>& places) const;
 
   const TemplateModel& model() const { return m_model; }

@@ -120,6 +120,10 @@ bool like_the_target(const Registration& glance) {
   return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
 }
 
+bool may_be_turned(Refusal why) {
+  return why == Refusal::wrong_target || why == Refusal::occluded || why == Refusal::too_different;
+}
+
 // Refused, and yet the place is known well enough to learn from.
 bool fits_in_part(const Location& at) {
   return (at.refusal == Refusal::occluded || at.refusal == Refusal::wrong_target) &&
@@ -300,6 +304,17 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
     best.partly_unlit = best.partly_unlit || found.partly_unlit;
     if (judge(best, best_coarse) != Refusal::none || best.correlation <= sure_correlation) continue;
     if (best.inlier_share > clear_inliers) break;
+  }
+  // All of it may be there, but turned by more than the fit can follow. Of less than all a turn sought so is no
+  // evidence.
+  for (std::size_t k = 0; k < likeliest.size() && may_be_turned(judge(best, best_coarse)); ++k) {
+    const Candidate& one = likeliest[k];
+    const auto found =
+        m_impl->fine.run_turned(frame, one.dx_px, one.dy_px, m_lens, largest_linear, residual_map != nullptr);
+    if (!found || merit(*found) <= merit(best) || judge(*found, one.correlation) != Refusal::none) continue;
+    if (found->inlier_share + found->saturated_share < nothing_hidden) continue;
+    best = *found;
+    best_coarse = one.correlation;
   }
   RepeatingTarget::Doubt doubt;
   if (best.converged) doubt = m_impl->repeating.doubt(frame, best);
