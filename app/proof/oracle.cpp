@@ -7,6 +7,7 @@
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
+#include "core/diagnosis/place.h"
 #include "core/diagnosis/refine.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/screening.h"
@@ -77,6 +78,20 @@ diagnosis::OtherRecordings others_of(const physics::Machine& machine,
   return others;
 }
 
+/// How well the places of the effects from `first` on are known.
+std::map<std::string, double> places_of(const Model& model, std::size_t first,
+                                        const diagnosis::OtherRecordings& others) {
+  std::map<std::string, double> sigma_mm;
+  std::optional<diagnosis::SeenByAll> seen;
+  for (std::size_t i = first; i < model.machine().effects.size(); ++i) {
+    if (model.machine().effects[i].numbers.count("position_mm") == 0) continue;
+    if (!seen) seen = diagnosis::seen_by_all(model, others);
+    const auto place = diagnosis::place_of_effect(model, *seen, i);
+    if (place) sigma_mm[model.machine().effects[i].id] = place->sigma_mm;
+  }
+  return sigma_mm;
+}
+
 std::map<std::string, double> reached_in(const Model& model, const recording::Recording& other) {
   const double hold = model.values()[static_cast<std::size_t>(model.network().hold_parameter)];
   std::map<std::string, double> reached;
@@ -134,6 +149,7 @@ OracleAnswer told_the_truth(const physics::Machine& described, const std::vector
     diagnosis::ask_elsewhere(asked, *less, others);
     shown += best->elsewhere;
   }
+  answer.place_sigma_mm = places_of(*best, machine.effects.size(), others);
   if (recordings.size() > 1) answer.reached = reached_in(*best, recordings[1]);
   return answer;
 }

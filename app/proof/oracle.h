@@ -18,6 +18,8 @@ struct OracleAnswer {
   double evidence = 0.0;                  // log evidence of the true structure over none
   std::map<std::string, double> beside;   // of each hidden effect beside the others
   std::map<std::string, double> reached;  // rms in the second recording by channel; empty without one
+  /// One standard deviation of the place of each hidden effect that has one, mm, from all recordings.
+  std::map<std::string, double> place_sigma_mm;
 };
 
 /// Fits the first recording.

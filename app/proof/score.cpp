@@ -43,6 +43,13 @@ std::string id_of(const json& effect, const OpenedAnswer& truth) {
   return id;
 }
 
+/// Does one who is told what is hidden know its place well enough to tell it as a point (diagnosis: widest_point_mm)?
+bool place_is_decidable(const OpenedAnswer& truth, const std::string& id) {
+  constexpr double widest_point_mm = 6.0;
+  const auto told = truth.told_place_sigma_mm.find(id == "standing_heat" ? "extra_heat_source" : id);
+  return told != truth.told_place_sigma_mm.end() && told->second <= widest_point_mm;
+}
+
 std::string answer_of(const json& diagnosis, const OpenedAnswer& truth) {
   std::string verdict = diagnosis.value("verdict", "");
   if (verdict != "missing_effect") return verdict;
@@ -233,6 +240,7 @@ void Score::count_location(const OpenedAnswer& truth, const json& diagnosis, Jud
       if (id_of(effect, truth) != hidden.id || !effect.at("position_mm").is_number()) continue;
       judgement.location_error_mm = std::abs(effect.at("position_mm").get<double>() - *hidden.position_mm);
       m_location_mm.push_back(*judgement.location_error_mm);
+      if (place_is_decidable(truth, hidden.id)) m_decidable_mm.push_back(*judgement.location_error_mm);
       const double stated_mm = effect.value("sigma", json::object()).value("position_mm", 0.0);
       m_location_stated.add(*judgement.location_error_mm <= 2.0 * stated_mm);
       if (const auto between = effect.find("between_mm"); between != effect.end() && between->is_array()) {
@@ -346,6 +354,10 @@ std::vector<ProofFigure> Score::figures() const {
       share_figure("channel", "channel with the largest mismatch named", m_channel.good, m_channel.all, 0.85, true));
   list.push_back(number_figure("location_median_mm", "location, median", median(m_location_mm), 1, "mm", 2.0));
   list.push_back(number_figure("location_worst_mm", "location, worst", quantile(m_location_mm, 1.0), 1, "mm", 12.0));
+  list.push_back(plain_number("location_decidable_median_mm", "location that one who is told knows to 6 mm, median",
+                              median(m_decidable_mm), 1, "mm"));
+  list.push_back(plain_number("location_decidable_worst_mm", "location that one who is told knows to 6 mm, worst",
+                              quantile(m_decidable_mm, 1.0), 1, "mm"));
   list.push_back(plain_share("location_stated", "location within twice the stated uncertainty", m_location_stated.good,
                              m_location_stated.all));
   list.push_back(plain_number("location_point_median_mm", "location where it is told as a point, median",

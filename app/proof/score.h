@@ -32,6 +32,8 @@ struct OpenedAnswer {
   std::map<std::string, double> reached;
   /// Log evidence, for one who is told the truth, of the hidden effect that shows least beside the others.
   std::optional<double> told;
+  /// For the same, one standard deviation of each hidden place, mm, by the effect's id.
+  std::map<std::string, double> told_place_sigma_mm;
 
   std::string words() const;  // "none", "coolant", "coolant+sensor_lag"
 };
@@ -146,7 +148,7 @@ class Score {
       m_stretch;
   int m_turned_round = 0;
   std::map<std::string, int> m_put_aside;
-  std::vector<double> m_location_mm, m_point_mm, m_seconds, m_processor_s;
+  std::vector<double> m_location_mm, m_point_mm, m_decidable_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;
   std::map<std::pair<std::string, bool>, Rms> m_rms;  // (kind of channel, second recording)
   std::map<std::string, std::map<std::string, int>> m_confusion;

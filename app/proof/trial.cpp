@@ -150,6 +150,7 @@ Result<Trial> run_trial(const TrialOptions& options, const TaskContext& context)
     if (answers[i] && !truth.unlisted) {
       ZD_TRY(const OracleAnswer oracle, told(folder, truth, *answers[i]));
       truth.reached = oracle.reached;
+      truth.told_place_sigma_mm = oracle.place_sigma_mm;
       for (const auto& [id, evidence] : oracle.beside) truth.told = std::min(truth.told.value_or(evidence), evidence);
     }
     if (answers[i]) {

@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
     if (!truth.unlisted) {
       const auto told = zerodrift::proof::told_the_truth(*machine, one.recordings, truth.effects);
       truth.reached = told.reached;
+      truth.told_place_sigma_mm = told.place_sigma_mm;
       for (const auto& [id, evidence] : told.beside) truth.told = std::min(truth.told.value_or(evidence), evidence);
     }
     const auto judged = score.add(truth, zerodrift::diagnosis::to_json(*d));
