@@ -11,7 +11,9 @@ namespace zerodrift::diagnosis {
 namespace {
 
 constexpr int places_per_rod = 16;
+constexpr double all_explained = 1.0;  // right models leave 0.3 to 1
 constexpr FitOptions fit_options{8, 0.1, true};
+constexpr FitOptions glance{1, 0.1, true};
 
 struct Unit {
   const char* symbol;
@@ -113,16 +115,17 @@ void add_units(std::vector<Trial>& trials, const Model& base, const std::vector<
   }
 }
 
-std::shared_ptr<Model> refitted(physics::Machine machine, const Model& like,
-                                const std::shared_ptr<const Dataset>& data) {
+std::shared_ptr<Model> refitted(physics::Machine machine, const Model& like, const std::shared_ptr<const Dataset>& data,
+                                const FitOptions& options = fit_options) {
   auto model = std::make_shared<Model>(std::move(machine), data);
   model->start_from(like, false);
-  model->fit(fit_options);
+  model->fit(options);
   return model;
 }
 
 /// The trial's places with the effects of `like`.
-void fit(Trial& trial, const Model& like, const std::shared_ptr<const Dataset>& data) {
+void fit(Trial& trial, const Model& like, const std::shared_ptr<const Dataset>& data,
+         const FitOptions& options = fit_options) {
   physics::Machine machine = like.machine();
   if (!trial.what.all_in.empty()) {
     const std::string component = sensor_of(machine, trial.what.channel).component;
@@ -134,7 +137,7 @@ void fit(Trial& trial, const Model& like, const std::shared_ptr<const Dataset>& 
   if (!trial.what.exchanged_with.empty()) {
     sensor_of(machine, trial.what.exchanged_with).position_mm = trial.what.described_mm;
   }
-  trial.fit = refitted(std::move(machine), like, data);
+  trial.fit = refitted(std::move(machine), like, data, options);
 }
 
 physics::Machine without_sensor_faults(physics::Machine machine) {
@@ -193,7 +196,11 @@ class Contest {
     return trial.fit->log_evidence() > m_described->log_evidence() + clearly(trial) && leaves_little(*trial.fit);
   }
   std::vector<Trial> tried_beside(const Model& like, std::vector<Trial> trials) const {
-    in_parallel(trials.size(), [&](std::size_t i) { fit(trials[i], like, m_data); });
+    // A glance first: one step tells most places from any that could win.
+    constexpr double far_behind = 200.0;
+    in_parallel(trials.size(), [&](std::size_t i) { fit(trials[i], like, m_data, glance); });
+    std::erase_if(trials, [&](const Trial& one) { return one.fit->log_evidence() < like.log_evidence() - far_behind; });
+    in_parallel(trials.size(), [&](std::size_t i) { trials[i].fit->fit(fit_options); });
     std::erase_if(trials,
                   [&](const Trial& one) { return one.fit->log_evidence() < like.log_evidence() + clearly(one); });
     std::sort(trials.begin(), trials.end(), likelier);
@@ -262,6 +269,8 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
   Trial found = *std::min_element(leading.begin(), leading.end(), likelier);
   contest.narrow(found);
   if (contest.wins(found)) return found.what;
+  // Where nothing is left all else that is missing stands in `best`, beside which the places were tried.
+  if (excess_of(best).largest <= all_explained) return std::nullopt;
   // What else is missing was sought with the sensor where it is not.
   limits.others.clear();
   for (Trial& one : leading) {

@@ -79,11 +79,10 @@ void take_value(Machine& machine, const physics::Parameter& p, double value) {
       }
     }
   }
-  for (auto& coupling : machine.couplings) {
-    if (p.key == "conductance_W_K" && p.effect < 0 &&
-        p.component == coupling.first.component + "-" + coupling.second.component) {
-      coupling.conductance_W_K = value;
-    }
+  for (std::size_t i = 0; i < machine.couplings.size(); ++i) {
+    const bool own = p.key == "conductance_W_K" && p.effect < 0;
+    if (own && p.component == physics::coupling_name(machine.couplings, i))
+      machine.couplings[i].conductance_W_K = value;
   }
 }
 

@@ -159,13 +159,14 @@ void NetworkBuilder::add_start_shapes(const Network::Place& at, double above_K) 
 }
 
 void NetworkBuilder::add_couplings() {
-  for (const auto& coupling : m_machine.couplings) {
+  for (std::size_t i = 0; i < m_machine.couplings.size(); ++i) {
+    const Coupling& coupling = m_machine.couplings[i];
     const Component& first = *m_machine.find(coupling.first.component);
     const Component& second = *m_machine.find(coupling.second.component);
     if (first.prescribed && second.prescribed) continue;
     Parameter g;
     g.key = "conductance_W_K";
-    g.component = first.id + "-" + second.id;
+    g.component = coupling_name(m_machine.couplings, i);
     if (coupling.conductance_W_K && *coupling.conductance_W_K > 0.0) {
       g.mean = g.start = *coupling.conductance_W_K;
       g.logarithmic = true;

@@ -43,6 +43,15 @@ const Component* Machine::find(const std::string& id) const {
   return nullptr;
 }
 
+std::string coupling_name(const std::vector<Coupling>& couplings, std::size_t index) {
+  const auto between = [&](std::size_t i) {
+    return couplings[i].first.component + "-" + couplings[i].second.component;
+  };
+  int before = 0;
+  for (std::size_t i = 0; i < index; ++i) before += between(i) == between(index) ? 1 : 0;
+  return before == 0 ? between(index) : between(index) + ":" + std::to_string(before + 1);
+}
+
 const Sensor* Machine::sensor(const std::string& channel) const {
   for (const auto& one : sensors) {
     if (one.channel == channel) return &one;

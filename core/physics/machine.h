@@ -108,6 +108,9 @@ struct Coupling {
   std::optional<double> conductance_W_K;
 };
 
+/// What tells a coupling's parameter apart: the two components, and which of the couplings between them.
+std::string coupling_name(const std::vector<Coupling>& couplings, std::size_t index);
+
 struct Fluid {
   std::string id;
   std::string temperature_channel;
