@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 232> measuring = {{
+constexpr std::array<const char*, 233> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -86,7 +86,7 @@ constexpr std::array<const char*, 232> measuring = {{
     QT_TRANSLATE_NOOP("core", "a name of its own for each column"),
     QT_TRANSLATE_NOOP("core", "a position is not a number"),
     QT_TRANSLATE_NOOP("core", "the two positions are %1 px apart in the image, at least %2 px are needed"),
-    QT_TRANSLATE_NOOP("core", "both positions have the same machine coordinates"),
+    QT_TRANSLATE_NOOP("core", "all positions have the same machine coordinates"),
     QT_TRANSLATE_NOOP("core",
                       "what was measured stood still while the machine moved: the region shows more of what stands "
                       "still than of the target; draw it closer to the target"),
@@ -97,7 +97,7 @@ constexpr std::array<const char*, 232> measuring = {{
         "core",
         "the scale differs by %1 % between two directions: the camera looks at the plane of motion from the side"),
     QT_TRANSLATE_NOOP("core", "the calibration"),
-    QT_TRANSLATE_NOOP("core", "%1 usable views"),
+    QT_TRANSLATE_NOOP("core", "%1 of the views can be used: 2 are needed, 9 are better"),
     QT_TRANSLATE_NOOP("core", "2, better 9"),
     QT_TRANSLATE_NOOP("core", "the residual is %1 um rms, the limit %2 um"),
     QT_TRANSLATE_NOOP("core", "%1; the view that fits worst is %2 (%3 um off)"),
@@ -136,7 +136,7 @@ constexpr std::array<const char*, 232> measuring = {{
     QT_TRANSLATE_NOOP("core", "the encoder for %1"),
     QT_TRANSLATE_NOOP("core", "%1 failed"),
     QT_TRANSLATE_NOOP("core", "the picture is damaged"),
-    QT_TRANSLATE_NOOP("core", "%1 is no picture and was left out"),
+    QT_TRANSLATE_NOOP("core", "%1 is no PNG, JPEG, BMP or TIFF picture and was left out"),
     QT_TRANSLATE_NOOP("core", "%1 is a pipe or a device, no picture, and was left out"),
     QT_TRANSLATE_NOOP("core", "%1 is a folder, no picture, and was left out"),
     QT_TRANSLATE_NOOP("core", "a file"),
@@ -209,6 +209,7 @@ constexpr std::array<const char*, 232> measuring = {{
     QT_TRANSLATE_NOOP("core",
                       "the positions are too close together, or not in mm: %1 um apart, with %2 um of the machine's "
                       "own the scale is known to %3 % only"),
+    QT_TRANSLATE_NOOP("core", "too little light or contrast"),
     QT_TRANSLATE_NOOP("core", "too different from the template"),
     QT_TRANSLATE_NOOP("core", "another resolution than the template"),
     QT_TRANSLATE_NOOP("core", "the region of the target"),

@@ -37,10 +37,10 @@ int error_code_count() {
 }
 
 std::string shortened(std::string found) {
-  constexpr std::size_t longest = 60;
+  constexpr std::size_t longest_shown = 60;
   constexpr std::string_view more = "...";
-  if (found.size() <= longest) return found;
-  std::size_t end = longest - more.size();
+  if (found.size() <= longest_shown) return found;
+  std::size_t end = longest_shown - more.size();
   // Not within a character of several bytes (UTF-8).
   while (end > 0 && (static_cast<unsigned char>(found[end]) & 0xC0) == 0x80) --end;
   found.resize(end);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnosis/selection.h"
@@ -10,6 +11,7 @@
 namespace zerodrift::diagnosis {
 namespace {
 
+constexpr std::string_view joint_id = "contact_resistance";
 constexpr int places_per_rod = 16;
 constexpr double all_explained = 1.0;  // right models leave 0.3 to 1
 constexpr FitOptions fit_options{8, 0.1, true};
@@ -24,6 +26,7 @@ constexpr std::array other_units{Unit{"cm", 10.0}, Unit{"in", 25.4}, Unit{"m", 1
 struct Trial {
   Misplaced what;
   bool typical = false;  // an exchange, or described numbers in another unit: nothing is free to suit the data
+  bool aside = false;    // by a few per cent of the length: more usual than another place
   std::shared_ptr<Model> fit;
 };
 
@@ -85,17 +88,44 @@ void add_trials(std::vector<Trial>& trials, const Model& base, const physics::Se
   for (int i = 0; i < places_per_rod; ++i) {
     const double at_mm = (i + 0.5) / places_per_rod * length_mm;
     if (std::abs(at_mm - here_mm) > far * length_mm)
-      trials.push_back({{sensor.channel, here_mm, at_mm, {}, {}}, false, {}});
+      trials.push_back({{sensor.channel, here_mm, at_mm, {}, {}}, false, false, {}});
   }
   for (const Unit& unit : other_units) {
     const double at_mm = here_mm * unit.mm;
     if (at_mm > length_mm || at_mm - here_mm <= far * length_mm) continue;
-    trials.push_back({{sensor.channel, here_mm, at_mm, {}, {}}, true, {}});
+    trials.push_back({{sensor.channel, here_mm, at_mm, {}, {}}, true, false, {}});
   }
   for (const physics::Sensor& other : all) {
     if (other.component != sensor.component || std::abs(other.position_mm - here_mm) < far * length_mm) continue;
-    trials.push_back({{sensor.channel, here_mm, other.position_mm, other.channel, {}}, true, {}});
+    trials.push_back({{sensor.channel, here_mm, other.position_mm, other.channel, {}}, true, false, {}});
   }
+}
+
+/// The sensors next to the joints that are named, a little to either side of their places: one that sits elsewhere
+/// reads too much or too little in proportion to what flows past it, as beside a joint.
+std::vector<Trial> a_little_aside(const Model& best, const std::vector<physics::Sensor>& all) {
+  std::vector<Trial> trials;
+  for (const auto& joint : best.machine().effects) {
+    if (!joint.candidate || joint.id != joint_id) continue;
+    const std::string rod = joint.word_or("component", "");
+    const double joint_mm = joint.number_or("position_mm", 0.0);
+    const double length_mm = best.machine().find(rod)->length_mm;
+    for (const double side : {-1.0, 1.0}) {
+      const physics::Sensor* next = nullptr;
+      for (const physics::Sensor& one : all) {
+        const double away_mm = side * (one.position_mm - joint_mm);
+        if (one.component != rod || away_mm < 0.0) continue;
+        if (next == nullptr || away_mm < side * (next->position_mm - joint_mm)) next = &one;
+      }
+      for (const double aside : {-0.09, -0.06, -0.03, 0.03, 0.06, 0.09}) {
+        if (next == nullptr) break;
+        const double at_mm = next->position_mm + aside * length_mm;
+        if (at_mm >= 0.0 && at_mm <= length_mm)
+          trials.push_back({{next->channel, next->position_mm, at_mm, {}, {}}, false, true, {}});
+      }
+    }
+  }
+  return trials;
 }
 
 /// All places of a rod in another unit, told by the sensor that is farthest from the fixed end.
@@ -110,7 +140,7 @@ void add_units(std::vector<Trial>& trials, const Model& base, const std::vector<
     for (const Unit& unit : other_units) {
       const double at_mm = sensor.position_mm * unit.mm;
       if (at_mm <= length_mm)
-        trials.push_back({{sensor.channel, sensor.position_mm, at_mm, {}, unit.symbol}, true, {}});
+        trials.push_back({{sensor.channel, sensor.position_mm, at_mm, {}, unit.symbol}, true, false, {}});
     }
   }
 }
@@ -145,6 +175,11 @@ physics::Machine without_sensor_faults(physics::Machine machine) {
   return machine;
 }
 
+physics::Machine without_joints(physics::Machine machine) {
+  std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate && spec.id == joint_id; });
+  return machine;
+}
+
 physics::Machine without_candidates(physics::Machine machine) {
   std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate; });
   return machine;
@@ -169,7 +204,7 @@ bool same_place(const Trial& a, const Trial& b) {
 
 /// Descriptions are mostly right about places: the log evidence that a wrong one has to show.
 double clearly(const Trial& trial) {
-  return trial.typical ? 10.0 : 25.0;
+  return trial.typical || trial.aside ? 10.0 : 25.0;
 }
 
 bool likelier(const Trial& a, const Trial& b) {
@@ -279,6 +314,19 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
     one.fit = refitted(selected->best->machine(), *selected->best, data);
     if (likelier(one, found)) found = one;
   }
+  contest.narrow(found);
+  return contest.wins(found) ? std::optional(found.what) : std::nullopt;
+}
+
+std::optional<Misplaced> misplaced_beside_a_joint(const Model& base, const Model& best,
+                                                  const std::shared_ptr<const Dataset>& data) {
+  const std::vector<Trial> trials = a_little_aside(best, missed_most(base));
+  if (trials.empty()) return std::nullopt;
+  const Contest contest(base, best, data);
+  const auto without = refitted(without_joints(best.machine()), best, data);
+  const std::vector<Trial> tried = contest.tried_beside(*without, trials);
+  if (tried.empty()) return std::nullopt;
+  Trial found = tried.front();
   contest.narrow(found);
   return contest.wins(found) ? std::optional(found.what) : std::nullopt;
 }

@@ -27,4 +27,8 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
                                           const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
                                           SelectionOptions limits, const TaskContext& context);
 
+/// The same where `best` names a joint: the sensors next to it, some per cent of the length to either side.
+std::optional<Misplaced> misplaced_beside_a_joint(const Model& base, const Model& best,
+                                                  const std::shared_ptr<const Dataset>& data);
+
 }  // namespace zerodrift::diagnosis

@@ -59,6 +59,7 @@ Fit fit_two(const Points& pixels, const Points& machine_um) {
 
 // A camera that shows less than a pixel of this much travel would be of no use to anybody.
 constexpr double clear_move_um = 100.0;
+constexpr double same_um = 0.01;
 constexpr double stands_still_px = 1.0;
 
 double largest_step(const Points& points) {
@@ -69,16 +70,15 @@ std::string refusal_of(const Points& pixels, const Points& machine_um, const Cal
   if (!pixels.allFinite() || !machine_um.allFinite()) return "a position is not a number";
   if (largest_step(pixels) < stands_still_px && largest_step(machine_um) > clear_move_um) {
     return "what was measured stood still while the machine moved: the region shows more of what stands still than of "
-           "the "
-           "target; draw it closer to the target";
+           "the target; draw it closer to the target";
   }
+  if (largest_step(machine_um) < same_um) return "all positions have the same machine coordinates";
   if (pixels.rows() == 2) {
     const double distance = (pixels.row(1) - pixels.row(0)).norm();
     if (distance < limits.least_span_two_px) {
       return fmt::format("the two positions are {:.1f} px apart in the image, at least {:.0f} px are needed", distance,
                          limits.least_span_two_px);
     }
-    if ((machine_um.row(1) - machine_um.row(0)).norm() < 1.0) return "both positions have the same machine coordinates";
     return "";
   }
   const auto extents = [](const Points& points) {
@@ -191,9 +191,8 @@ std::optional<std::size_t> oddest_view(const std::vector<CalibrationView>& views
 
 Result<Calibration> calibrate(std::vector<CalibrationView> views, const CalibrationLimits& limits) {
   if (views.size() < 2) {
-    return fail(ErrorCode::not_enough_data, {{"what", "the calibration"},
-                                             {"found", fmt::format("{} usable views", views.size())},
-                                             {"needed", "2, better 9"}});
+    return fail(ErrorCode::calibration_refused,
+                {{"reason", fmt::format("{} of the views can be used: 2 are needed, 9 are better", views.size())}});
   }
   const Points pixels = pixels_of(views);
   const Points machine_um = machine_um_of(views);

@@ -18,26 +18,41 @@ int quantile(const std::array<int, 256>& histogram, double share, double count) 
   return 255;
 }
 
+/// Squared gradients along x and y, smoothed by sigma, grey levels^2 / px^2.
+struct Energy {
+  double x = 0.0, y = 0.0;
+};
+
+Energy energy_of(const cv::Mat& part, double sigma_px) {
+  cv::Mat smooth, gx, gy;
+  part.convertTo(smooth, CV_32F);
+  cv::GaussianBlur(smooth, smooth, {0, 0}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
+  cv::Sobel(smooth, gx, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+  cv::Sobel(smooth, gy, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
+  const double count = static_cast<double>(part.total());
+  return {cv::norm(gx, cv::NORM_L2SQR) / count, cv::norm(gy, cv::NORM_L2SQR) / count};
+}
+
 // The squared gradient of an edge that is blurred by sigma falls as 1 / sigma. Two further blurs of known size tell by
 // their ratio what was there before: (sigma^2 + s1^2) / (sigma^2 + s2^2) = (E2 / E1)^2. The first keeps noise out.
-double blur_of(const GrayImage& image, const Region& at) {
+struct Blur {
+  double px = 0.0;
+  double largest_px = 0.0;  // of the directions x and y: a motion smears one of them
+};
+
+Blur blur_of(const GrayImage& image, const Region& at) {
   constexpr double first_px = 1.0;
   constexpr double second_px = 2.0;
-  constexpr double least_energy = 0.5;  // grey levels^2 / px^2: below it is no texture
+  constexpr double least_energy = 0.5;  // below it is no texture
   const cv::Mat part = mat_view(image)(cv::Rect(at.x, at.y, at.width, at.height));
-  const auto energy = [&part](double sigma_px) {
-    cv::Mat smooth, gx, gy;
-    part.convertTo(smooth, CV_32F);
-    cv::GaussianBlur(smooth, smooth, {0, 0}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
-    cv::Sobel(smooth, gx, CV_32F, 1, 0, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
-    cv::Sobel(smooth, gy, CV_32F, 0, 1, 1, 0.5, 0.0, cv::BORDER_REPLICATE);
-    return (cv::norm(gx, cv::NORM_L2SQR) + cv::norm(gy, cv::NORM_L2SQR)) / static_cast<double>(part.total());
+  const Energy fine = energy_of(part, first_px), coarse = energy_of(part, second_px);
+  const auto blur = [&](double e1, double e2) {
+    if (e1 < least_energy) return std::nan("");
+    const double ratio = std::pow(e2 / e1, 2);
+    const double variance = (ratio * second_px * second_px - first_px * first_px) / std::max(1.0 - ratio, 1e-3);
+    return std::sqrt(std::max(variance, 0.0));
   };
-  const double fine = energy(first_px);
-  if (fine < least_energy) return std::nan("");
-  const double ratio = std::pow(energy(second_px) / fine, 2);
-  const double variance = (ratio * second_px * second_px - first_px * first_px) / std::max(1.0 - ratio, 1e-3);
-  return std::sqrt(std::max(variance, 0.0));
+  return {blur(fine.x + fine.y, coarse.x + coarse.y), std::fmax(blur(fine.x, coarse.x), blur(fine.y, coarse.y))};
 }
 
 }  // namespace
@@ -65,7 +80,9 @@ ImageQuality quality_of(const GrayImage& image, const Region& region) {
   const double variance = square / count - out.mean_level * out.mean_level;
   out.sharpness = variance > 1.0 ? gradient / count / variance : 0.0;
   out.bright_level = quantile(out.histogram, 0.95, count);
-  out.blur_px = blur_of(image, at);
+  const Blur blur = blur_of(image, at);
+  out.blur_px = blur.px;
+  out.largest_blur_px = blur.largest_px;
   out.contrast_level = quantile(out.histogram, 0.95, count) - quantile(out.histogram, 0.05, count);
   for (int level = 0; level < 256; ++level) {
     if (level >= 252) out.saturated_share += out.histogram[level] / count;

@@ -11,6 +11,7 @@ namespace zerodrift::vision {
 struct ImageQuality {
   double sharpness = 0.0;        // mean squared gradient over variance: rises to focus, does not change with the light
   double blur_px = 0.0;          // sigma of the blur as edges show it, whatever the pattern; NaN without texture
+  double largest_blur_px = 0.0;  // along x or along y: a motion smears one of them
   double mean_level = 0.0;       // grey levels
   double bright_level = 0.0;     // 95 % quantile
   double contrast_level = 0.0;   // 95 % quantile less 5 % quantile

@@ -66,7 +66,7 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<st
     } else if (looks_like_picture(it->path())) {
       out.push_back(it->path());
     } else {
-      warn(warnings, name + " is no picture and was left out");
+      warn(warnings, name + " is no PNG, JPEG, BMP or TIFF picture and was left out");
     }
   }
   if (problem) {

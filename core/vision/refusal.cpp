@@ -16,6 +16,8 @@ std::string_view words_of(Refusal refusal) {
       return "target occluded";
     case Refusal::glare:
       return "glare";
+    case Refusal::dim:
+      return "too little light or contrast";
     case Refusal::blurred:
       return "too blurred";
     case Refusal::out_of_view:

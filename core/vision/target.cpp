@@ -11,6 +11,7 @@
 #include "core/vision/moved_apart.h"
 #include "core/vision/registration.h"
 #include "core/vision/repeating_target.h"
+#include "core/vision/spoilt_picture.h"
 #include "core/vision/target_mask.h"
 
 namespace zerodrift::vision {
@@ -266,6 +267,11 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
 Location Target::locate(const GrayImage& frame) const {
   Registration found;
   Location out = search(frame, nullptr, &found);
+  if (!out.ok) {
+    const Eigen::Vector2d moved_px(out.point.x_px - m_impl->point.x_px, out.point.y_px - m_impl->point.y_px);
+    out.refusal = told_by_the_picture(out.refusal, frame, m_impl->image, m_impl->region, moved_px);
+    out.reason = words_of(out.refusal);
+  }
   // What stands behind it is known, or the pattern is its own rival a period further.
   if (!out.ok || m_impl->backdrop || m_impl->repeating.repeats()) return out;
   if (found.inlier_share + found.saturated_share > nothing_hidden) return out;

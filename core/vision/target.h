@@ -23,6 +23,7 @@ enum class Refusal {
   wrong_target,
   occluded,
   glare,
+  dim,
   blurred,
   out_of_view,
   too_different,

@@ -1822,8 +1822,8 @@
         <translation>两个位置在图像中相距 %1 px，至少需要 %2 px</translation>
     </message>
     <message>
-        <source>both positions have the same machine coordinates</source>
-        <translation>两个位置的机床坐标相同</translation>
+        <source>all positions have the same machine coordinates</source>
+        <translation>所有位置的机床坐标都相同</translation>
     </message>
     <message>
         <source>the positions span only %1 px in the image, at least %2 px are needed</source>
@@ -1846,8 +1846,8 @@
         <translation>标定</translation>
     </message>
     <message>
-        <source>%1 usable views</source>
-        <translation>%1 个可用视图</translation>
+        <source>%1 of the views can be used: 2 are needed, 9 are better</source>
+        <translation>可用的视图为 %1 个：至少需要 2 个，最好 9 个</translation>
     </message>
     <message>
         <source>2, better 9</source>
@@ -2006,8 +2006,8 @@
         <translation>%1 是文件夹，不是图像，已略去</translation>
     </message>
     <message>
-        <source>%1 is no picture and was left out</source>
-        <translation>%1 不是图像，已略去</translation>
+        <source>%1 is no PNG, JPEG, BMP or TIFF picture and was left out</source>
+        <translation>%1 不是 PNG、JPEG、BMP 或 TIFF 图像，已略去</translation>
     </message>
     <message>
         <source>%1 was left out: %2</source>
@@ -2040,6 +2040,10 @@
     <message>
         <source>target out of view</source>
         <translation>靶标超出视场</translation>
+    </message>
+    <message>
+        <source>too little light or contrast</source>
+        <translation>光线或对比度不足</translation>
     </message>
     <message>
         <source>too different from the template</source>

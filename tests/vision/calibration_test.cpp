@@ -105,7 +105,7 @@ TEST(Calibration, RefusesWhatCannotSupportTheClaim) {
   auto wrong = views_at(grid(), true_um_from_px());
   wrong[4].x_mm += 0.1;
   EXPECT_NE(refused(wrong).find("view4.png"), std::string::npos);
-  EXPECT_EQ(calibrate({}).error().code, ErrorCode::not_enough_data);
+  EXPECT_EQ(calibrate({}).error().code, ErrorCode::calibration_refused);
 }
 
 TEST(Calibration, UncertaintyInMicrometresHasBothParts) {
