@@ -58,8 +58,6 @@ std::vector<double> jumps(const recording::Channel& channel, const std::vector<d
 // Shares of the length within which no second of the kind is looked for.
 constexpr double source_alone = 0.07;
 constexpr double joint_alone = 0.25;
-// How near a joint a heat may do no more than mend its shape.
-constexpr double usual_breadth = 0.03;
 
 bool conflicts(const Machine& machine, const EffectSpec& have, const EffectSpec& want) {
   if (have.id != want.id) return false;
@@ -358,10 +356,7 @@ bool mends_a_joint(const Model& model) {
   for (std::size_t i = 0; i + 1 < effects.size(); ++i) {
     const bool same_rod = effects[i].word_or("component", "") == effects.back().word_or("component", "");
     if (effects[i].id != "contact_resistance" || !same_rod) continue;
-    const physics::Component* rod = model.machine().find(effects[i].word_or("component", ""));
-    const double least_mm = rod == nullptr ? 0.0 : usual_breadth * rod->length_mm;
-    const double within_mm = std::max(least_mm, number(i, "half_width_mm"));
-    if (std::abs(number(i, "position_mm") - heat_mm) < within_mm) return true;
+    if (std::abs(number(i, "position_mm") - heat_mm) < number(i, "half_width_mm")) return true;
   }
   return false;
 }

@@ -275,24 +275,6 @@ Probe NetworkBuilder::probe_at(const std::string& component, double position_mm)
   return {{at.first + i, 1.0 - (u - i)}, {at.first + i + 1, u - i}};
 }
 
-void NetworkBuilder::read_across_joint(const std::string& component, const JointReading::Joint& joint) {
-  const auto& at = place(component);
-  const double cell_mm = at.cell_m / m_per_mm;
-  for (Observation& seen : m_network.observations) {
-    const Sensor* sensor = seen.temperature ? m_machine.sensor(seen.channel) : nullptr;
-    if (sensor == nullptr || sensor->component != component) continue;
-    const double u = sensor->position_mm / cell_mm - 0.5;
-    if (u < 0.0 || u > at.count - 1.0) continue;  // no joint is so near an end
-    if (!seen.joint) {
-      const int i = std::min(static_cast<int>(u), at.count - 2);
-      seen.probe = probe({{at.first + i, 1.0}});
-      const int beyond = probe({{at.first + i + 1, 1.0}});
-      seen.joint = {beyond, (i + 0.5) * cell_mm, cell_mm, sensor->position_mm, conductivity(component), {}};
-    }
-    seen.joint->joints.push_back(joint);
-  }
-}
-
 Probe NetworkBuilder::mean_probe(const std::string& component) const {
   const auto& at = place(component);
   Probe mean;

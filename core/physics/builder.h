@@ -64,8 +64,6 @@ class NetworkBuilder {
   Term source_at(const std::string& component, int place_parameter, double width_mm) const;
   Probe probe_at(const std::string& component, double position_mm) const;
   Probe mean_probe(const std::string& component) const;
-  /// Sensors near a joint read on its own side (JointReading).
-  void read_across_joint(const std::string& component, const JointReading::Joint& joint);
   Term& add(Term term);
   /// Heat of a rod with an inside enters both: `share` (a parameter) of it the inside. A rod of one body takes it
   /// whole.

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,22 +97,6 @@ struct StructureTerm {
   double factor = 1.0;
 };
 
-/// What a sensor between the middles of two cells shows where a joint lies in or beside them: the temperature follows
-/// the resistance along the rod and not the length, and a cell's own temperature is the mean over it.
-struct JointReading {
-  struct Joint {
-    int resistance = -1;  // parameters: m2 K/W, and place and half the breadth in mm
-    int place = -1;
-    int half_width = -1;
-  };
-  int beyond = -1;         // probe of the cell after the sensor; Observation::probe is the one before it
-  double middle_mm = 0.0;  // of the cell before the sensor
-  double cell_mm = 0.0;
-  double sensor_mm = 0.0;
-  int conductivity = -1;
-  std::vector<Joint> joints;
-};
-
 struct Observation {
   std::string channel;
   bool temperature = true;
@@ -123,9 +106,8 @@ struct Observation {
   int inner_share = -1;
   int scale = -1;  // parameter: multiplies (probe - reference), displacements only
   int offset = -1;
-  int lag_s = -1;  // parameter: sensor lag in s
-  int gain = -1;   // parameter: relative error of the gain
-  std::optional<JointReading> joint;
+  int lag_s = -1;         // parameter: sensor lag in s
+  int gain = -1;          // parameter: relative error of the gain
   double accuracy = 0.0;  // um: what the description says that it leaves out of a displacement, slowly changing
   std::vector<StructureTerm> structure;
 };

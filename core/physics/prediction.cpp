@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "core/physics/joint.h"
-
 namespace zerodrift::physics {
 namespace {
 
@@ -37,47 +35,6 @@ void lag_columns(std::vector<double>& x, std::size_t columns, const std::vector<
   }
 }
 
-struct ReadingShare {
-  double value = 0.0;
-  std::vector<std::pair<int, double>> by;  // parameter, slope
-};
-
-/// With rho(x) = x / k + R G(x), the resistance up to x, and its means over the two cells (joint.h):
-/// w = (rho(sensor) - mean before) / (mean beyond - mean before).
-ReadingShare share_of_reading(const JointReading& reading, const std::vector<double>& values) {
-  constexpr double m_per_mm = 1e-3;
-  const double k = values[reading.conductivity];
-  double over = m_per_mm * (reading.sensor_mm - reading.middle_mm) / k;
-  double whole = m_per_mm * reading.cell_mm / k;
-  struct Slope {
-    int parameter;
-    double over, whole;
-  };
-  std::vector<Slope> slopes = {{reading.conductivity, -over / k, -whole / k}};
-  for (const auto& joint : reading.joints) {
-    const double resistance = values[joint.resistance];
-    const auto cells = [&](double at_mm) { return (at_mm - values[joint.place]) / reading.cell_mm; };
-    const double half = values[joint.half_width] / reading.cell_mm;
-    const JointShare sensor = share_before(cells(reading.sensor_mm), half);
-    const JointShare before = mean_share_before(cells(reading.middle_mm), half);
-    const JointShare beyond = mean_share_before(cells(reading.middle_mm) + 1.0, half);
-    over += resistance * (sensor.value - before.value);
-    whole += resistance * (beyond.value - before.value);
-    const double per_mm = resistance / reading.cell_mm;
-    slopes.push_back({joint.resistance, sensor.value - before.value, beyond.value - before.value});
-    slopes.push_back(
-        {joint.place, per_mm * (sensor.by_place - before.by_place), per_mm * (beyond.by_place - before.by_place)});
-    slopes.push_back(
-        {joint.half_width, per_mm * (sensor.by_half - before.by_half), per_mm * (beyond.by_half - before.by_half)});
-  }
-  ReadingShare share;
-  share.value = over / whole;
-  for (const Slope& slope : slopes) {
-    share.by.emplace_back(slope.parameter, (slope.over - share.value * slope.whole) / whole);
-  }
-  return share;
-}
-
 class Observer {
  public:
   Observer(const Network& network, const InputSet& inputs, const std::vector<double>& values,
@@ -92,11 +49,7 @@ class Observer {
     out.temperature = seen.temperature;
     out.values.assign(m_run.rows, 0.0);
     out.derivatives.assign(m_run.rows * m_run.columns, 0.0);
-    if (seen.joint) {
-      read_across(*seen.joint, seen.probe, out);
-    } else if (seen.probe >= 0) {
-      take_probe(seen, out);
-    }
+    if (seen.probe >= 0) take_probe(seen, out);
     if (seen.lag_s >= 0) apply_lag(m_values[seen.lag_s], column(seen.lag_s), out);
     if (seen.gain >= 0) apply_gain(seen, out);
     for (const auto& term : seen.structure) add_structure(term, out);
@@ -139,24 +92,6 @@ class Observer {
       add_column(out, column(seen.inner_share), scale, inner);
     }
     if (seen.scale >= 0) add_column(out, column(seen.scale), 1.0, raw);
-  }
-
-  /// (1 - w) of the cell before the sensor and w of the one after it, w by the resistances between.
-  void read_across(const JointReading& joint, int before, PredictedChannel& out) const {
-    const ReadingShare share = share_of_reading(joint, m_values);
-    const std::size_t probes = m_net.probes.size();
-    std::vector<double> step(rows());
-    for (std::size_t k = 0; k < rows(); ++k) {
-      const double first_C = m_run.probes[k * probes + before];
-      step[k] = m_run.probes[k * probes + joint.beyond] - first_C;
-      out.values[k] = first_C + share.value * step[k];
-    }
-    const double* by = m_run.derivatives.data() + before * rows() * m_run.columns;
-    const double* by_beyond = m_run.derivatives.data() + joint.beyond * rows() * m_run.columns;
-    for (std::size_t i = 0; i < out.derivatives.size(); ++i) {
-      out.derivatives[i] = (1.0 - share.value) * by[i] + share.value * by_beyond[i];
-    }
-    for (const auto& [parameter, slope] : share.by) add_column(out, column(parameter), slope, step);
   }
 
   void apply_lag(double tau_s, int at, PredictedChannel& out) const {

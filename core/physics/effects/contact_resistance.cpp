@@ -2,22 +2,49 @@
 // the joint's breadth - shaft and housing do not part in one plane - and what lies between two cells' middles is shared
 // by the faces next to it, so that x and the breadth are continuous.
 #include "core/physics/effects/laws.h"
-#include "core/physics/joint.h"
 
 namespace zerodrift::physics {
 namespace contact_resistance {
 
-// A flange parts in a plane, a fit is some tens of millimetres long where a spindle is some hundreds. Of the length:
-constexpr double usual_half_width = 0.02;
-constexpr double half_width_sigma = 0.015;
+// A fit is a few to some tens of millimetres long where a spindle is some hundreds.
+constexpr double usual_half_width = 0.03;  // of the length
 constexpr double widest = 0.1;
+constexpr double narrow_cells = 1e-3;  // of a cell: a plane
+
+/// How much of what lies at u, in cells from a face, counts for that face.
+double hat(double u) {
+  return std::max(0.0, 1.0 - std::abs(u));
+}
+
+/// Integral of the hat from far left to u.
+double hat_until(double u) {
+  if (u <= -1.0) return 0.0;
+  if (u >= 1.0) return 1.0;
+  return u < 0.0 ? 0.5 * (1.0 + u) * (1.0 + u) : 1.0 - 0.5 * (1.0 - u) * (1.0 - u);
+}
+
+struct FaceShare {
+  double value = 0.0;
+  double by_place = 0.0;  // per cell
+  double by_half = 0.0;
+};
+
+/// Share of a joint from u - half to u + half, in cells from the face.
+FaceShare share_of_face(double u, double half) {
+  if (half < narrow_cells) return {hat(u), hat(u) == 0.0 ? 0.0 : u > 0.0 ? -1.0 : 1.0, 0.0};
+  FaceShare share;
+  share.value = (hat_until(u + half) - hat_until(u - half)) / (2.0 * half);
+  share.by_place = (hat(u + half) - hat(u - half)) / (2.0 * half);
+  share.by_half = ((hat(u + half) + hat(u - half)) / 2.0 - share.value) / half;
+  return share;
+}
 
 /// Change of one face's conductance k A / dx by the share of the joint that lies on it.
 Law face_law(double face, double cell_m, double section_m2) {
   return [=](const LawPoint& at) {
     Strength s;
     const double by_mm = 1e-3 / cell_m;
-    const JointShare share = share_of_face(by_mm * at.values[1] - face, by_mm * at.values[3]);
+    const FaceShare share = share_of_face(by_mm * at.values[1] - face, by_mm * at.values[3]);
     if (share.value == 0.0) return s;
     const double k = at.values[2];
     const double plain = k * section_m2 / cell_m;
@@ -59,7 +86,6 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     }
   };
   add_joint(at.first, 1.0 - at.inner_share);
-  builder.read_across_joint(id, {resistance, place, half_width});
   if (at.inner >= 0) add_joint(at.inner, at.inner_share);
 }
 
@@ -73,8 +99,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
                       {{"resistance_m2K_W", 0.0},
                        {"position_mm", i / 9.0 * component.length_mm},
                        {"position_mm_prior_sigma", 0.05 * component.length_mm},
-                       {"half_width_mm", usual_half_width * component.length_mm},
-                       {"half_width_mm_prior_sigma", half_width_sigma * component.length_mm}},
+                       {"half_width_mm", usual_half_width * component.length_mm}},
                       {{"component", component.id}}});
     }
   }
@@ -92,7 +117,7 @@ const Effect contact_resistance_effect = {
     "sensor_lag extra_heat_source heater_body",
     {{"resistance_m2K_W", 4e-3, 0.0, 5e-2, true},
      {"position_mm", 20.0, 0.0, 30000.0},
-     {"half_width_mm", 6.0, 0.0, 30000.0}},
+     {"half_width_mm", 0.7, 0.0, 30000.0, false, 0.0, true}},
     {"resistance_m2K_W"},
     contact_resistance::add,
     contact_resistance::candidates};
