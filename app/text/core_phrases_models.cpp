@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 365> models = {{
+constexpr std::array<const char*, 368> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -462,7 +462,7 @@ constexpr std::array<const char*, 365> models = {{
     QT_TRANSLATE_NOOP("core", "at most {:.3g} rpm"),
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is "
-                      "spindle_load_W in kW?"),
+                      "spindle_load_W in {unit}?"),
     QT_TRANSLATE_NOOP("core",
                       "{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at "
                       "{factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} "
@@ -471,6 +471,9 @@ constexpr std::array<const char*, 365> models = {{
                       "With {@quantity} of {part} at {factor} times what is described, the recording is explained as "
                       "well without {@name}: check that number first."),
     QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)"),
+    QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in % of that?)"),
+    QT_TRANSLATE_NOOP("core", "0 rpm all the time beside a load of up to {:.4g} W"),
+    QT_TRANSLATE_NOOP("core", "the spindle's speed (was it logged?)"),
     QT_TRANSLATE_NOOP("core", "{} of its rows number for number in {}"),
     QT_TRANSLATE_NOOP("core", "Nothing drives the machine in this recording: little can be learned from it."),
     QT_TRANSLATE_NOOP("core",

@@ -216,7 +216,7 @@ std::optional<Finding> doubtful_times(const Recording& recording) {
   const double whole_s = recording.time_s.back() - recording.time_s.front();
   if (warmed.empty() || !(warmed.back() > fast_K_per_s * whole_s)) return std::nullopt;
   return Finding{FindingKind::doubtful_times, FindingAction::noted, "time_s",
-                 fmt::format("{:.0f} K in {:.0f} s", warmed.back(), whole_s)};
+                 fmt::format("{:.3g} K in {:.0f} s", warmed.back(), whole_s)};
 }
 
 }  // namespace zerodrift::analysis

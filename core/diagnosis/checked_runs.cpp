@@ -119,10 +119,11 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
     ZD_CHECK(check_times(machine, sound.recording));
-    if (const auto largest = load_in_kilowatts(machine, sound.recording)) {
-      out.warnings.push_back("load_in_kilowatts:" + one.name);
+    if (const auto unit = load_in_other_unit(machine, sound.recording)) {
+      out.warnings.push_back(fmt::format("load_in_other_unit:{}:{}", one.name, unit->symbol));
       out.told.push_back(
-          explain_note("load_in_kilowatts", {{"recording", one.name}, {"most", fmt::format("{:.3g}", *largest)}}));
+          explain_note("load_in_other_unit",
+                       {{"recording", one.name}, {"most", fmt::format("{:.3g}", unit->most)}, {"unit", unit->symbol}}));
     }
     for (const ClockJump& jump : take_out_clock_jumps(machine, sound.recording)) {
       out.warnings.push_back(fmt::format("clock_jumped:{}:{:.0f}:{:.0f}", one.name, jump.at_s, jump.by_s));

@@ -263,7 +263,7 @@ void Diagnoser::decide() {
   if (m_out.excess_after > least_evident || names_a_sensor() || !m_far.empty()) {
     m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits, m_context);
   }
-  if (!m_misplaced) m_misplaced = misplaced_beside_a_joint(*m_selection.base, *m_selection.best, m_default_data);
+  if (!m_misplaced) m_misplaced = a_little_misplaced(*m_selection.base, *m_selection.best, m_default_data);
   if (!m_misplaced && correct_description()) judge();
   if (m_misplaced || (!m_selection.effects().empty() && is_doubtful(m_far))) {
     m_out.verdict = Verdict::unexplained;

@@ -231,6 +231,8 @@ void Diagnoser::details() {
 /// Nothing is found, but nothing could have been: most effects would not show at the size that they usually have.
 bool Diagnoser::shows_too_little() const {
   if (m_out.verdict != Verdict::consistent || m_out.detectable.empty()) return false;
+  const auto told = [](const MeasuredChannel& channel) { return channel.temperature && channel.samples > 0; };
+  if (std::none_of(m_default_data->channels.begin(), m_default_data->channels.end(), told)) return true;
   const auto hidden = std::count_if(m_out.detectable.begin(), m_out.detectable.end(),
                                     [](const Detectable& least) { return least.value > least.usual; });
   return 2 * hidden > std::ssize(m_out.detectable);
@@ -304,11 +306,14 @@ void Diagnoser::never_driven() {
 /// What switches between two rows that are far apart has moved the machine by an unknown amount.
 void Diagnoser::coarse_rows() {
   constexpr double coarse_s = 120.0;
-  const std::vector<double>& time_s = m_recordings.front().time_s;
-  const double between_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
-  if (m_out.verdict == Verdict::consistent || between_s < coarse_s || nothing_drives()) return;
+  if (seconds_between_rows() < coarse_s || nothing_drives()) return;
   m_out.notes.emplace_back("coarse_rows");
-  m_out.sentences.push_back(explain_note("coarse_rows", {{"seconds", fmt::format("{:.0f}", between_s)}}));
+  m_out.sentences.push_back(explain_note("coarse_rows", {{"seconds", fmt::format("{:.0f}", seconds_between_rows())}}));
+}
+
+double Diagnoser::seconds_between_rows() const {
+  const std::vector<double>& time_s = m_recordings.front().time_s;
+  return (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
 }
 
 /// The room alone says little about the machine; what cools down from warm does.

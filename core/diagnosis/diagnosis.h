@@ -161,7 +161,7 @@ struct DiagnoseOptions {
 /// found missing, but most effects of usual size would not have shown. Note "misplaced:CHANNEL",
 /// "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the sensors are not where the description has them (misplaced.h).
 /// Note "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much (clock_jumps.h). Note
-/// "load_in_kilowatts:RECORDING": its load would be one in kW, and is next to nothing in W. Note
+/// "load_in_other_unit:RECORDING:UNIT": its load would be one in kW or %, and is next to nothing in W. Note
 /// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that
 /// recording does not fit this machine. Note "room_not_logged": the recording lacks the room's channel. Note
 /// "settles_by_itself:CHANNEL": a displacement moves by itself and slows down, and nothing shows that it follows the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/parallel.h"
 #include "core/diagnosis/selection.h"
 
 namespace zerodrift::diagnosis {

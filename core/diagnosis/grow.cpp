@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/parallel.h"
 #include "core/diagnosis/selector.h"
 
 namespace zerodrift::diagnosis {

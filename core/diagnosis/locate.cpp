@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "core/diagnosis/parallel.h"
 #include "core/diagnosis/screening.h"
 
 namespace zerodrift::diagnosis {

@@ -27,8 +27,9 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
                                           const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
                                           SelectionOptions limits, const TaskContext& context);
 
-/// The same where `best` names a joint: the sensors next to it, some per cent of the length to either side.
-std::optional<Misplaced> misplaced_beside_a_joint(const Model& base, const Model& best,
-                                                  const std::shared_ptr<const Dataset>& data);
+/// The same some per cent of the length to either side of where they are described: the sensors next to a joint that
+/// `best` names, and those that it names as late or of another gain.
+std::optional<Misplaced> a_little_misplaced(const Model& base, const Model& best,
+                                            const std::shared_ptr<const Dataset>& data);
 
 }  // namespace zerodrift::diagnosis

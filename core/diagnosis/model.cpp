@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/analysis/nonlinear.h"
+#include "core/diagnosis/parallel.h"
 
 namespace zerodrift::diagnosis {
 
@@ -154,7 +155,7 @@ std::vector<int> Model::effect_unknowns() const {
 physics::Prediction Model::predict_at(const Eigen::VectorXd& z, const std::vector<int>& unknowns) const {
   std::vector<int> parameters;
   for (const int i : unknowns) parameters.push_back(m_free[i]);
-  return predict(m_network, m_inputs, values_at(z), parameters);
+  return predicted(m_network, m_inputs, values_at(z), parameters);
 }
 
 void Model::take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns) {

@@ -143,11 +143,30 @@ double largest_of(const recording::Recording& recording, const std::string& colu
   return most;
 }
 
+double rated_power_W(const physics::Machine& machine) {
+  double rated_W = 0.0;
+  for (const auto& component : machine.components) {
+    for (const auto& source : component.sources) {
+      if (source.kind == physics::SourceKind::motor) rated_W = std::max(rated_W, source.rated_power_W);
+    }
+  }
+  return rated_W;
+}
+
 /// A spindle that turns, but never with one two-hundredth of its motor's rated speed, is told in another unit.
 Status check_speed(const physics::Machine& machine, const recording::Recording& recording) {
   constexpr double hardly = 0.005;  // in 1000 rpm it is at most a thousandth
   const double rated_rpm = machine.rated_speed_rpm();
   const double most_rpm = largest_of(recording, "spindle_rpm");
+  constexpr double some_load = 0.05;  // of the rated power
+  const double load_W = largest_of(recording, "spindle_load_W");
+  const double rated_W = rated_power_W(machine);
+  if (most_rpm == 0.0 && rated_W > 0.0 && load_W > some_load * rated_W) {
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", recording.name + ", column spindle_rpm"},
+                 {"found", fmt::format("0 rpm all the time beside a load of up to {:.4g} W", load_W)},
+                 {"expected", "the spindle's speed (was it logged?)"}});
+  }
   if (most_rpm == 0.0 || most_rpm > hardly * rated_rpm) return {};
   return fail(ErrorCode::data_does_not_fit,
               {{"what", recording.name + ", column spindle_rpm"},
@@ -155,19 +174,32 @@ Status check_speed(const physics::Machine& machine, const recording::Recording& 
                {"expected", fmt::format("speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)", rated_rpm)}});
 }
 
+/// Speeds of at most 100 that say how the machine warms if they are taken for percent of the rated one.
+Status check_percent(const physics::Machine& machine, const recording::Recording& recording, double missed_at_most) {
+  constexpr double whole = 100.0;
+  const double rated_rpm = machine.rated_speed_rpm();
+  const double most_rpm = largest_of(recording, "spindle_rpm");
+  if (most_rpm == 0.0 || most_rpm > whole || rated_rpm < 10.0 * whole) return {};
+  recording::Recording other = recording;
+  for (double& speed : other.find("spindle_rpm")->values) speed *= rated_rpm / whole;
+  if (shape_missed(machine, other) > missed_at_most) return {};
+  return fail(ErrorCode::data_does_not_fit,
+              {{"what", recording.name + ", column spindle_rpm"},
+               {"found", fmt::format("at most {:.3g} rpm", most_rpm)},
+               {"expected", fmt::format("speeds of a motor rated at {:g} rpm (are they in % of that?)", rated_rpm)}});
+}
+
 }  // namespace
 
-std::optional<double> load_in_kilowatts(const physics::Machine& machine, const recording::Recording& recording) {
-  constexpr double least = 0.05, most = 2.0;  // of the rated power, in W for a load in kW
-  double rated_W = 0.0;
-  for (const auto& component : machine.components) {
-    for (const auto& source : component.sources) {
-      if (source.kind == physics::SourceKind::motor) rated_W = std::max(rated_W, source.rated_power_W);
-    }
-  }
-  const double largest = largest_of(recording, "spindle_load_W");
-  if (rated_W == 0.0 || 1000.0 * largest < least * rated_W || 1000.0 * largest > most * rated_W) return std::nullopt;
-  return largest;
+std::optional<LoadUnit> load_in_other_unit(const physics::Machine& machine, const recording::Recording& recording) {
+  const double rated_W = rated_power_W(machine);
+  const double most = largest_of(recording, "spindle_load_W");
+  if (rated_W == 0.0) return std::nullopt;
+  constexpr double least_share = 0.05, most_share = 2.0;  // of the rated power
+  if (1000.0 * most >= least_share * rated_W && 1000.0 * most <= most_share * rated_W) return LoadUnit{"kW", most};
+  constexpr double least_percent = 5.0, most_percent = 150.0;
+  if (most >= least_percent && most <= most_percent && most < least_share * rated_W) return LoadUnit{"%", most};
+  return std::nullopt;
 }
 
 Status check_times(const physics::Machine& machine, const recording::Recording& recording) {
@@ -181,6 +213,7 @@ Status check_times(const physics::Machine& machine, const recording::Recording& 
     const char* plural;
   };
   constexpr Unit units[] = {{60.0, "minutes"}, {3600.0, "hours"}, {1e-3, "milliseconds"}};
+  constexpr double hardly_turns = 0.02;  // of the rated speed
   constexpr double longest_row_s = 3600.0;
   constexpr double shortest_run_s = 600.0;  // what is shorter warms nothing: it is the description that is off
   const bool has_driven_rod = std::any_of(machine.components.begin(), machine.components.end(),
@@ -188,6 +221,9 @@ Status check_times(const physics::Machine& machine, const recording::Recording& 
   if (has_unknown_heat(machine) || !has_driven_rod) return {};  // nothing says how fast it warms
   const double as_it_is = shape_missed(machine, recording);
   if (!(as_it_is > nothing_like)) return {};
+  ZD_CHECK(check_percent(machine, recording, like * as_it_is));
+  // Of a spindle that hardly turns nothing says how fast it warms.
+  if (largest_of(recording, "spindle_rpm") < hardly_turns * machine.rated_speed_rpm()) return {};
   const double whole_s = recording.time_s.back() - recording.time_s.front();
   for (const Unit& unit : units) {
     const double told_s = unit.seconds * whole_s;

@@ -13,12 +13,16 @@ namespace zerodrift::diagnosis {
 /// An error naming the channel whose movement differs from the simulated one by more than any missing effect could.
 Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal);
 
-/// An error where the times only make sense in minutes, hours or milliseconds: the machine as described is nothing like
-/// the recording, but is like it with other times.
+/// An error where the times only make sense in minutes, hours or milliseconds, or the speeds in 1000 rpm or percent:
+/// the machine as described is nothing like the recording, but is like it with other ones.
 Status check_times(const physics::Machine& machine, const recording::Recording& recording);
 
-/// The largest load where it would be one of this machine's motor in kW, and hardly any in W; the fit goes on.
-std::optional<double> load_in_kilowatts(const physics::Machine& machine, const recording::Recording& recording);
+struct LoadUnit {
+  const char* symbol;  // "kW" or "%"
+  double most = 0.0;   // as logged
+};
+/// The unit in which the load would be one of this machine's motor, and hardly any in W; the fit goes on.
+std::optional<LoadUnit> load_in_other_unit(const physics::Machine& machine, const recording::Recording& recording);
 
 /// What a fit has made of a number of the description.
 struct FarParameter {

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "core/diagnosis/parallel.h"
+
 namespace zerodrift::diagnosis {
 namespace {
 

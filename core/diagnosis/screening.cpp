@@ -2,9 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
+
+#include "core/diagnosis/parallel.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -203,7 +203,7 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
   Model wide(std::move(machine), base.shared_data());
   wide.start_from(base, false);
   const Columns columns = amplitude_columns(wide.network(), first_effect, group.size());
-  physics::Prediction prediction = physics::predict(wide.network(), wide.inputs(), wide.values(), columns.parameters);
+  physics::Prediction prediction = predicted(wide.network(), wide.inputs(), wide.values(), columns.parameters);
   take_chords_of_lags(wide.network(), group, columns, wide.inputs().time_s, prediction);
   RowMatrix s = RowMatrix::Zero(base.residual().size(), static_cast<Index>(columns.parameters.size()));
   std::vector<int> targets(columns.parameters.size());
@@ -237,17 +237,6 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
 }
 
 }  // namespace
-
-void in_parallel(std::size_t count, const std::function<void(std::size_t)>& job) {
-  const std::size_t threads = std::min<std::size_t>({count, 4, std::max(1u, std::thread::hardware_concurrency())});
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) job(i);
-  };
-  std::vector<std::jthread> helpers;
-  for (std::size_t t = 1; t < threads; ++t) helpers.emplace_back(work);
-  work();
-}
 
 physics::RunFacts facts_of(const Machine& machine, const recording::Recording& recording) {
   physics::RunFacts facts;

@@ -39,7 +39,5 @@ std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate);
 std::shared_ptr<Model> extended(const Model& base, std::span<const Candidate> candidates);
 /// The model without its effect at `index`, not yet fitted.
 std::shared_ptr<Model> reduced(const Model& model, std::size_t index);
-/// Runs the jobs on as many threads as the machine has (at most four).
-void in_parallel(std::size_t count, const std::function<void(std::size_t)>& job);
 
 }  // namespace zerodrift::diagnosis

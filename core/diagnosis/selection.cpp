@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/diagnosis/elsewhere.h"
+#include "core/diagnosis/parallel.h"
 #include "core/diagnosis/refine.h"
 #include "core/diagnosis/selector.h"
 

@@ -67,9 +67,9 @@ constexpr std::array catalogue{
           "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
           "and the "
           "times were taken so."},
-    Entry{"load_in_kilowatts",
+    Entry{"load_in_other_unit",
           "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
-          "kW?"},
+          "{unit}?"},
     Entry{"places_in",
           "The sensors read as if their places were described in {unit}, not in mm: correct the description."},
     Entry{"exchanged",
@@ -227,7 +227,10 @@ class Speaker {
 std::string said(const Sentence& sentence, const Translate& translate) {
   if (!is_listed(sentence.id)) return {};
   std::string text = Speaker(sentence, translate).say(sentence.id);
-  if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  // A sentence that begins with a file's name keeps it as it is.
+  constexpr std::string_view file_first = "{recording}";
+  if (text.empty() || english_of(sentence.id).starts_with(file_first)) return text;
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/vision/acceptance.h"
 #include "core/vision/coarse_search.h"
 #include "core/vision/moved_apart.h"
 #include "core/vision/registration.h"
@@ -23,8 +24,6 @@ constexpr double same_place_px = 0.05;
 constexpr double rival_merit = 0.75;           // of the best glance: the candidate is refined as well, unless
 constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
-// Of the same: something is. A glance takes a cover on a faint target for a part of it; this gets the fine look too.
-constexpr double alike_correlation = 0.5;
 constexpr int candidates_glanced = 8;
 constexpr int most_periods_off = 6;         // that a pattern which repeats is followed back to its place
 constexpr double rival_correlation = 0.3;   // a candidate further behind the best is not looked at, and half of it
@@ -36,86 +35,12 @@ constexpr double least_glance_correlation = 0.8;
 constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
 constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
 
-// Limits of an accepted registration.
-constexpr double least_inliers = 0.55;
-constexpr double least_informed = 0.50;
-// Under a glaring spot less of the target need be left, when what is left fits almost perfectly and nearly all that is
-// missing is known to be the spot.
-constexpr double least_informed_in_glare = 0.12;
-constexpr double glare_correlation = 0.999;
-constexpr double glare_explained = 0.9;
-// A pattern that looks the same at any size, as spokes do, fits within the smaller of two targets alone: nothing of
-// the rim is left then. Chips leave some of it.
-constexpr double least_rim = 0.25;
-constexpr double least_fine_correlation = 0.95;
-constexpr double least_contrast = 0.2;
-constexpr double largest_contrast = 3.0;
-constexpr double largest_linear = 0.035;
-constexpr double largest_linear_in_glare = 0.07;  // a halo bends what little a ball shows
-constexpr double some_glare = 0.02;               // of the pixels
-constexpr double some_saturated = 0.005;          // of the pixels: it is glare that spoils the picture
-constexpr double accepted_blur_px2 = 12.0;
-constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
-constexpr double rough_residual = 2.4;     // standard deviations of shot noise, and
-constexpr double rough_to_noise = 1.5;     // times what the template's noise makes it
-constexpr double rough_sigma_px = 0.01;
-constexpr double hidden_sigma_px = 0.03;
-constexpr double nothing_hidden = 0.97;
-// With one of two edges hidden the target may seem to be another size, and the other edge to have moved with it. Bodies
-// that warm by tens of kelvin stretch by less than 0.001; how much of a camera's own motion is left open.
-constexpr double stretch_in_part = 0.012;
-// Of what does not fit: covers and chips stay below 0.25; mazes of thin lines are above 0.34, codes and letters 0.65.
-constexpr double another_print = 0.33;
-constexpr double least_seen = 0.70;
 constexpr double part_correlation = 0.98;
 constexpr double rough_correlation = 0.9;
 constexpr double rough_coarse_correlation = 0.5;
-constexpr double rough_place_px = 0.3;     // what is known worse is known as well by the coarse search, to half a pixel
-constexpr double some_covered = 0.05;      // of the region, by what neither travels nor stood there before
-constexpr int least_moved = 3;             // frames in which the target is elsewhere
-constexpr double largest_structure = 5.0;  // of the residual: frames that are measured well stay below 1.6
-
-// Of the linear part what is no turn.
-double stretch_of(const Registration& r) {
-  return (0.5 * (r.linear + r.linear.transpose()) - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
-}
-
-Refusal judge(const Registration& r, double coarse_correlation) {
-  if (!r.converged) {
-    if (coarse_correlation < alike_correlation) return Refusal::missing;
-    return r.partly_unlit ? Refusal::occluded : Refusal::too_different;
-  }
-  const bool fits = r.correlation > least_fine_correlation;
-  if (r.seen_share < least_seen) return Refusal::out_of_view;
-  if (r.contrast < least_contrast || r.contrast > largest_contrast) {
-    return fits ? Refusal::too_different : Refusal::missing;
-  }
-  if (!fits) return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::wrong_target;
-  const bool all_but_glare = r.correlation > glare_correlation && r.inlier_share + r.saturated_share > glare_explained;
-  const bool bent_by_glare = all_but_glare && r.saturated_share > some_glare;
-  if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
-  if (r.structure > largest_structure)
-    return r.saturated_share > some_saturated ? Refusal::glare : Refusal::too_different;
-  if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
-  // A cover over much of the target can hold the fit at another place, where it leaves no outliers because it is rough
-  // everywhere, or where its levels happen to agree with an edge. What is left under a smaller cover is known ten times
-  // better; noise is rough without hiding anything. That a round target hides its turn says nothing against the place.
-  const double sigma_px = std::sqrt((r.covariance_px2 - r.unseen_turn_px2).diagonal().maxCoeff());
-  if (r.inlier_share + r.saturated_share < nothing_hidden) {
-    if (!bent_by_glare && stretch_of(r) > stretch_in_part) return Refusal::occluded;
-    const bool rough = r.residual > std::max(rough_residual, rough_to_noise * r.expected_residual);
-    if (sigma_px > (rough ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
-  }
-  if (sigma_px > largest_sigma_px) return Refusal::too_different;
-  if (r.printed_otherwise > another_print) return Refusal::wrong_target;
-  if (r.rim_share < least_rim && !bent_by_glare) return Refusal::wrong_target;
-  const bool only_glare = all_but_glare && r.informed_share > least_informed_in_glare;
-  if (!only_glare && (r.inlier_share < least_inliers || r.informed_share < least_informed)) {
-    if (r.saturated_share > 0.10) return Refusal::glare;
-    return coarse_correlation < alike_correlation ? Refusal::missing : Refusal::occluded;
-  }
-  return Refusal::none;
-}
+constexpr double rough_place_px = 0.3;  // what is known worse is known as well by the coarse search, to half a pixel
+constexpr double some_covered = 0.05;   // of the region, by what neither travels nor stood there before
+constexpr int least_moved = 3;          // frames in which the target is elsewhere
 
 bool like_the_target(const Registration& glance) {
   return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
@@ -308,16 +233,16 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
       best_coarse = one.correlation;
     }
     best.partly_unlit = best.partly_unlit || found.partly_unlit;
-    if (judge(best, best_coarse) != Refusal::none || best.correlation <= sure_correlation) continue;
+    if (refusal_of(best, best_coarse) != Refusal::none || best.correlation <= sure_correlation) continue;
     if (best.inlier_share > clear_inliers) break;
   }
   // All of it may be there, but turned by more than the fit can follow. Of less than all a turn sought so is no
   // evidence.
-  for (std::size_t k = 0; k < likeliest.size() && may_be_turned(judge(best, best_coarse)); ++k) {
+  for (std::size_t k = 0; k < likeliest.size() && may_be_turned(refusal_of(best, best_coarse)); ++k) {
     const Candidate& one = likeliest[k];
     const auto found =
         m_impl->fine.run_turned(frame, one.dx_px, one.dy_px, m_lens, largest_linear, residual_map != nullptr);
-    if (!found || merit(*found) <= merit(best) || judge(*found, one.correlation) != Refusal::none) continue;
+    if (!found || merit(*found) <= merit(best) || refusal_of(*found, one.correlation) != Refusal::none) continue;
     if (found->inlier_share + found->saturated_share < nothing_hidden) continue;
     best = *found;
     best_coarse = one.correlation;
@@ -347,7 +272,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   }
   if (residual_map != nullptr) *residual_map = std::move(best.residual_map);
   if (fit != nullptr) *fit = best;
-  const Refusal why = judge(best, best_coarse);
+  const Refusal why = refusal_of(best, best_coarse);
   if (why != Refusal::none) return refuse(why);
   if (doubt.may_be_elsewhere) return refuse(Refusal::ambiguous);
   out.ok = true;

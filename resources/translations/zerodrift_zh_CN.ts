@@ -3538,12 +3538,24 @@
         <translation>最高 {:.3g} rpm</translation>
     </message>
     <message>
-        <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in kW?</source>
-        <translation>{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 kW？</translation>
+        <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in {unit}?</source>
+        <translation>{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？</translation>
     </message>
     <message>
         <source>speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)</source>
         <translation>额定转速 {:g} rpm 的电机应有的转速（单位是否为 1000 rpm？）</translation>
+    </message>
+    <message>
+        <source>speeds of a motor rated at {:g} rpm (are they in % of that?)</source>
+        <translation>额定转速 {:g} rpm 电机的转速（单位是否为其百分比？）</translation>
+    </message>
+    <message>
+        <source>0 rpm all the time beside a load of up to {:.4g} W</source>
+        <translation>转速始终为 0 rpm，而负载最高达 {:.4g} W</translation>
+    </message>
+    <message>
+        <source>the spindle's speed (was it logged?)</source>
+        <translation>主轴转速（是否已记录？）</translation>
     </message>
     <message>
         <source>about {:.3g} um for {} (is it in mm?)</source>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "core/diagnosis/diagnosis.h"
 #include "tests/proof/case_generator.h"
@@ -104,6 +105,32 @@ TEST(WrongSetUp, TwoCablesExchangedAreNamed) {
   EXPECT_TRUE(notes(*answer, "exchanged:" + first + ":" + last) || notes(*answer, "exchanged:" + last + ":" + first));
 }
 
+// A sensor some millimetres aside reads too much or too little in proportion to what flows past it, as beside a joint.
+TEST(WrongSetUp, APlaceALittleAsideIsNoJoint) {
+  for (const auto& [seed, channel, aside_mm] :
+       {std::tuple{320U, "T3_C", -25.0}, std::tuple{321U, "T2_C", 20.0}, std::tuple{322U, "T3_C", 18.0}}) {
+    proof::Case one = proof::make_case(seed, "none");
+    auto& sensor = sensor_named(one.machine, channel);
+    const double at_mm = sensor["position_mm"];
+    sensor["position_mm"] = at_mm + aside_mm;
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_EQ(answer->verdict, Verdict::unexplained) << seed;
+    EXPECT_TRUE(answer->effects.empty()) << seed << ": " << answer->effects.front().id;
+    EXPECT_TRUE(notes(*answer, std::string("misplaced:") + channel)) << seed;
+  }
+}
+
+TEST(WrongSetUp, AJointIsNoPlaceALittleAside) {
+  for (const unsigned seed : {323U, 324U, 325U}) {
+    const auto answer = answer_with_details(proof::make_case(seed, "contact_resistance"));
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    ASSERT_EQ(answer->effects.size(), 1u) << seed;
+    EXPECT_EQ(answer->effects[0].id, "contact_resistance") << seed;
+    EXPECT_FALSE(notes(*answer, "misplaced")) << seed;
+  }
+}
+
 TEST(WrongSetUp, APlaceInInchesIsNamedBesideAHiddenEffect) {
   for (const auto& [seed, id] : {std::pair{313U, "extra_heat_source"}, std::pair{314U, "structure_ambient"}}) {
     proof::Case one = proof::make_case(seed, id);
@@ -190,19 +217,36 @@ TEST(WrongSetUp, SpeedsInThousandsAreRefusedByName) {
   EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
 }
 
-TEST(WrongSetUp, LoadsInKilowattsAreTold) {
+TEST(WrongSetUp, SpeedsInPercentOrNotLoggedAreRefusedByName) {
+  for (const double times : {0.0125, 0.0}) {
+    proof::Case one = proof::make_case(324, "none");
+    for (double& value : one.recordings[0].find("spindle_rpm")->values) value *= times;
+    const auto answer = answer_with_details(one);
+    ASSERT_FALSE(answer.has_value()) << times;
+    EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+    EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
+  }
+}
+
+TEST(WrongSetUp, LoadsInAnotherUnitAreTold) {
   proof::Case one = proof::make_case(325, "cutting_heat");
   one.recordings.resize(1);
   const auto right = answer_with_details(one);
   ASSERT_TRUE(right.has_value()) << describe(right.error());
-  EXPECT_FALSE(says(*right, "load_in_kilowatts"));
+  EXPECT_FALSE(says(*right, "load_in_other_unit"));
   auto& load_W = one.recordings[0].find("spindle_load_W")->values;
   const double rated_W = physics::machine_from_json(one.machine, one.name)->components[0].sources[0].rated_power_W;
-  const double times = 0.0005 * rated_W / *std::max_element(load_W.begin(), load_W.end());
-  for (double& value : load_W) value *= times;
-  const auto answer = answer_with_details(one);
-  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_TRUE(says(*answer, "load_in_kilowatts"));
+  const std::vector<double> whole_W = load_W;
+  const double most_W = *std::max_element(load_W.begin(), load_W.end());
+  for (const auto& [unit, most] : {std::pair{"kW", 0.0005 * rated_W}, std::pair{"%", 50.0}}) {
+    for (std::size_t k = 0; k < load_W.size(); ++k) load_W[k] = whole_W[k] * most / most_W;
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
+                                   [](const auto& sentence) { return sentence.id == "load_in_other_unit"; });
+    ASSERT_NE(told, answer->sentences.end()) << unit;
+    EXPECT_EQ(told->facts.at("unit"), unit);
+  }
 }
 
 TEST(WrongSetUp, AMotorDescribedAsAThirdOfItselfIsNotSurelyAnotherHeat) {

@@ -62,8 +62,8 @@ std::vector<TextEntry> texts_of_physics() {
        "{@name}: check that number first.",
        "若{part}的{@quantity}为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对该数值。"},
       {"In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
-       "kW?",
-       "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 kW？"},
+       "{unit}?",
+       "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？"},
       {"This recording cannot tell whether there is {+effects}: what drives that never acted in it.",
        "本次记录无法判断是否存在{+effects}：驱动它的输入从未动作。"},
       {"The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a row "
