@@ -17,8 +17,10 @@ constexpr std::string_view joint_id = "contact_resistance";
 constexpr int places_per_rod = 16;
 constexpr double far = 0.1;            // of the length: what is nearer is a tape measure's error
 constexpr double all_explained = 1.0;  // right models leave 0.3 to 1
+constexpr double far_behind = 200.0;   // in log evidence, after a step or a few: no further ones would make that good
 constexpr FitOptions fit_options{8, 0.1, true};
 constexpr FitOptions glance{1, 0.1, true};
+constexpr FitOptions few_steps{3, 1.0, true};
 
 struct Unit {
   const char* symbol;
@@ -211,7 +213,7 @@ void fit_exchange(Trial& trial, const physics::Machine& described, const std::sh
   sensor_of(machine, trial.what.channel).position_mm = trial.what.at_mm;
   sensor_of(machine, trial.what.exchanged_with).position_mm = trial.what.described_mm;
   trial.fit = std::make_shared<Model>(std::move(machine), data);
-  trial.fit->fit(fit_options);
+  trial.fit->fit(few_steps);
 }
 
 physics::Machine without_sensor_faults(physics::Machine machine) {
@@ -288,16 +290,19 @@ class Contest {
     std::copy_if(trials.begin(), trials.end(), std::back_inserter(exchanges), is_exchange);
     std::erase_if(trials, is_exchange);
     trials = tried_beside(*m_base, std::move(trials));
+    const auto behind = [&](const Trial& one, double least) {
+      return one.fit->log_evidence() < m_base->log_evidence() + least;
+    };
     in_parallel(exchanges.size(), [&](std::size_t i) { fit_exchange(exchanges[i], m_base->machine(), m_data); });
-    for (Trial& one : exchanges) {
-      if (one.fit->log_evidence() > m_base->log_evidence() + clearly(one)) trials.push_back(std::move(one));
-    }
+    std::erase_if(exchanges, [&](const Trial& one) { return behind(one, -far_behind); });
+    in_parallel(exchanges.size(), [&](std::size_t i) { exchanges[i].fit->fit(fit_options); });
+    std::erase_if(exchanges, [&](const Trial& one) { return behind(one, clearly(one)); });
+    std::move(exchanges.begin(), exchanges.end(), std::back_inserter(trials));
     std::sort(trials.begin(), trials.end(), likelier);
     return trials;
   }
   std::vector<Trial> tried_beside(const Model& like, std::vector<Trial> trials) const {
     // A glance first: one step tells most places from any that could win.
-    constexpr double far_behind = 200.0;
     in_parallel(trials.size(), [&](std::size_t i) { fit(trials[i], like, m_data, glance); });
     std::erase_if(trials, [&](const Trial& one) { return one.fit->log_evidence() < like.log_evidence() - far_behind; });
     in_parallel(trials.size(), [&](std::size_t i) { trials[i].fit->fit(fit_options); });

@@ -196,10 +196,11 @@ std::optional<LoadUnit> load_in_other_unit(const physics::Machine& machine, cons
   const double most = largest_of(recording, "spindle_load_W");
   if (rated_W == 0.0) return std::nullopt;
   constexpr double least_share = 0.05, most_share = 2.0;  // of the rated power
-  if (1000.0 * most >= least_share * rated_W && 1000.0 * most <= most_share * rated_W) return LoadUnit{"kW", most};
+  const bool kilowatts = 1000.0 * most >= least_share * rated_W && 1000.0 * most <= most_share * rated_W;
   constexpr double least_percent = 5.0, most_percent = 150.0;
-  if (most >= least_percent && most <= most_percent && most < least_share * rated_W) return LoadUnit{"%", most};
-  return std::nullopt;
+  const bool percent = most >= least_percent && most <= most_percent && most < least_share * rated_W;
+  if (!kilowatts && !percent) return std::nullopt;
+  return LoadUnit{kilowatts && percent ? "kW / %" : kilowatts ? "kW" : "%", most};
 }
 
 Status check_times(const physics::Machine& machine, const recording::Recording& recording) {

@@ -18,7 +18,7 @@ Status check_scale(const physics::Machine& machine, const Dataset& data, const p
 Status check_times(const physics::Machine& machine, const recording::Recording& recording);
 
 struct LoadUnit {
-  const char* symbol;  // "kW" or "%"
+  const char* symbol;  // "kW", "%", or "kW / %" where it may be either
   double most = 0.0;   // as logged
 };
 /// The unit in which the load would be one of this machine's motor, and hardly any in W; the fit goes on.

@@ -147,6 +147,7 @@ void fillPhysics(Page* page, const QString& scene) {
     channel.tag = spindle.sensors[i].tag;
     channel.id = channel.tag + "_C";
     channel.unit = "K";
+    channel.valueUnit = "°C";
     channel.time_s = time;
     channel.recorded = warming(time, 20, 10.0 + i, 2600, 0.05, i);
     channel.simulated = warming(time, 20, i == 2 ? 8.6 : 9.9 + i, 2600, 0.0, i);
