@@ -198,30 +198,8 @@ std::array<LatticeLine, 3> lattice_lines(const Eigen::Matrix2d& covariance) {
   return out;
 }
 
-struct Tap {
-  const float* ahead;
-  const float* behind;
-  float weight;
-};
-
-// A row of weighted sums over all taps, a stretch of it in registers at a time.
-ZERODRIFT_WIDE void sum_taps(const Tap* taps, int tap_count, int width, float* __restrict to) {
-  constexpr int eights = 4;
-  int x = 0;
-  for (; x + 8 * eights <= width; x += 8 * eights) {
-    EightWeights sums[eights] = {};
-    for (int k = 0; k < tap_count; ++k) {
-      const EightSamples* ahead = reinterpret_cast<const EightSamples*>(taps[k].ahead + x);
-      const EightSamples* behind = reinterpret_cast<const EightSamples*>(taps[k].behind + x);
-      for (int i = 0; i < eights; ++i) sums[i] += taps[k].weight * (ahead[i] + behind[i]);
-    }
-    for (int i = 0; i < eights; ++i) *reinterpret_cast<EightSamples*>(to + x + 8 * i) = sums[i];
-  }
-  for (; x < width; ++x) {
-    float sum = 0.0f;
-    for (int k = 0; k < tap_count; ++k) sum += taps[k].weight * (taps[k].ahead[x] + taps[k].behind[x]);
-    to[x] = sum;
-  }
+ZERODRIFT_WIDE void add_both(const float* ahead, const float* behind, float weight, int count, float* __restrict to) {
+  for (int x = 0; x < count; ++x) to[x] += weight * (ahead[x] + behind[x]);
 }
 
 FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
@@ -232,14 +210,13 @@ FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
   cv::Mat padded;
   cv::copyMakeBorder(view(image), padded, pad_y, pad_y, pad_x, pad_x, cv::BORDER_REPLICATE);
   FloatImage out(image.width, image.height);
-  std::vector<Tap> taps(weights.size());
   for (int y = 0; y < image.height; ++y) {
+    float* to = out.row(y);
     for (int k = 0; k <= reach; ++k) {
-      taps[k] = {padded.ptr<float>(y + pad_y + k * line.y) + (pad_x + k * line.x),
-                 padded.ptr<float>(y + pad_y - k * line.y) + (pad_x - k * line.x),
-                 k == 0 ? 0.5f * weights[0] : weights[k]};
+      const float* ahead = padded.ptr<float>(y + pad_y + k * line.y) + (pad_x + k * line.x);
+      const float* behind = padded.ptr<float>(y + pad_y - k * line.y) + (pad_x - k * line.x);
+      add_both(ahead, behind, k == 0 ? 0.5f * weights[0] : weights[k], image.width, to);
     }
-    sum_taps(taps.data(), reach + 1, image.width, out.row(y));
   }
   return out;
 }

@@ -32,11 +32,10 @@ struct TemplateModel {
   Eigen::Matrix2d frame_blur_px2;            // and in the frame it is compared with
   FloatImage gradient_x, gradient_y;
   double noise_growth_x = 0.0;     // by how much the blur's noise correlation raises the variance of x and y over the
-  double noise_growth_y = 0.0;     // formula for independent noise; 0 until complete_for_uncertainty
+  double noise_growth_y = 0.0;     // formula for independent noise; 0 until find_noise_growth
   double noise_correlation = 1.0;  // pixels that carry the noise of one, after the blur
   double gradient_energy = 0.0;    // mean of fx^2 + fy^2 over the region
   double noise_share = 0.0;        // of that
-  double gradient_noise = 0.0;     // variance of the noise in each component of a gradient
   HiddenMotion hidden;
 };
 
@@ -61,7 +60,7 @@ TemplateSource completed(TemplateSource source);
 /// into the result.
 TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
                                   const Eigen::Matrix2d& frame_blur_px2);
-/// Finds the noise's growth and the hidden motion, which matter for the uncertainty alone.
-void complete_for_uncertainty(TemplateModel& model);
+/// Matters for the uncertainty alone.
+void find_noise_growth(TemplateModel& model);
 
 }  // namespace zerodrift::vision
