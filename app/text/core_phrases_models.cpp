@@ -91,7 +91,7 @@ constexpr std::array<const char*, 368> models = {{
     QT_TRANSLATE_NOOP("core", "a component with length and diameter to place a sensor on"),
     QT_TRANSLATE_NOOP("core", "the displacements of %1"),
     QT_TRANSLATE_NOOP("core", "%1 against the simulated temperatures"),
-    QT_TRANSLATE_NOOP("core", "the recording has no channel %1"),
+    QT_TRANSLATE_NOOP("core", "%1 has no channel %2"),
     QT_TRANSLATE_NOOP("core", "%1, channel %2"),
     QT_TRANSLATE_NOOP("core", "%1 as its middle value"),
     QT_TRANSLATE_NOOP("core", "degrees Celsius (is it in kelvin or millidegrees?)"),

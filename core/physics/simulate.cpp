@@ -46,7 +46,7 @@ Result<std::vector<std::string>> check_recording(const Machine& machine, const r
   for (const auto& sensor : machine.sensors) {
     const recording::Channel* channel = recording.find(sensor.channel);
     if (channel == nullptr) {
-      warnings.push_back("the recording has no channel " + sensor.channel);
+      warnings.push_back(recording.name + " has no channel " + sensor.channel);
       continue;
     }
     std::vector<double> present;

@@ -2362,8 +2362,8 @@
         <translation>%1，与仿真温度相对</translation>
     </message>
     <message>
-        <source>the recording has no channel %1</source>
-        <translation>记录中没有通道 %1</translation>
+        <source>%1 has no channel %2</source>
+        <translation>%1 中没有通道 %2</translation>
     </message>
     <message>
         <source>%1, channel %2</source>

@@ -80,7 +80,7 @@ TEST(BadInput, ChannelsMissingOnEitherSideAreNamed) {
   }
   const auto answer = answer_for(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_TRUE(has_note(*answer, "the recording has no channel T2_C"));
+  EXPECT_TRUE(has_note(*answer, one.recordings[0].name + " has no channel T2_C"));
   EXPECT_TRUE(only_names(*answer, "cutting_heat"));
 }
 

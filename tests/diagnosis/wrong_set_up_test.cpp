@@ -418,7 +418,7 @@ TEST(WrongSetUp, AColumnSpeltOtherwiseIsNamedAndATakenOutOneIsNotCalledMissing) 
                                  [](const auto& sentence) { return sentence.id == "run_unknown_columns"; });
   ASSERT_NE(told, answer->sentences.end());
   EXPECT_EQ(told->facts.at("columns"), "T99_C");
-  EXPECT_FALSE(notes(*answer, "the recording has no channel T1_C"));
+  EXPECT_FALSE(notes(*answer, one.recordings[0].name + " has no channel T1_C"));
   EXPECT_EQ(answer->findings.size(), 1U);
 }
 

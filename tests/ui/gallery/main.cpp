@@ -18,10 +18,11 @@ using namespace zerodrift::ui;
 namespace {
 
 void settle(MainWindow& window) {
-  // Plots gather their redraws for 33 ms: pass that, then draw what is still due.
+  // Plots gather their redraws for 33 ms and cards take several rounds of layout: pass that, then draw what is still
+  // due.
   QElapsedTimer clock;
   clock.start();
-  while (clock.elapsed() < 90) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
+  while (clock.elapsed() < 250) QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
   for (auto* plot : window.findChildren<LivePlot*>()) {
     if (plot->isVisible()) plot->flush();
   }
