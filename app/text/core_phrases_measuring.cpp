@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 233> measuring = {{
+constexpr std::array<const char*, 235> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -105,6 +105,10 @@ constexpr std::array<const char*, 233> measuring = {{
                       "two positions cannot show a mirrored camera; the image was taken as not mirrored: add a third "
                       "position beside the line of the two"),
     QT_TRANSLATE_NOOP("core", "three positions leave nothing to check the calibration with: use nine"),
+    QT_TRANSLATE_NOOP("core",
+                      "%1 does not fit the other views: it is %2 um off where they agree to %3 um; check its position, "
+                      "or leave it out"),
+    QT_TRANSLATE_NOOP("core", "the reference mark %1"),
     QT_TRANSLATE_NOOP("core", "a 2x2 matrix as two rows of two numbers"),
     QT_TRANSLATE_NOOP("core", "not finite"),
     QT_TRANSLATE_NOOP("core", "finite numbers"),

@@ -46,7 +46,11 @@ bool lies(const Finding& fault, const Channel& channel, const std::set<std::stri
           const std::vector<double>& time_s, const std::vector<double>& values) {
   const bool room = channel.kind() == ChannelKind::ambient;
   const bool held = !room && may_stand_still.count(channel.name) != 0;  // by a thermostat
-  if (fault.kind == FindingKind::constant_sensor) return !room && !held;
+  if (fault.kind == FindingKind::constant_sensor) {
+    // A room may be held to a hundredth of a kelvin, but zero in every row is what a logger writes for no sensor.
+    const bool nothing = std::all_of(values.begin(), values.end(), [](double v) { return !(std::abs(v) > 0.0); });
+    return room ? nothing : !held;
+  }
   if (fault.kind == FindingKind::sensor_died) return !held && frozen_stretch(time_s, values).has_value();
   if (fault.kind == FindingKind::dead_sensor) return recording::present_count(channel) < 3;
   return true;

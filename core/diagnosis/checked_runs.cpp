@@ -113,6 +113,11 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       one_is_missing = true;
       out.warnings.push_back(std::move(warning));
     }
+    for (const auto& displacement : machine.displacements) {
+      if (one.find(displacement.channel) != nullptr) continue;
+      one_is_missing = true;
+      out.warnings.push_back(one.name + " has no channel " + displacement.channel);
+    }
     // A machine has more sensors than its description as a rule: only beside one that is missed they tell anything.
     if (const std::string unknown = unknown_columns(machine, boundaries, sound.recording);
         one_is_missing && !unknown.empty()) {

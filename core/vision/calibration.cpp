@@ -109,6 +109,10 @@ struct LeftOut {
   double rms_um = std::numeric_limits<double>::quiet_NaN();
   double worst_um = 0.0;
   Eigen::Index worst = 0;
+  double chance = 1.0;     // that a view would be so far off by what the others scatter: of the least likely one
+  double others_um = 0.0;  // rms of their residuals, by their freedom
+  double apart_um = 0.0;
+  Eigen::Index least_likely = 0;
 };
 LeftOut leave_one_out(const Points& pixels, const Points& machine_um) {
   LeftOut out;
@@ -127,6 +131,19 @@ LeftOut leave_one_out(const Points& pixels, const Points& machine_um) {
     const double miss =
         (machine_um.row(skip).transpose() - fit.origin_um - fit.um_from_px * pixels.row(skip).transpose()).norm();
     sum += miss * miss;
+    // Both coordinates together follow F with 2 and `freedom` degrees of freedom, whose tail has a closed form.
+    const double freedom = 2.0 * static_cast<double>(n - 1) - 6.0;
+    const Points left = (m - p * fit.um_from_px.transpose()).rowwise() - fit.origin_um.transpose();
+    const double variance = left.squaredNorm() / freedom;
+    const Eigen::RowVector2d away = pixels.row(skip) - p.colwise().mean();
+    const double predicted = variance * (1.0 + 1.0 / static_cast<double>(n - 1) + away.dot(away * fit.spread));
+    const double chance = std::pow(1.0 + miss * miss / (predicted * freedom), -freedom / 2.0);
+    if (chance < out.chance) {
+      out.chance = chance;
+      out.others_um = std::sqrt(variance);
+      out.apart_um = miss;
+      out.least_likely = skip;
+    }
     if (miss > out.worst_um) {
       out.worst_um = miss;
       out.worst = skip;
@@ -249,6 +266,15 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
   }
   out.views = std::move(views);
   describe_geometry(out);
+  // One position read wrongly is taken for the machine's scatter: honest, but it need not be.
+  constexpr double never_by_chance = 1e-3;  // in any of the views
+  if (static_cast<double>(out.views.size()) * left_out.chance < never_by_chance &&
+      left_out.apart_um > 2.0 * limits.repeatability_um) {
+    out.warnings.push_back(fmt::format(
+        "{} does not fit the other views: it is {:.3g} um off where they agree to {:.2g} um; check its "
+        "position, or leave it out",
+        out.views[static_cast<std::size_t>(left_out.least_likely)].image, left_out.apart_um, left_out.others_um));
+  }
   if (two) {
     out.warnings.push_back(
         "two positions cannot show a mirrored camera; the image was taken as not mirrored: add a third position beside "

@@ -1866,6 +1866,14 @@
         <translation>两个位置无法判断图像是否镜像；已按非镜像处理：请在两点连线之外增加第三个位置</translation>
     </message>
     <message>
+        <source>%1 does not fit the other views: it is %2 um off where they agree to %3 um; check its position, or leave it out</source>
+        <translation>%1 与其他图像不符：偏差 %2 µm，而其他图像彼此相差仅 %3 µm；请检查其位置，或将其去掉</translation>
+    </message>
+    <message>
+        <source>the reference mark %1</source>
+        <translation>参考标记 %1</translation>
+    </message>
+    <message>
         <source>three positions leave nothing to check the calibration with: use nine</source>
         <translation>三个位置没有多余数据用于检验标定：请使用九个位置</translation>
     </message>

@@ -68,6 +68,20 @@ TEST(BadInput, PowersInKilowattsAreRefused) {
   EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
 }
 
+TEST(BadInput, ARoomSensorThatIsAlwaysZeroIsNotUsed) {
+  proof::Case one = proof::make_case(105, "none");
+  for (auto& recording : one.recordings) {
+    auto* room = recording.find("ambient_C");
+    ASSERT_NE(room, nullptr);
+    std::fill(room->values.begin(), room->values.end(), 0.0);
+  }
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->effects.size(), 0U);
+  ASSERT_FALSE(answer->findings.empty());
+  EXPECT_EQ(answer->findings[0].finding.channel, "ambient_C");
+}
+
 TEST(BadInput, ChannelsMissingOnEitherSideAreNamed) {
   proof::Case one = proof::make_case(104, "cutting_heat");
   std::erase_if(one.recordings[0].channels, [](const auto& channel) { return channel.name == "T2_C"; });
@@ -78,9 +92,11 @@ TEST(BadInput, ChannelsMissingOnEitherSideAreNamed) {
       break;
     }
   }
+  std::erase_if(one.recordings[0].channels, [](const auto& channel) { return channel.name == "dY_um"; });
   const auto answer = answer_for(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   EXPECT_TRUE(has_note(*answer, one.recordings[0].name + " has no channel T2_C"));
+  EXPECT_TRUE(has_note(*answer, one.recordings[0].name + " has no channel dY_um"));
   EXPECT_TRUE(only_names(*answer, "cutting_heat"));
 }
 

@@ -55,6 +55,27 @@ TEST(Calibration, GridGivesTheFullMatrixWithTrueUncertainty) {
   EXPECT_GT(noisy->leave_one_out_um, noisy->rms_um);
 }
 
+TEST(Calibration, APositionReadWronglyIsNamed) {
+  const auto names_it = [](double off_mm, double repeatability_um, unsigned seed) {
+    auto views = views_at(grid(), true_um_from_px(), repeatability_um, seed);
+    views[3].x_mm += off_mm;
+    const auto result = calibrate(views);
+    return result && result->warnings.size() == 1 &&
+           result->warnings[0].find("view3.png does not fit the other views") != std::string::npos;
+  };
+  EXPECT_TRUE(names_it(0.010, 0.0, 5));
+  int seen = 0;
+  for (unsigned seed = 0; seed < 100; ++seed) seen += names_it(0.020, 1.0, seed);
+  EXPECT_GE(seen, 95);
+  // A machine that does not repeat better is none that was read wrongly.
+  int named = 0;
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    const auto result = calibrate(views_at(grid(), true_um_from_px(), 2.0, seed));
+    named += result && !result->warnings.empty();
+  }
+  EXPECT_LE(named, 3);
+}
+
 TEST(Calibration, ThreePositionsShowAMirroredCamera) {
   const auto result = calibrate(views_at({{0, 0}, {0.5, 0}, {0, 0.5}}, true_um_from_px(true)));
   ASSERT_TRUE(result);

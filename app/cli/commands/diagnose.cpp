@@ -86,7 +86,7 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
       output.warnings.push_back("the first recording leaves " + note.substr(20) +
                                 " in doubt: the others were asked too (what was fitted is fitted to the first alone)");
     }
-    if (note.rfind("the recording", 0) == 0) output.warnings.push_back(note);
+    if (note.find(" has no channel ") != std::string::npos) output.warnings.push_back(note);
   }
   return output;
 }

@@ -34,6 +34,15 @@ struct Prepared {
   vision::LocateRequest request;
 };
 
+constexpr double most_on_target = 0.5;
+
+/// Of the first region's area.
+double share_within(const vision::Region& one, const vision::Region& other) {
+  const int width = std::min(one.x + one.width, other.x + other.width) - std::max(one.x, other.x);
+  const int height = std::min(one.y + one.height, other.y + other.height) - std::max(one.y, other.y);
+  return std::max(width, 0) * static_cast<double>(std::max(height, 0)) / (static_cast<double>(one.width) * one.height);
+}
+
 // The camera's own motion that fixed marks cannot tell; without any the user knows that there is none.
 std::string what_marks_leave(const std::vector<vision::Target>& marks) {
   if (marks.empty()) return "";
@@ -103,6 +112,12 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
       return fail(ErrorCode::template_without_texture, {{"file", options.image + " (--reference-roi " + text + ")"}});
     }
     ZD_CHECK(mark);
+    // What lies on the target moves with it and takes out what is to be measured.
+    if (share_within(mark->region(), target.region()) > most_on_target) {
+      return fail(ErrorCode::bad_argument, {{"what", "the reference mark " + text},
+                                            {"found", "over the target's region or another mark"},
+                                            {"expected", "a place beside them"}});
+    }
     request.references.push_back(*std::move(mark));
   }
   if (const std::string left = what_marks_leave(request.references); !left.empty()) warnings.push_back(left);
