@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vision/row_sums.h"
+
 namespace zerodrift::vision {
 namespace {
 
@@ -14,29 +16,37 @@ constexpr double least_shown = 0.003;
 constexpr double least_noise = 1e-6;
 constexpr double mostly_turn = 0.5;  // of the direction's length
 
+using Normal = Eigen::Matrix<double, 6, 6>;
+
+// Of the translation and the four linear parts, from moments over 1, x, y, x^2, x y, y^2.
+Normal normal_of(const double* xx, const double* xy, const double* yy) {
+  const auto over_places = [](const double* m) {
+    constexpr double one = 1.0 / length_px;
+    constexpr double two = one * one;
+    Eigen::Matrix3d out;
+    out << m[0], one * m[1], one * m[2], one * m[1], two * m[3], two * m[4], one * m[2], two * m[4], two * m[5];
+    return out;
+  };
+  Eigen::Matrix<double, 6, 6> by_gradient;  // 1, x, y times fx, then times fy
+  const Eigen::Matrix3d cross = over_places(xy);
+  by_gradient << over_places(xx), cross, cross, over_places(yy);
+  constexpr int order[] = {0, 3, 1, 2, 4, 5};
+  Normal out;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) out(i, j) = by_gradient(order[i], order[j]);
+  }
+  return out;
+}
+
 }  // namespace
 
 HiddenMotion find_hidden_motion(const std::vector<float>& x, const std::vector<float>& y, const std::vector<float>& fx,
                                 const std::vector<float>& fy, double noise_variance) {
-  using Motion = Eigen::Matrix<double, 6, 1>;
-  using Normal = Eigen::Matrix<double, 6, 6>;
-  Normal normal = Normal::Zero();
-  Normal noise = Normal::Zero();
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const Eigen::Vector3d place(1.0, x[k] / length_px, y[k] / length_px);
-    Motion row;
-    row << fx[k], fy[k], fx[k] * place(1), fx[k] * place(2), fy[k] * place(1), fy[k] * place(2);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    for (const bool along_x : {true, false}) {
-      if ((along_x ? fx[k] : fy[k]) == 0.0f) continue;
-      Motion part = Motion::Zero();
-      part(along_x ? 0 : 1) = 1.0;
-      part.segment<2>(along_x ? 2 : 4) = place.tail<2>();
-      noise.selfadjointView<Eigen::Lower>().rankUpdate(part, noise_variance);
-    }
-  }
-  normal = normal.selfadjointView<Eigen::Lower>();
-  noise = noise.selfadjointView<Eigen::Lower>();
+  GradientMoments sums;
+  add_moments(x.data(), y.data(), fx.data(), fy.data(), static_cast<int>(x.size()), sums);
+  const Normal normal = normal_of(sums.xx, sums.xy, sums.yy);
+  const double none[6] = {};
+  Normal noise = noise_variance * normal_of(sums.along_x, none, sums.along_y);
   noise.diagonal().array() += least_noise * normal.trace();
   // The translation that goes with each linear part so that the target changes least.
   const Eigen::Matrix<double, 2, 4> follows = -normal.topLeftCorner<2, 2>().ldlt().solve(normal.topRightCorner<2, 4>());

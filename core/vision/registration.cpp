@@ -155,13 +155,13 @@ Registrar::Registrar(TemplateSource source)
     const Eigen::Matrix2d wide = clear_prefilter_px2 * Eigen::Matrix2d::Identity();
     m_model = make_template_model(m_source, wide, wide);
   }
-  find_noise_growth(m_model);
+  find_noise_effects(m_model);
   m_outline = outline_of(m_source, m_model);
   m_middle = middle_of_turn(m_model);
   if (!m_outline) return;
   m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
   m_middle = middle_of_turn(*m_outline_model);
-  find_noise_growth(*m_outline_model);
+  find_noise_effects(*m_outline_model);
 }
 
 Region Registrar::patch_at(int dx_px, int dy_px) const {
@@ -444,7 +444,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     const bool last = doubted || (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
     // What only leads to a better matched blur need not be known so well.
     if (!told && (last || !blurs)) {
-      if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_growth(*blurred_model);
+      if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_effects(*blurred_model);
       solver.tell_uncertainty(out);
     }
     if (doubted) setup = next;

@@ -52,7 +52,7 @@ class RegistrationSolver {
   bool glance();
   /// What was found on the `count` pixels used, without its uncertainty.
   Registration fit(int count) const;
-  /// After run. The model's noise growth must be known.
+  /// After run. The noise's effects on the model must be known.
   void tell_uncertainty(Registration& out) const;
   /// Errors over their scale at each pixel of the region; NaN where the model has none.
   std::vector<float> residual_map(int width, int height) const;

@@ -8,6 +8,7 @@ namespace {
 
 // Eight numbers in one register or in two; the way GCC and Clang spell it.
 typedef float Eight __attribute__((vector_size(32)));
+typedef double FourDoubles __attribute__((vector_size(32)));
 typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
 
 constexpr int pixels_a_block = 512;  // pixels summed in single precision before they are added in double
@@ -114,6 +115,55 @@ ZERODRIFT_WIDE void tukey_weights(const float* __restrict errors, const float* _
     const float u = errors[k] * roots[k] * inverse;
     const float left = std::max(0.0f, 1.0f - u * u);
     weights[k] = use[k] == 0 ? left * left : 0.0f;
+  }
+}
+
+ZERODRIFT_WIDE void add_moments(const float* x, const float* y, const float* fx, const float* fy, int count,
+                                GradientMoments& sums) {
+  double* const to[] = {sums.xx, sums.xy, sums.yy, sums.along_x, sums.along_y};
+  FourDoubles moment[5][6] = {};
+  for (int k = 0; k < count; k += 4) {
+    FourDoubles px = {}, py = {}, gx = {}, gy = {}, with_x = {}, with_y = {};  // what is beyond the end counts nothing
+    for (int i = 0; i < std::min(4, count - k); ++i) {
+      px[i] = x[k + i], py[i] = y[k + i], gx[i] = fx[k + i], gy[i] = fy[k + i];
+      with_x[i] = fx[k + i] != 0.0f, with_y[i] = fy[k + i] != 0.0f;
+    }
+    const FourDoubles of_place[] = {px, py, px * px, px * py, py * py};
+    const FourDoubles of_gradient[] = {gx * gx, gx * gy, gy * gy, with_x, with_y};
+    for (int g = 0; g < 5; ++g) {
+      moment[g][0] += of_gradient[g];
+      for (int p = 0; p < 5; ++p) moment[g][p + 1] += of_gradient[g] * of_place[p];
+    }
+  }
+  for (int g = 0; g < 5; ++g) {
+    for (int p = 0; p < 6; ++p) {
+      const FourDoubles& m = moment[g][p];
+      to[g][p] += (m[0] + m[2]) + (m[1] + m[3]);
+    }
+  }
+}
+
+ZERODRIFT_WIDE void blur_row(const float* middle, std::ptrdiff_t step, const float* weights, int taps, int count,
+                             float* to) {
+  constexpr int at_once = 32;
+  const auto eight = [](const float* from) -> const EightAnywhere& {
+    return *reinterpret_cast<const EightAnywhere*>(from);
+  };
+  int x = 0;
+  for (; x + at_once <= count; x += at_once) {
+    Eight sum[4];
+    for (int i = 0; i < 4; ++i) sum[i] = weights[0] * eight(middle + x + 8 * i);
+    for (int k = 1; k < taps; ++k) {
+      const float* ahead = middle + x + k * step;
+      const float* behind = middle + x - k * step;
+      for (int i = 0; i < 4; ++i) sum[i] += weights[k] * (eight(ahead + 8 * i) + eight(behind + 8 * i));
+    }
+    for (int i = 0; i < 4; ++i) *reinterpret_cast<EightAnywhere*>(to + x + 8 * i) = sum[i];
+  }
+  for (; x < count; ++x) {
+    float sum = weights[0] * middle[x];
+    for (int k = 1; k < taps; ++k) sum += weights[k] * (middle[x + k * step] + middle[x - k * step]);
+    to[x] = sum;
   }
 }
 

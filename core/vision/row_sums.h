@@ -30,6 +30,15 @@ void subtract_shared(float* rows, const float* shares, int count, const float* c
 void tukey_weights(const float* errors, const float* roots, float inverse, const std::uint8_t* use, int count,
                    float* weights);
 
+/// Sums over pixels, each of 1, x, y, x^2, x y and y^2 times: fx^2, fx fy, fy^2, and whether fx and fy are not zero.
+struct GradientMoments {
+  double xx[6] = {}, xy[6] = {}, yy[6] = {}, along_x[6] = {}, along_y[6] = {};
+};
+void add_moments(const float* x, const float* y, const float* fx, const float* fy, int count, GradientMoments& sums);
+
+/// to = sum over taps k of weight * (ahead + behind), `ahead` k steps on from the middle and `behind` k steps back.
+void blur_row(const float* middle, std::ptrdiff_t step, const float* weights, int taps, int count, float* to);
+
 /// sums of a * b, a and a * a over one row of a picture: product, sum, squares.
 void byte_sums(const std::uint8_t* a, const std::uint8_t* b, int count, std::int32_t* sums);
 

@@ -198,10 +198,6 @@ std::array<LatticeLine, 3> lattice_lines(const Eigen::Matrix2d& covariance) {
   return out;
 }
 
-ZERODRIFT_WIDE void add_both(const float* ahead, const float* behind, float weight, int count, float* __restrict to) {
-  for (int x = 0; x < count; ++x) to[x] += weight * (ahead[x] + behind[x]);
-}
-
 FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
   const std::vector<float> weights = gaussian_weights(line.variance);
   const int reach = static_cast<int>(weights.size()) - 1;
@@ -210,13 +206,9 @@ FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
   cv::Mat padded;
   cv::copyMakeBorder(view(image), padded, pad_y, pad_y, pad_x, pad_x, cv::BORDER_REPLICATE);
   FloatImage out(image.width, image.height);
+  const std::ptrdiff_t step = line.y * static_cast<std::ptrdiff_t>(padded.step1()) + line.x;
   for (int y = 0; y < image.height; ++y) {
-    float* to = out.row(y);
-    for (int k = 0; k <= reach; ++k) {
-      const float* ahead = padded.ptr<float>(y + pad_y + k * line.y) + (pad_x + k * line.x);
-      const float* behind = padded.ptr<float>(y + pad_y - k * line.y) + (pad_x - k * line.x);
-      add_both(ahead, behind, k == 0 ? 0.5f * weights[0] : weights[k], image.width, to);
-    }
+    blur_row(padded.ptr<float>(y + pad_y) + pad_x, step, weights.data(), reach + 1, image.width, out.row(y));
   }
   return out;
 }

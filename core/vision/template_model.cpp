@@ -264,7 +264,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
     }
   }
   set_tiles(model);
-  model.hidden = find_hidden_motion(model.x, model.y, model.fx, model.fy, noise_each);
+  model.gradient_noise = noise_each;
   model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));
   model.frame_blur_px2 = frame_blur_px2;
   model.gradient_x = std::move(fx);
@@ -272,9 +272,10 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   return model;
 }
 
-void find_noise_growth(TemplateModel& model) {
+void find_noise_effects(TemplateModel& model) {
   model.noise_growth_x = noise_growth(model.gradient_x, {model.blur_px2, model.frame_blur_px2});
   model.noise_growth_y = noise_growth(model.gradient_y, {model.blur_px2, model.frame_blur_px2});
+  model.hidden = find_hidden_motion(model.x, model.y, model.fx, model.fy, model.gradient_noise);
 }
 
 }  // namespace zerodrift::vision

@@ -32,11 +32,12 @@ struct TemplateModel {
   Eigen::Matrix2d frame_blur_px2;            // and in the frame it is compared with
   FloatImage gradient_x, gradient_y;
   double noise_growth_x = 0.0;     // by how much the blur's noise correlation raises the variance of x and y over the
-  double noise_growth_y = 0.0;     // formula for independent noise; 0 until find_noise_growth
+  double noise_growth_y = 0.0;     // formula for independent noise; 0 until find_noise_effects
   double noise_correlation = 1.0;  // pixels that carry the noise of one, after the blur
   double gradient_energy = 0.0;    // mean of fx^2 + fy^2 over the region
   double noise_share = 0.0;        // of that
-  HiddenMotion hidden;
+  double gradient_noise = 0.0;     // variance of fx and of fy by the template's noise
+  HiddenMotion hidden;             // as if all were shown until find_noise_effects
 };
 
 /// Of whole grey levels. Where a camera has hardly any other noise, even places show none of it and edges all.
@@ -60,7 +61,7 @@ TemplateSource completed(TemplateSource source);
 /// into the result.
 TemplateModel make_template_model(const TemplateSource& source, const Eigen::Matrix2d& blur_px2,
                                   const Eigen::Matrix2d& frame_blur_px2);
-/// Matters for the uncertainty alone.
-void find_noise_growth(TemplateModel& model);
+/// What the template's and the frame's noise do to the result: matters once it has been found, and takes a while.
+void find_noise_effects(TemplateModel& model);
 
 }  // namespace zerodrift::vision
