@@ -25,6 +25,47 @@ constexpr int reweightings = 5;
 constexpr double negligible_sigmas = 0.03;
 constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was sampled needs no new sample
 
+// From the template to a patch of the frame.
+struct PixelMotion {
+  Eigen::Vector2f shift;
+  Eigen::Matrix2f turn;  // linear part less one
+  // The lens moves a pixel at w from the point by 2 (w s) w + |w|^2 s times its constant, s being the displacement.
+  Eigen::Vector2f way;
+  float bent;                 // its constant
+  int left, top, width;       // of the patch: where the region begins in it, and its own width
+  int last_column, last_row;  // that can be sampled
+};
+
+// Places in the patch (-1 where they cannot be sampled), the fractions there, and how the lens moves each pixel.
+ZERODRIFT_WIDE void move_pixels(const PixelMotion& motion, const float* x, const float* y, const int* column,
+                                const int* row, int count, int* __restrict place, float* __restrict fraction_x,
+                                float* __restrict fraction_y, float* __restrict bend_x, float* __restrict bend_y) {
+  const float* shift = motion.shift.data();
+  const float* turn = motion.turn.data();  // column after column
+  const float shift_x = shift[0], shift_y = shift[1];
+  const float xx = turn[0], yx = turn[1], xy = turn[2], yy = turn[3];
+  const float way_x = motion.way.data()[0], way_y = motion.way.data()[1];
+  const float bent = motion.bent;
+  const int left = motion.left, top = motion.top, width = motion.width;
+  const int last_column = motion.last_column, last_row = motion.last_row;
+  for (int k = 0; k < count; ++k) {
+    const float along = 2.0f * (x[k] * way_x + y[k] * way_y);
+    const float squares = x[k] * x[k] + y[k] * y[k];
+    bend_x[k] = along * x[k] + squares * way_x;
+    bend_y[k] = along * y[k] + squares * way_y;
+    const float ux = shift_x + xx * x[k] + xy * y[k] + bent * bend_x[k];
+    const float uy = shift_y + yx * x[k] + yy * y[k] + bent * bend_y[k];
+    const float whole_x = std::floor(ux);
+    const float whole_y = std::floor(uy);
+    fraction_x[k] = ux - whole_x;
+    fraction_y[k] = uy - whole_y;
+    const int to_column = column[k] + left + static_cast<int>(whole_x);
+    const int to_row = row[k] + top + static_cast<int>(whole_y);
+    const bool known = (to_column >= 2) & (to_row >= 2) & (to_column <= last_column) & (to_row <= last_row);
+    place[k] = known ? to_row * width + to_column : -1;
+  }
+}
+
 }  // namespace
 
 RegistrationSolver::RegistrationSolver(const TemplateModel& model, const FramePatch& patch, const SmoothField* field,
@@ -77,45 +118,25 @@ void RegistrationSolver::fill_row(int k) {
 
 // The frame's value at each pixel of the template moved by the present motion.
 void RegistrationSolver::sample(int count) {
-  const Eigen::Matrix2f turn = (m_linear - Eigen::Matrix2d::Identity()).cast<float>();
-  const Eigen::Vector2f shift = m_shift.cast<float>();
-  // The lens moves a pixel at w from the point by 2 (w s) w + |w|^2 s times its constant, s being the displacement.
-  const Eigen::Vector2f way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
-  const auto bent = static_cast<float>(m_lens / lens_unit);
-  const int width = m_patch.spline.width();
-  const int left = m_model.region.x + static_cast<int>(m_whole_px(0)) - m_patch.at.x;
-  const int top = m_model.region.y + static_cast<int>(m_whole_px(1)) - m_patch.at.y;
-  const int last_column = width - SplineImage::reach_after;
-  const int last_row = m_patch.spline.height() - SplineImage::reach_after;
-  m_place.resize(m_frame.size());
-  m_fx.resize(m_frame.size());
-  m_fy.resize(m_frame.size());
-  if (!m_model.shown.empty()) {
-    m_seen_x.resize(m_frame.size());
-    m_seen_y.resize(m_frame.size());
-  }
+  const std::size_t size = static_cast<std::size_t>(m_frame.size());
+  m_place.resize(size);
+  for (std::vector<float>* one : {&m_fx, &m_fy, &m_bend_x, &m_bend_y}) one->resize(size);
+  PixelMotion motion;
+  motion.shift = m_shift.cast<float>();
+  motion.turn = (m_linear - Eigen::Matrix2d::Identity()).cast<float>();
+  motion.way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
+  motion.bent = static_cast<float>(m_lens / lens_unit);
+  motion.width = m_patch.spline.width();
+  motion.left = m_model.region.x + static_cast<int>(m_whole_px(0)) - m_patch.at.x;
+  motion.top = m_model.region.y + static_cast<int>(m_whole_px(1)) - m_patch.at.y;
+  motion.last_column = motion.width - SplineImage::reach_after;
+  motion.last_row = m_patch.spline.height() - SplineImage::reach_after;
+  move_pixels(motion, m_model.x.data(), m_model.y.data(), m_model.column.data(), m_model.row.data(), count,
+              m_place.data(), m_fx.data(), m_fy.data(), m_bend_x.data(), m_bend_y.data());
   for (int k = 0; k < count; ++k) {
-    const float x = m_model.x[k];
-    const float y = m_model.y[k];
-    const float along = 2.0f * (x * way(0) + y * way(1));
-    const float squares = x * x + y * y;
-    const float bend_x = along * x + squares * way(0);
-    const float bend_y = along * y + squares * way(1);
-    m_rows(bend, k) = m_model.fx[k] * bend_x + m_model.fy[k] * bend_y;
-    const float ux = shift(0) + turn(0, 0) * x + turn(0, 1) * y + bent * bend_x;
-    const float uy = shift(1) + turn(1, 0) * x + turn(1, 1) * y + bent * bend_y;
-    const float whole_x = std::floor(ux);
-    const float whole_y = std::floor(uy);
-    const int column = m_model.column[k] + left + static_cast<int>(whole_x);
-    const int row = m_model.row[k] + top + static_cast<int>(whole_y);
-    const bool known = column >= 2 && row >= 2 && column <= last_column && row <= last_row;
-    m_place[k] = known ? row * width + column : SplineImage::first_place(width);
-    m_fx[k] = ux - whole_x;
-    m_fy[k] = uy - whole_y;
-    if (!m_seen_x.empty()) {
-      m_seen_x[k] = static_cast<float>(m_patch.at.x + column) + m_fx[k];
-      m_seen_y[k] = static_cast<float>(m_patch.at.y + row) + m_fy[k];
-    }
+    m_rows(bend, k) = m_model.fx[k] * m_bend_x[k] + m_model.fy[k] * m_bend_y[k];
+    const bool known = m_place[k] >= 0;
+    if (!known) m_place[k] = SplineImage::first_place(motion.width);
     m_pixel_state[k] = known ? m_patch.state[m_place[k]] : std::uint8_t{FramePatch::outside};
   }
   for (int k = 0; m_doubted != nullptr && !m_all_pixels && k < count; ++k) {
@@ -131,7 +152,9 @@ void RegistrationSolver::look_behind(int count) {
   for (std::size_t i = 0; i < m_model.shown.size() && m_model.shown[i] < count; ++i) {
     const int k = m_model.shown[i];
     if (m_pixel_state[k] == FramePatch::outside) continue;
-    const float behind = m_model.backdrop->at(m_seen_x[k], m_seen_y[k]);
+    const int width = m_patch.spline.width();
+    const float behind = m_model.backdrop->at(static_cast<float>(m_patch.at.x + m_place[k] % width) + m_fx[k],
+                                              static_cast<float>(m_patch.at.y + m_place[k] / width) + m_fy[k]);
     const float value = m_model.value[k] + m_model.clear[i] * (behind - m_model.behind[i]);
     m_rows(gain, k) = value;
     m_rows(gain_x, k) = value * m_model.x[k] / static_cast<float>(length_px);

@@ -145,7 +145,7 @@ class RegistrationSolver {
   std::vector<float> m_scratch;
   std::vector<int> m_place;               // in the frame's spline, of the pixels sampled
   std::vector<float> m_fx, m_fy;          // fractions there
-  std::vector<float> m_seen_x, m_seen_y;  // and where that is in the frame, px; of a target with a backdrop
+  std::vector<float> m_bend_x, m_bend_y;  // how the lens would move them
   Eigen::Matrix<double, light_count, 1> m_light;
   NeighbourWeights m_judge;
   int m_iterations = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/vision/opencv_image.h"
 #include "core/vision/row_sums.h"
 
 namespace zerodrift::vision {
@@ -156,10 +157,6 @@ ZERODRIFT_WIDE void along_row(const float* __restrict plain, const float* __rest
   }
 }
 
-cv::Mat view(const FloatImage& image) {
-  return cv::Mat(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
-}
-
 cv::Mat gaussian_1d(double variance_px2) {
   const int reach = static_cast<int>(std::ceil(4.0 * std::sqrt(variance_px2))) + 1;
   cv::Mat kernel(1, 2 * reach + 1, CV_32F);
@@ -204,7 +201,7 @@ FloatImage blurred_along(const FloatImage& image, const LatticeLine& line) {
   const int pad_x = reach * std::abs(line.x);
   const int pad_y = reach * std::abs(line.y);
   cv::Mat padded;
-  cv::copyMakeBorder(view(image), padded, pad_y, pad_y, pad_x, pad_x, cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(mat_view(image), padded, pad_y, pad_y, pad_x, pad_x, cv::BORDER_REPLICATE);
   FloatImage out(image.width, image.height);
   const std::ptrdiff_t step = line.y * static_cast<std::ptrdiff_t>(padded.step1()) + line.x;
   for (int y = 0; y < image.height; ++y) {
@@ -259,10 +256,10 @@ FloatImage blur_kernel(const Eigen::Matrix2d& covariance_px2) {
 
 FloatImage blurred(const FloatImage& image, const Eigen::Matrix2d& covariance_px2) {
   FloatImage out(image.width, image.height);
-  cv::Mat target = view(out);
+  cv::Mat target = mat_view(out);
   if (along_the_axes(covariance_px2)) {
-    cv::sepFilter2D(view(image), target, CV_32F, gaussian_1d(covariance_px2(0, 0)), gaussian_1d(covariance_px2(1, 1)),
-                    {-1, -1}, 0.0, cv::BORDER_REPLICATE);
+    cv::sepFilter2D(mat_view(image), target, CV_32F, gaussian_1d(covariance_px2(0, 0)),
+                    gaussian_1d(covariance_px2(1, 1)), {-1, -1}, 0.0, cv::BORDER_REPLICATE);
     return out;
   }
   out = image;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "core/vision/opencv_image.h"
 #include "core/vision/row_sums.h"
 
 namespace zerodrift::vision {
@@ -119,8 +120,7 @@ void take_off_standing(const FloatImage& behind, const FloatImage& clear, FloatI
 void calm(FloatImage& gradient, double noise_energy) {
   FloatImage mean(gradient.width, gradient.height);
   for (std::size_t k = 0; k < mean.values.size(); ++k) mean.values[k] = gradient.values[k] * gradient.values[k];
-  cv::Mat view(mean.height, mean.width, CV_32F, mean.values.data());
-  cv::blur(view, view, {calm_window_px, calm_window_px});
+  cv::blur(mat_view(mean), mat_view(mean), {calm_window_px, calm_window_px});
   const auto noise = static_cast<float>(std::max(noise_energy, 1e-9));
   for (std::size_t k = 0; k < mean.values.size(); ++k) {
     gradient.values[k] *=
@@ -135,30 +135,6 @@ double power_of(const Eigen::Matrix2d& blur_px2) {
   return power;
 }
 
-ZERODRIFT_WIDE void add_weighted(const float* from, float weight, int count, float* __restrict to) {
-  for (int x = 0; x < count; ++x) to[x] += weight * from[x];
-}
-
-// Row y of the image blurred by the weights along both axes; the border is repeated.
-std::vector<float> blurred_row(const FloatImage& image, int y, const std::vector<float>& weights) {
-  const int reach = static_cast<int>(weights.size()) - 1;
-  const int width = image.width;
-  std::vector<float> down(static_cast<std::size_t>(width + 2 * reach), 0.0f);
-  for (int k = -reach; k <= reach; ++k) {
-    const float* from = image.row(std::clamp(y + k, 0, image.height - 1));
-    const float weight = weights[static_cast<std::size_t>(std::abs(k))];
-    add_weighted(from, weight, width, down.data() + reach);
-  }
-  std::fill_n(down.begin(), reach, down[reach]);
-  std::fill_n(down.end() - reach, reach, down[reach + width - 1]);
-  std::vector<float> out(static_cast<std::size_t>(width), 0.0f);
-  for (int k = 0; k <= 2 * reach; ++k) {
-    const float weight = weights[static_cast<std::size_t>(std::abs(k - reach))];
-    add_weighted(down.data() + k, weight, width, out.data());
-  }
-  return out;
-}
-
 // Variance of a shift estimated from blurred noise over that from independent noise of equal power: by each of the two
 // blurs, weighted by the noise that it lets through. Some of the rows tell it well enough.
 double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d, 2>& blurs_px2) {
@@ -167,9 +143,17 @@ double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d
   for (const Eigen::Matrix2d& blur_px2 : blurs_px2) {
     // A round blur of the same size is near enough and separable.
     const std::vector<float> weights = gaussian_weights(blur_px2.trace());
+    const int taps = static_cast<int>(weights.size());
+    const int reach = taps - 1;
     const double power = power_of(blur_px2);
+    cv::Mat padded;
+    cv::copyMakeBorder(mat_view(gradient), padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
+    std::vector<float> down(static_cast<std::size_t>(padded.cols));
+    std::vector<float> twice(static_cast<std::size_t>(gradient.width));
     for (int y = 0; y < gradient.height; y += growth_rows) {
-      const std::vector<float> twice = blurred_row(gradient, y, weights);
+      blur_row(padded.ptr<float>(y + reach), static_cast<std::ptrdiff_t>(padded.step1()), weights.data(), taps,
+               padded.cols, down.data());
+      blur_row(down.data() + reach, 1, weights.data(), taps, gradient.width, twice.data());
       const float* own = gradient.row(y);
       for (int x = 0; x < gradient.width; ++x) {
         with += double{own[x]} * twice[x];
@@ -185,10 +169,16 @@ void set_tiles(TemplateModel& model) {
     model.width = std::max(model.width, model.column[k] + 1);
     model.height = std::max(model.height, model.row[k] + 1);
   }
+  const auto parts = [](int size) {
+    std::vector<std::uint8_t> out(static_cast<std::size_t>(size));
+    for (int k = 0; k < size; ++k) out[k] = static_cast<std::uint8_t>(k * tiles_a_side / size);
+    return out;
+  };
+  const std::vector<std::uint8_t> across = parts(model.width);
+  const std::vector<std::uint8_t> down = parts(model.height);
   model.tile.resize(model.column.size());
   for (int k = 0; k < model.pixels; ++k) {
-    const int down = model.row[k] * tiles_a_side / model.height;
-    model.tile[k] = static_cast<std::uint8_t>(down * tiles_a_side + model.column[k] * tiles_a_side / model.width);
+    model.tile[k] = static_cast<std::uint8_t>(down[model.row[k]] * tiles_a_side + across[model.column[k]]);
   }
 }
 
@@ -243,9 +233,11 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
        {&model.x, &model.y, &model.value, &model.fx, &model.fy, &model.fxx, &model.fxy, &model.fyy}) {
     one->resize(chosen.size());
   }
+  int y = 0;  // the pixels run down the region twice: the first quarter, then the rest
   for (int i = 0; i < model.pixels; ++i) {
-    const int x = chosen[i] % source.region.width;
-    const int y = chosen[i] / source.region.width;
+    if (chosen[i] < y * source.region.width) y = 0;
+    while (chosen[i] >= (y + 1) * source.region.width) ++y;
+    const int x = chosen[i] - y * source.region.width;
     const std::size_t k = index(x, y);
     model.column[i] = x;
     model.row[i] = y;
