@@ -1,5 +1,7 @@
 #include "core/vision/region_finder.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -9,12 +11,59 @@ namespace zerodrift::vision {
 namespace {
 
 constexpr double least_eigenvalue = 2.0;  // mean over the window, grey levels^2 / px^2
+constexpr int strip_px = 8;
+constexpr int block_px = 24;
+constexpr double goes_on = 0.15;     // of the window's mean squared gradient: beside it the same thing goes on
+constexpr double widest = 1.75;      // times the window
+constexpr int least_room_px = 24;    // to the picture's border, for what is to come
+constexpr int surroundings_px = 12;  // an outline is drawn by what is on both of its sides
 
 // Sum over windows of this size, at the window's first pixel.
 cv::Mat window_means(const cv::Mat& values, int size) {
   cv::Mat out;
   cv::boxFilter(values, out, CV_32F, {size, size}, {0, 0}, true, cv::BORDER_CONSTANT);
   return out(cv::Rect(0, 0, values.cols - size + 1, values.rows - size + 1));
+}
+
+bool shows_more(const cv::Mat& energy, const cv::Rect& strip, double limit) {
+  const bool lies = strip.width > strip.height;
+  const int length = std::max(strip.width, strip.height);
+  for (int at = 0; at < length; at += block_px) {
+    const int size = std::min(block_px, length - at);
+    const cv::Rect block =
+        lies ? cv::Rect(strip.x + at, strip.y, size, strip.height) : cv::Rect(strip.x, strip.y + at, strip.width, size);
+    if (cv::mean(energy(block))[0] > limit) return true;
+  }
+  return false;
+}
+
+// The window as it is, or all of the single thing that it shows in part, with a little of what is around it.
+cv::Rect all_of_thing(const cv::Mat& energy, const cv::Rect& window) {
+  const cv::Rect picture(0, 0, energy.cols, energy.rows);
+  const cv::Rect usable(least_room_px, least_room_px, energy.cols - 2 * least_room_px, energy.rows - 2 * least_room_px);
+  const double limit = std::max(goes_on * cv::mean(energy(window))[0], least_eigenvalue);
+  const auto grown = [](const cv::Rect& r, int left, int top, int right, int bottom) {
+    return cv::Rect(r.x - left, r.y - top, r.width + left + right, r.height + top + bottom);
+  };
+  cv::Rect out = window;
+  for (bool more = true; more;) {
+    more = false;
+    const std::array<cv::Rect, 4> strips{cv::Rect(out.x - strip_px, out.y, strip_px, out.height),
+                                         cv::Rect(out.x, out.y - strip_px, out.width, strip_px),
+                                         cv::Rect(out.x + out.width, out.y, strip_px, out.height),
+                                         cv::Rect(out.x, out.y + out.height, out.width, strip_px)};
+    std::array<int, 4> by{};
+    for (std::size_t side = 0; side < strips.size(); ++side) {
+      if ((strips[side] & picture) != strips[side] || !shows_more(energy, strips[side], limit)) continue;
+      if ((strips[side] & usable) != strips[side]) return window;  // it leaves the picture
+      by[side] = strip_px;
+      more = true;
+    }
+    out = grown(out, by[0], by[1], by[2], by[3]);
+    if (std::max(out.width, out.height) > widest * window.width) return window;  // it is everywhere
+  }
+  const int m = surroundings_px;
+  return grown(out, m, m, m, m) & picture;
 }
 
 }  // namespace
@@ -45,7 +94,8 @@ Result<Region> find_textured_region(const GrayImage& image, const std::string& n
   cv::Point best;
   cv::minMaxLoc(score, nullptr, nullptr, nullptr, &best);
   if (smaller.at<float>(best) < least_eigenvalue) return fail(ErrorCode::template_without_texture, {{"file", name}});
-  return Region{best.x, best.y, size, size};
+  const cv::Rect found = all_of_thing(gx.mul(gx) + gy.mul(gy), {best.x, best.y, size, size});
+  return Region{found.x, found.y, found.width, found.height};
 }
 
 }  // namespace zerodrift::vision

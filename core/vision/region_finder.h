@@ -1,6 +1,7 @@
 #pragma once
 // Finds where the target is in a template when nobody said: the square window whose gradients point into all directions
-// most strongly (largest smaller eigenvalue of the structure tensor, as in Shi and Tomasi, CVPR 1994).
+// most strongly (largest smaller eigenvalue of the structure tensor, as in Shi and Tomasi, CVPR 1994), and where that
+// shows a single thing, all of it with a little of what is around.
 
 #include <string>
 

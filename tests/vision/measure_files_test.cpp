@@ -274,6 +274,21 @@ TEST(RegionFinder, FindsThePatternAndSaysWhenThereIsNone) {
   EXPECT_EQ(find_textured_region(flat, "t.png").error().code, ErrorCode::template_without_texture);
 }
 
+// Of what is larger than the window all is found, with what its outline stands before; what is everywhere has no end.
+TEST(RegionFinder, FindsAllOfASingleThing) {
+  const auto found = find_textured_region(render(Speckle(3, 330.0, 236.0, 200.0)), "t.png");
+  ASSERT_TRUE(found);
+  EXPECT_LE(found->x, 230 - 4);
+  EXPECT_LE(found->y, 136 - 4);
+  EXPECT_GE(found->x + found->width, 430 + 4);
+  EXPECT_GE(found->y + found->height, 336 + 4);
+  EXPECT_LE(std::max(found->width, found->height), 200 + 60);
+  const auto everywhere = find_textured_region(render(Speckle(4, 320.0, 240.0, 700.0)), "t.png");
+  ASSERT_TRUE(everywhere);
+  EXPECT_EQ(everywhere->width, 160);
+  EXPECT_EQ(everywhere->height, 160);
+}
+
 TEST(Reference, TheCamerasOwnMotionIsTakenOff) {
   // Target in the middle, a fixed mark on each side; the camera moves, the target moves as well.
   const auto scene = [](double target_dx, double camera_dx, double camera_dy, unsigned seed) {
