@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 368> models = {{
+constexpr std::array<const char*, 374> models = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -107,7 +107,9 @@ constexpr std::array<const char*, 368> models = {{
                       "Bearings are simulated too cold in the first hours only, whatever the temperature is later"),
     QT_TRANSLATE_NOOP("core",
                       "Bearings are simulated too cold at first and too hot later; friction falls as the oil warms"),
-    QT_TRANSLATE_NOOP("core", "One displacement jumps between two samples and stays there; no temperature moves"),
+    QT_TRANSLATE_NOOP("core",
+                      "One displacement jumps between two samples and stays there; no temperature moves. A gauge that "
+                      "was set to zero again and a probe that was touched look the same"),
     QT_TRANSLATE_NOOP("core", "A surface starts fast and then goes on slowly, on the way up and on the way down"),
     QT_TRANSLATE_NOOP("core", "Temperatures saw with a period of their own that no logged input has"),
     QT_TRANSLATE_NOOP(
@@ -120,7 +122,9 @@ constexpr std::array<const char*, 368> models = {{
     QT_TRANSLATE_NOOP("core",
                       "The simulation is too hot from the moment the coolant runs; the error steps with coolant_on"),
     QT_TRANSLATE_NOOP("core", "The nose is simulated too cold while the machine cuts"),
-    QT_TRANSLATE_NOOP("core", "All surfaces cool together during one stretch of time that no logged input explains"),
+    QT_TRANSLATE_NOOP("core",
+                      "All surfaces cool together during one stretch of time that no logged input explains. Coolant or "
+                      "compressed air that is not logged looks the same"),
     QT_TRANSLATE_NOOP("core", "One place is simulated too cold; the error is largest there and spreads both ways"),
     QT_TRANSLATE_NOOP("core", "The heated end starts late and goes on warming after the heater is off"),
     QT_TRANSLATE_NOOP("core", "A part without a source of its own warms after its neighbour does"),
@@ -129,7 +133,9 @@ constexpr std::array<const char*, 368> models = {{
                       "tolerance of the film hides it"),
     QT_TRANSLATE_NOOP("core",
                       "All temperatures tend to another level than the logged room, also while the machine stands"),
-    QT_TRANSLATE_NOOP("core", "One channel is off in proportion to its rise, in step with it"),
+    QT_TRANSLATE_NOOP("core",
+                      "One channel is off in proportion to its rise, in step with it. A sensor that touches its part "
+                      "badly looks the same"),
     QT_TRANSLATE_NOOP("core", "One channel is late in every transient and right when the temperature stands"),
     QT_TRANSLATE_NOOP("core", "One channel differs by a constant from the first sample on"),
     QT_TRANSLATE_NOOP("core", "The simulation is too hot while the spindle turns and right while it stands"),
@@ -400,7 +406,8 @@ constexpr std::array<const char*, 368> models = {{
     QT_TRANSLATE_NOOP("core", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."),
     QT_TRANSLATE_NOOP(
         "core",
-        "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."),
+        "This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
+        "shown here."),
     QT_TRANSLATE_NOOP("core",
                       "No effect of the library is missing, but the simulation agrees with the recording only with "
                       "numbers far from those described."),
@@ -479,6 +486,23 @@ constexpr std::array<const char*, 368> models = {{
     QT_TRANSLATE_NOOP("core",
                       "With its sign turned, {channel} is as described: check which way it counts as positive."),
     QT_TRANSLATE_NOOP("core", "To see whether there is {@rival}, {minutes} min in all: {@run}."),
+    QT_TRANSLATE_NOOP("core",
+                      "Something is missing that the library does not explain: worst at {channel}, {@regime}, where "
+                      "about {watts} W too much heat is simulated."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "
+        "from so few; three or more, spread over its length, show places."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "The description states a smaller tolerance for {+quantities} than anybody can know such a number to: {values} "
+        "was taken instead."),
+    QT_TRANSLATE_NOOP("core", "the conductance of joints"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Recording {recording}: {channel} never changes (it is always {value}) although {um} µm are simulated: is the "
+        "gauge connected? It was not used."),
+    QT_TRANSLATE_NOOP("core", "%1 of %2 samples left out"),
 }};
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/analysis/checked.h"
 #include "core/diagnosis/clock_jumps.h"
 #include "core/diagnosis/explain.h"
+#include "core/diagnosis/left_out.h"
 #include "core/diagnosis/long_gaps.h"
 #include "core/diagnosis/plausible.h"
 #include "core/physics/simulate.h"
@@ -65,6 +66,21 @@ void leave_out_what_lacks_inputs(CheckedRuns& runs) {
   }
 }
 
+void leave_out_still_gauges(const physics::Machine& machine, recording::Recording& recording, CheckedRuns& runs,
+                            std::vector<RunFinding>& findings) {
+  for (const StillGauge& gauge : take_out_still_gauges(machine, recording)) {
+    const std::string value = fmt::format("{:.4g}", gauge.always_um);
+    runs.warnings.push_back(fmt::format("never_changes:{}:{}", recording.name, gauge.channel));
+    runs.told.push_back(explain_note("run_gauge_never_changes", {{"recording", recording.name},
+                                                                 {"channel", gauge.channel},
+                                                                 {"value", value},
+                                                                 {"um", fmt::format("{:.0f}", gauge.simulated_um)}}));
+    findings.push_back({recording.name,
+                        {analysis::FindingKind::error_never_moves, analysis::FindingAction::dropped, gauge.channel,
+                         "always " + value}});
+  }
+}
+
 /// What was measured and the description knows nothing of: often a name spelt otherwise.
 std::string unknown_columns(const physics::Machine& machine, const std::set<std::string>& boundaries,
                             const recording::Recording& one) {
@@ -87,6 +103,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
   CheckedRuns out;
   ZD_CHECK(analysis::check_distinct(given));
   const std::set<std::string> boundaries = physics::measured_boundaries(machine);
+  std::vector<RunFinding> still;  // told already
   for (const auto& one : given) {
     analysis::Checked sound = analysis::checked(one, boundaries);
     for (const auto& finding : sound.findings) {
@@ -136,9 +153,13 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
                                                        {"by", fmt::format("{:.3g}", jump.by_s / 60.0)},
                                                        {"at", fmt::format("{:.0f}", jump.at_s / 60.0)}}));
     }
+    leave_out_still_gauges(machine, sound.recording, out, still);
+    for (auto& spikes : spikes_left_out(machine, sound.recording))
+      out.findings.push_back({one.name, std::move(spikes)});
     out.recordings.push_back(std::move(sound.recording));
   }
   tell_findings(out);
+  out.findings.insert(out.findings.end(), still.begin(), still.end());
   leave_out_what_lacks_inputs(out);
   return out;
 }

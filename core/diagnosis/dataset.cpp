@@ -17,6 +17,10 @@ double range_of(const MeasuredChannel& channel) {
   return sorted[sorted.size() * 98 / 100] - sorted[sorted.size() * 2 / 100];
 }
 
+double white_noise(const std::vector<double>& values, bool temperature) {
+  return physics::noise_width(values, temperature ? 0.01 : 0.05);
+}
+
 MeasuredChannel make_channel(const recording::Channel* source, const physics::Observation& seen, std::size_t rows) {
   MeasuredChannel channel;
   channel.name = seen.channel;
@@ -25,8 +29,8 @@ MeasuredChannel make_channel(const recording::Channel* source, const physics::Ob
   channel.present.assign(rows, false);
   channel.timing.assign(rows, 0.0);
   if (source == nullptr) return channel;
-  channel.white = physics::noise_width(source->values, seen.temperature ? 0.01 : 0.05);
-  const std::vector<bool> spike = physics::spikes(source->values, channel.white);
+  channel.white = white_noise(source->values, seen.temperature);
+  const std::vector<bool> spike = spikes_of(source->values, seen.temperature);
   for (std::size_t k = 0; k < rows; ++k) {
     if (!std::isfinite(source->values[k]) || spike[k]) continue;
     channel.values[k] = source->values[k];
@@ -73,6 +77,10 @@ void Dataset::prepare() {
   for (auto& channel : channels) {
     if (channel.samples > 0) set_gains(channel, time_s);
   }
+}
+
+std::vector<bool> spikes_of(const std::vector<double>& values, bool temperature) {
+  return physics::spikes(values, white_noise(values, temperature));
 }
 
 double ordinary_drift(bool temperature, double range) {

@@ -56,6 +56,8 @@ struct Dataset {
 /// The most that a good description leaves, K or um, of a movement over this range; how much a description leaves, the
 /// evidence says (ordinary_discrepancy).
 double ordinary_drift(bool temperature, double range);
+/// Samples that no fit looks at.
+std::vector<bool> spikes_of(const std::vector<double>& values, bool temperature);
 Dataset make_dataset(const recording::Recording& recording, const physics::Network& network);
 /// The same with the slow drift of every channel times a factor.
 Dataset with_drift(Dataset data, double factor);

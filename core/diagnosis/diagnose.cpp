@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -265,7 +266,12 @@ void Diagnoser::decide() {
   }
   if (!m_misplaced) m_misplaced = a_little_misplaced(*m_selection.base, *m_selection.best, m_default_data);
   if (!m_misplaced && correct_description()) judge();
-  if (m_misplaced || (!m_selection.effects().empty() && is_doubtful(m_far))) {
+  const auto beyond_belief = [this] {
+    return is_beyond_belief(m_far) || (m_corrected && is_beyond_belief({*m_corrected}));
+  };
+  const bool unbelievable =
+      m_selection.effects().empty() ? m_out.verdict == Verdict::consistent && beyond_belief() : is_doubtful(m_far);
+  if (m_misplaced || unbelievable) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;
     m_used = m_selection.base;
@@ -440,6 +446,10 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
                                    : Diagnoser(machine, runs.recordings, options, context).run();
   if (result && !apart) result = settled(std::move(*result), machine, runs.recordings, options, context);
   if (!result) return result;
+  if (const auto& raised = machine.tolerances.raised; !raised.empty()) {
+    result->notes.push_back(fmt::format("tolerances_raised:{}", fmt::join(raised, ",")));
+    result->sentences.push_back(explain_raised(machine.tolerances));
+  }
   result->sentences.insert(result->sentences.end(), runs.told.begin(), runs.told.end());
   result->notes.insert(result->notes.end(), runs.warnings.begin(), runs.warnings.end());
   result->findings = runs.findings;

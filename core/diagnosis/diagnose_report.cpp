@@ -321,7 +321,24 @@ bool Diagnoser::nothing_drives() const {
   return physics::nothing_drives(m_selection.base->inputs()) && !physics::starts_warm(m_machine, recording());
 }
 
+/// Two sensors fit whatever heats between them and around them.
+void Diagnoser::few_sensors() {
+  constexpr std::ptrdiff_t few = 2;
+  for (const auto& component : m_machine.components) {
+    if (component.lump) continue;
+    const auto used = std::count_if(
+        m_default_data->channels.begin(), m_default_data->channels.end(), [&](const MeasuredChannel& channel) {
+          const physics::Sensor* sensor = m_machine.sensor(channel.name);
+          return channel.samples > 0 && channel.temperature && sensor != nullptr && sensor->component == component.id;
+        });
+    if (used > few) continue;
+    m_out.notes.push_back(fmt::format("few_sensors:{}:{}", component.id, used));
+    m_out.sentences.push_back(explain_note("few_sensors", {{"part", component.id}, {"count", std::to_string(used)}}));
+  }
+}
+
 void Diagnoser::notes() {
+  few_sensors();
   if (std::count(m_out.notes.begin(), m_out.notes.end(), "room_not_logged") != 0) {
     m_out.sentences.push_back(explain_note("room_not_logged", {{"column", m_machine.room.channel}}));
   }

@@ -72,6 +72,7 @@ class Diagnoser {
   void cannot_show();
   void never_driven();
   void coarse_rows();
+  void few_sensors();
   double seconds_between_rows() const;
   bool nothing_drives() const;
   std::vector<Sentence> far_parameters();

@@ -127,7 +127,7 @@ struct Diagnosis {
   std::vector<double> sizes;       // of the same: first amplitude, in its own unit
   double unusual_start = 0.0;      // the largest start that one of them needs, over how far it usually is off
   bool refuted = false;            // unexplained because it makes a held-out recording worse
-  bool doubtful = false;  // unexplained because it bends the description beyond what units and sizes can be off
+  bool doubtful = false;           // unexplained because the description is bent beyond what units and sizes can be off
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;
   std::vector<ChannelReport> channels;
@@ -167,6 +167,9 @@ struct DiagnoseOptions {
 /// "settles_by_itself:CHANNEL": a displacement moves by itself and slows down, and nothing shows that it follows the
 /// room. Note "no_excitation": nothing moves, or nothing drives the machine. Note "never_driven:ID,ID": what drives
 /// them never acted. Note "coarse_rows": switching times are hardly known.
+/// Note "never_changes:RECORDING:CHANNEL": a displacement that repeats one value while the machine moves; it is not
+/// used. Note "few_sensors:COMPONENT:COUNT": so few see where along it something happens. Note
+/// "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be known.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

@@ -292,7 +292,11 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
       }
       s.facts["um"] = fmt::format("{:.2g}", missed_um);
     }
-    if (s.facts.count("um") == 0) s.facts["watts"] = fmt::format("{:.0f}", std::abs(diagnosis.mismatch.missing_heat_W));
+    if (s.facts.count("um") == 0) {
+      const double missing_W = diagnosis.mismatch.missing_heat_W;
+      if (missing_W <= -0.5) s.id += "_too_hot";
+      s.facts["watts"] = fmt::format("{:.0f}", std::abs(missing_W));
+    }
   }
   if (diagnosis.verdict == Verdict::missing_effect) {
     std::string list;
@@ -304,6 +308,28 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
 
 Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts) {
   return finished({id, std::move(facts), ""});
+}
+
+Sentence explain_raised(const physics::Tolerances& taken) {
+  struct Quantity {
+    std::string_view key;
+    std::string_view id;
+    double value;
+  };
+  const Quantity all[] = {{"conductivity", "quantity_conductivity", taken.conductivity},
+                          {"heat_capacity", "quantity_capacity", taken.heat_capacity},
+                          {"heat_source_power", "quantity_heat", taken.heat_source_power},
+                          {"film", "quantity_film", taken.film},
+                          {"expansion", "quantity_expansion", taken.expansion},
+                          {"conductance", "quantity_conductance", taken.conductance}};
+  std::string ids, values;
+  for (const Quantity& one : all) {
+    if (std::count(taken.raised.begin(), taken.raised.end(), one.key) == 0) continue;
+    if (!ids.empty()) ids += ",", values += ", ";
+    ids += one.id;
+    values += fmt::format("{:g}", one.value);
+  }
+  return finished({"tolerances_raised", {{"quantities", ids}, {"values", values}}, ""});
 }
 
 Sentence explain_unseen(const std::vector<std::string>& effects) {

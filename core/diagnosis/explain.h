@@ -28,6 +28,8 @@ std::map<std::string, double> speeds_of_figures(const std::map<std::string, doub
                                                 const std::map<std::string, std::string>& words, double full_rpm);
 /// A sentence of the catalogue with its facts.
 Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts = {});
+/// Which tolerances were too small to be believed, and what was taken instead.
+Sentence explain_raised(const physics::Tolerances& taken);
 /// Of effects that this recording would have shown only at an impossible size.
 Sentence explain_unseen(const std::vector<std::string>& effects);
 /// `run` in English words: "half speed without coolant"; how long it takes in all.

@@ -35,13 +35,6 @@ Movement movement(const MeasuredChannel& channel, const std::vector<double>& sim
   return {spread(std::move(measured)), spread(std::move(predicted))};
 }
 
-bool has_unknown_heat(const physics::Machine& machine) {
-  return std::any_of(machine.components.begin(), machine.components.end(), [](const auto& component) {
-    return std::any_of(component.sources.begin(), component.sources.end(),
-                       [](const auto& source) { return source.power_unknown; });
-  });
-}
-
 /// Of all temperatures' movement, rms, what the rise of the machine as described, times one number, does not follow:
 /// its shape, not its size.
 double shape_missed(const physics::Machine& machine, const recording::Recording& recording) {
@@ -85,6 +78,13 @@ std::string quantity_of(const std::string& key) {
 
 }  // namespace
 
+bool has_unknown_heat(const physics::Machine& machine) {
+  return std::any_of(machine.components.begin(), machine.components.end(), [](const auto& component) {
+    return std::any_of(component.sources.begin(), component.sources.end(),
+                       [](const auto& source) { return source.power_unknown; });
+  });
+}
+
 std::vector<FarParameter> far_from_description(const Model& model) {
   constexpr double far = 4.0;
   std::vector<FarParameter> list;
@@ -108,6 +108,14 @@ bool is_doubtful(const std::vector<FarParameter>& far) {
   constexpr double doubtful = 2.0;
   return std::any_of(far.begin(), far.end(),
                      [](const FarParameter& one) { return one.factor > doubtful || one.factor < 1.0 / doubtful; });
+}
+
+bool is_beyond_belief(const std::vector<FarParameter>& far) {
+  constexpr double factor = 1.5;  // with so many tolerances
+  constexpr double widths = 8.0;
+  return is_doubtful(far) || std::any_of(far.begin(), far.end(), [](const FarParameter& one) {
+           return one.widths > widths && (one.factor > factor || one.factor < 1.0 / factor);
+         });
 }
 
 bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nominal) {

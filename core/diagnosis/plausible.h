@@ -37,6 +37,11 @@ std::vector<FarParameter> far_from_description(const Model& model);
 /// Moved by so much that a unit or a size must be wrong, and what is named beside it stands for that.
 bool is_doubtful(const std::vector<FarParameter>& far);
 
+/// So far that nobody could have meant the description: it is of another machine, material or unit.
+bool is_beyond_belief(const std::vector<FarParameter>& far);
+/// Does any source only have a shape?
+bool has_unknown_heat(const physics::Machine& machine);
+
 /// Does the measured displacement follow the described one with the sign turned?
 bool is_mirrored(const MeasuredChannel& channel, const std::vector<double>& nominal);
 

@@ -17,6 +17,10 @@ constexpr std::array catalogue{
           "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise."},
     Entry{"verdict_unexplained",
           "Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W."},
+    Entry{
+        "verdict_unexplained_too_hot",
+        "Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W "
+        "too much heat is simulated."},
     Entry{"verdict_unexplained_length",
           "Something is missing that the library does not explain: {channel} is off the best "
           "simulation by {um} µm (rms), {@regime}."},
@@ -43,7 +47,8 @@ constexpr std::array catalogue{
     Entry{"rival_hidden", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."},
     Entry{
         "cannot_show",
-        "This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown."},
+        "This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
+        "shown here."},
     Entry{"coarse_rows",
           "The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a "
           "row "
@@ -83,6 +88,13 @@ constexpr std::array catalogue{
     Entry{"starts_cold",
           "The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be "
           "fitted as well. Start after a rest of some hours to be surer."},
+    Entry{"few_sensors",
+          "Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "
+          "from so few; three or more, spread over its length, show places."},
+    Entry{
+        "tolerances_raised",
+        "The description states a smaller tolerance for {+quantities} than anybody can know such a number to: {values} "
+        "was taken instead."},
     Entry{"held_out_differs",
           "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
           "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "
@@ -95,6 +107,7 @@ constexpr std::array catalogue{
     Entry{"quantity_capacity", "the heat capacity"},
     Entry{"quantity_expansion", "the expansion"},
     Entry{"quantity_film", "the film to the room"},
+    Entry{"quantity_conductance", "the conductance of joints"},
     Entry{"verdict_unexplained_doubtful",
           "Nothing can be named: the simulation follows the recording only with numbers far from those described. "
           "Check the units of the recording and the sizes and powers of the description first."},
@@ -112,6 +125,10 @@ constexpr std::array catalogue{
           "Recording {recording}: the machine description does not name {columns}, which was not used."},
     Entry{"run_left_out", "Recording {@what}."},
     Entry{"run_finding", "Recording {recording}: {@what}."},
+    Entry{
+        "run_gauge_never_changes",
+        "Recording {recording}: {channel} never changes (it is always {value}) although {um} µm are simulated: is the "
+        "gauge connected? It was not used."},
     Entry{"run_fahrenheit", "Recording {recording}: the temperatures look like degrees Fahrenheit and were converted."},
     Entry{"run_kelvin", "Recording {recording}: the temperatures look like kelvin and were converted."},
     Entry{"no_excitation", "Nothing drives the machine in this recording: little can be learned from it."},

@@ -160,6 +160,7 @@ struct Tolerances {
   double film = 0.15;
   double expansion = 0.04;
   double conductance = 0.3;
+  std::vector<std::string> raised;  // those that the description has smaller than anybody can know them
 };
 
 struct Machine {

@@ -296,12 +296,20 @@ void read_tolerances(JsonObject& root, Machine& machine) {
   JsonObject* o = root.object_if("tolerances");
   if (o == nullptr) return;
   Tolerances& t = machine.tolerances;
-  t.conductivity = o->number_or("conductivity", t.conductivity, tolerance_range);
-  t.heat_capacity = o->number_or("heat_capacity", t.heat_capacity, tolerance_range);
-  t.heat_source_power = o->number_or("heat_source_power", t.heat_source_power, tolerance_range);
-  t.film = o->number_or("film", t.film, tolerance_range);
-  t.expansion = o->number_or("expansion", t.expansion, tolerance_range);
-  t.conductance = o->number_or("conductance", t.conductance, tolerance_range);
+  const auto read = [&](const char* key, double& tolerance, double least) {
+    tolerance = o->number_or(key, tolerance, tolerance_range);
+    if (tolerance >= least) return;
+    tolerance = least;
+    t.raised.emplace_back(key);
+  };
+  // What good laboratories reach for the material and for heat that is put in electrically; the film and the contacts
+  // of a machine nobody knows so well. Numbers taken for exact would leave all that they miss to some effect.
+  read("conductivity", t.conductivity, 0.01);
+  read("heat_capacity", t.heat_capacity, 0.01);
+  read("heat_source_power", t.heat_source_power, 0.02);
+  read("film", t.film, 0.05);
+  read("expansion", t.expansion, 0.01);
+  read("conductance", t.conductance, 0.05);
 }
 
 void read_surroundings(JsonObject& root, Machine& machine) {

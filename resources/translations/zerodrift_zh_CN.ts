@@ -2402,8 +2402,8 @@
         <translation>轴承的仿真温度先偏低、后偏高；润滑油变热后摩擦减小</translation>
     </message>
     <message>
-        <source>One displacement jumps between two samples and stays there; no temperature moves</source>
-        <translation>某一位移在两次采样之间发生跳变并保持；没有温度随之变化</translation>
+        <source>One displacement jumps between two samples and stays there; no temperature moves. A gauge that was set to zero again and a probe that was touched look the same</source>
+        <translation>某一位移在两次采样之间发生跳变并保持；没有温度随之变化。测头重新置零或被碰动，看起来也是如此</translation>
     </message>
     <message>
         <source>A surface starts fast and then goes on slowly, on the way up and on the way down</source>
@@ -2434,8 +2434,8 @@
         <translation>切削时主轴端部的仿真温度偏低</translation>
     </message>
     <message>
-        <source>All surfaces cool together during one stretch of time that no logged input explains</source>
-        <translation>所有表面在某一段时间内同时变冷，任何已记录的输入都无法解释</translation>
+        <source>All surfaces cool together during one stretch of time that no logged input explains. Coolant or compressed air that is not logged looks the same</source>
+        <translation>所有表面在某一段时间内同时变冷，任何已记录的输入都无法解释。未记录的冷却液或压缩空气看起来也是如此</translation>
     </message>
     <message>
         <source>One place is simulated too cold; the error is largest there and spreads both ways</source>
@@ -2458,8 +2458,8 @@
         <translation>所有温度都趋向与所记录室温不同的水平，机床静止时也如此</translation>
     </message>
     <message>
-        <source>One channel is off in proportion to its rise, in step with it</source>
-        <translation>某一通道的偏差与其温升成正比且同步</translation>
+        <source>One channel is off in proportion to its rise, in step with it. A sensor that touches its part badly looks the same</source>
+        <translation>某一通道的偏差与其温升成正比且同步。传感器与部件接触不良看起来也是如此</translation>
     </message>
     <message>
         <source>One channel is late in every transient and right when the temperature stands</source>
@@ -3454,8 +3454,8 @@
         <translation>本次单一转速的运行几乎无法显示{@where}{@name}，不能排除。</translation>
     </message>
     <message>
-        <source>This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown.</source>
-        <translation>本次记录无法判断是否存在{+effects}：只有超出可能范围的大小才会显示出来。</translation>
+        <source>This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have shown here.</source>
+        <translation>本次记录无法判断是否存在{+effects}：即使它达到可能的最大强度，在本次记录中也不会显现。</translation>
     </message>
     <message>
         <source>No effect of the library is missing, but the simulation agrees with the recording only with numbers far from those described.</source>
@@ -3584,6 +3584,30 @@
     <message>
         <source>To see whether there is {@rival}, {minutes} min in all: {@run}.</source>
         <translation>为判断是否存在{@rival}（共 {minutes} min）：{@run}。</translation>
+    </message>
+    <message>
+        <source>Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W too much heat is simulated.</source>
+        <translation>存在效应库无法解释的缺失：{channel} 处最严重，{@regime}，仿真的热量约多出 {watts} W。</translation>
+    </message>
+    <message>
+        <source>Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told from so few; three or more, spread over its length, show places.</source>
+        <translation>{part} 上所用的温度传感器数量：{count}。数量太少，难以判断现象发生在其何处；沿其长度布置三个或更多传感器才能显示位置。</translation>
+    </message>
+    <message>
+        <source>The description states a smaller tolerance for {+quantities} than anybody can know such a number to: {values} was taken instead.</source>
+        <translation>描述中{+quantities}的容差小于任何人所能确知的程度：已改用 {values}。</translation>
+    </message>
+    <message>
+        <source>the conductance of joints</source>
+        <translation>接合处的热导</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: {channel} never changes (it is always {value}) although {um} µm are simulated: is the gauge connected? It was not used.</source>
+        <translation>记录 {recording}：{channel} 始终不变（始终为 {value}），而仿真值变化了 {um} µm：测头是否已连接？未予使用。</translation>
+    </message>
+    <message>
+        <source>%1 of %2 samples left out</source>
+        <translation>%2 个采样中已剔除 %1 个</translation>
     </message>
     <message>
         <source>the offset is moved by %1 um; the run does not show that the temperature terms are wrong, so they stay</source>

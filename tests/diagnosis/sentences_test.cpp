@@ -63,6 +63,25 @@ TEST(Sentences, AFigureThatGrowsWithTheSpeedSaysAtWhich) {
   EXPECT_TRUE(speeds_of_figures(effect.parameters, effect.words, 8000.0).empty());
 }
 
+TEST(Sentences, HeatThatIsTooMuchIsToldAsSuch) {
+  Diagnosis answer;
+  answer.verdict = Verdict::unexplained;
+  answer.mismatch.channels = {"T1_C"};
+  answer.mismatch.missing_heat_W = -60.0;
+  EXPECT_NE(explain_verdict(answer).english.find("about 60 W too much heat is simulated"), std::string::npos);
+  answer.mismatch.missing_heat_W = 60.0;
+  EXPECT_EQ(explain_verdict(answer).english.find("too much"), std::string::npos);
+}
+
+TEST(Sentences, ASlipIsSaidToLookLikeAGaugeSetToZero) {
+  FoundEffect slip;
+  slip.id = "bracket_slip";
+  slip.channel = "dZ_um";
+  slip.parameters = {{"step_um", -64.0}, {"time_s", 9300.0}};
+  EXPECT_NE(explain_effect(slip, 18000.0, 20.0, 0.2, "dZ_um").english.find("A gauge that was set to zero again"),
+            std::string::npos);
+}
+
 TEST(Sentences, WhatHappenedOnceIsToldWithItsMoment) {
   FoundEffect slip;
   slip.id = "bracket_slip";

@@ -422,4 +422,70 @@ TEST(WrongSetUp, AColumnSpeltOtherwiseIsNamedAndATakenOutOneIsNotCalledMissing) 
   EXPECT_EQ(answer->findings.size(), 1U);
 }
 
+TEST(WrongSetUp, NumbersTakenForExactAreGivenAToleranceAndNothingIsInvented) {
+  proof::Case one = proof::make_case(330, "none");
+  for (const char* key : {"conductivity", "heat_capacity", "heat_source_power", "film", "expansion", "conductance"}) {
+    one.machine["tolerances"][key] = 1e-6;
+  }
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(answer->effects.empty()) << answer->effects.front().id;
+  EXPECT_TRUE(notes(*answer, "tolerances_raised:conductivity,"));
+  EXPECT_TRUE(says(*answer, "tolerances_raised"));
+}
+
+TEST(WrongSetUp, AGaugeThatNeverChangesIsToldAndNotUsed) {
+  for (const double value : {0.0, 2.5}) {
+    proof::Case one = proof::make_case(331, "coolant");
+    for (auto& run : one.recordings) {
+      auto& seen_um = run.find("dZ_um")->values;
+      std::fill(seen_um.begin(), seen_um.end(), value);
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(notes(*answer, "never_changes:" + one.recordings[0].name + ":dZ_um"));
+    EXPECT_TRUE(says(*answer, "run_gauge_never_changes"));
+    ASSERT_EQ(answer->effects.size(), 1U);
+    EXPECT_EQ(answer->effects[0].id, "coolant");
+    for (const auto& channel : answer->channels) EXPECT_NE(channel.channel, "dZ_um");
+  }
+}
+
+TEST(WrongSetUp, ADescriptionBentBeyondBeliefIsNotConsistent) {
+  for (const auto& [key, factor] : {std::pair{"expansion_1_K", 3.0}, std::pair{"conductivity_W_mK", 3.0}}) {
+    proof::Case one = proof::make_case(332, "none");
+    auto& number = one.machine["components"][0]["material"][key];
+    number = number.get<double>() * factor;
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_NE(answer->verdict, Verdict::consistent) << key;
+    for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << key << found.id;
+  }
+}
+
+TEST(WrongSetUp, SpikesAreCountedAndTwoSensorsAreSaidToBeFew) {
+  proof::Case one = proof::make_case(333, "none");
+  one.recordings.resize(1);
+  auto& sensors = one.machine["sensors"];
+  for (std::size_t i = sensors.size(); i-- > 0;) {
+    const std::string channel = sensors[i]["channel"];
+    if (channel != "T1_C" && channel != "T3_C" && channel != "ambient_C") sensors.erase(i);
+  }
+  std::vector<double>& seen_C = one.recordings[0].find("T1_C")->values;
+  for (std::size_t k = 1; k <= 7; ++k) seen_C[k * seen_C.size() / 8] += 25.0;
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::consistent);
+  EXPECT_TRUE(notes(*answer, "few_sensors:" + one.machine["components"][0]["id"].get<std::string>() + ":2"));
+  EXPECT_TRUE(says(*answer, "few_sensors"));
+  const auto spikes = std::find_if(answer->findings.begin(), answer->findings.end(), [](const RunFinding& found) {
+    return found.finding.kind == analysis::FindingKind::spikes;
+  });
+  ASSERT_NE(spikes, answer->findings.end());
+  EXPECT_EQ(spikes->finding.channel, "T1_C");
+  // A sample beside one of them may go with it.
+  EXPECT_GE(std::stoi(spikes->finding.detail), 7);
+  EXPECT_LE(std::stoi(spikes->finding.detail), 8);
+}
+
 }  // namespace zerodrift::diagnosis

@@ -25,6 +25,18 @@ TEST(MachineReader, ReadsTheContractsExample) {
   EXPECT_DOUBLE_EQ(m.rated_speed_rpm(), 8000.0);
 }
 
+TEST(MachineReader, TolerancesSmallerThanAnybodyKnowsAreRaised) {
+  json document = spindle_json();
+  document["tolerances"] = {{"conductivity", 1e-6}, {"film", 0.15}, {"heat_source_power", 1e-6}};
+  const auto machine = machine_from_json(document, "m.json");
+  ASSERT_TRUE(machine.has_value());
+  EXPECT_DOUBLE_EQ(machine->tolerances.conductivity, 0.01);
+  EXPECT_DOUBLE_EQ(machine->tolerances.heat_source_power, 0.02);
+  EXPECT_DOUBLE_EQ(machine->tolerances.film, 0.15);
+  EXPECT_EQ(machine->tolerances.raised, (std::vector<std::string>{"conductivity", "heat_source_power"}));
+  EXPECT_TRUE(test::spindle().tolerances.raised.empty());
+}
+
 TEST(MachineReader, NamesFileKeyAndExpectation) {
   json document = spindle_json();
   document["components"][0].erase("length_mm");

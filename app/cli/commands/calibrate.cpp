@@ -30,7 +30,8 @@ std::string text_of(const vision::Calibration& c) {
                       c.um_from_px(1, 1), sigma(1, 1));
   text += fmt::format("{:.3f} um/px, {}turned by {:.2f} degrees, {} views, residual {:.2f} um rms", c.scale_um_per_px,
                       c.mirrored ? "mirrored and " : "", c.rotation_deg, c.views.size(), c.rms_um);
-  if (std::isfinite(c.leave_one_out_um)) text += fmt::format(", {:.2f} um left out", c.leave_one_out_um);
+  if (std::isfinite(c.leave_one_out_um))
+    text += fmt::format(", {:.2f} um where a view is told by the others", c.leave_one_out_um);
   return text;
 }
 

@@ -28,14 +28,16 @@ std::vector<EffectSpec> candidates(const Machine&, const RunFacts& facts) {
 }  // namespace bracket_slip
 
 extern const Effect bracket_slip_effect;
-const Effect bracket_slip_effect = {"bracket_slip",
-                                    "d += s for t >= t_s",
-                                    "clamped probe holders and loose joints: single steps of micrometres",
-                                    "One displacement jumps between two samples and stays there; no temperature moves",
-                                    "structure_driver",
-                                    {{"step_um", 5.0, -500.0, 500.0, true}},
-                                    {"step_um"},
-                                    bracket_slip::add,
-                                    bracket_slip::candidates};
+const Effect bracket_slip_effect = {
+    "bracket_slip",
+    "d += s for t >= t_s",
+    "clamped probe holders and loose joints: single steps of micrometres",
+    "One displacement jumps between two samples and stays there; no temperature moves. A gauge that was set to "
+    "zero again and a probe that was touched look the same",
+    "structure_driver",
+    {{"step_um", 5.0, -500.0, 500.0, true}},
+    {"step_um"},
+    bracket_slip::add,
+    bracket_slip::candidates};
 
 }  // namespace zerodrift::physics

@@ -88,7 +88,8 @@ extern const Effect draught_effect;
 const Effect draught_effect = {"draught",
                                "-h_d (1 + t (x / L - 1/2)) P (T - (T_room + dT)) for t in [t1, t2]",
                                "open door or gate: films of 5 to 40 W/(m2 K) more, air some kelvin colder",
-                               "All surfaces cool together during one stretch of time that no logged input explains",
+                               "All surfaces cool together during one stretch of time that no logged input explains. "
+                               "Coolant or compressed air that is not logged looks the same",
                                "room_sensor_fault coolant",
                                {{"h_W_m2K", 15.0, 0.0, 200.0, true},
                                 {"from_s", 1800.0, 0.0, 1e6},

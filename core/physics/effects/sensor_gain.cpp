@@ -19,7 +19,8 @@ extern const Effect sensor_gain_effect;
 const Effect sensor_gain_effect = {"sensor_gain",
                                    "y = T0 + (1 + g) (T - T0)",
                                    "wrong characteristic, poor contact: 2 to 30 %",
-                                   "One channel is off in proportion to its rise, in step with it",
+                                   "One channel is off in proportion to its rise, in step with it. A sensor that "
+                                   "touches its part badly looks the same",
                                    "contact_resistance sensor_lag",
                                    {{"gain_error", 0.08, -0.3, 0.3, true}},
                                    {"gain_error"},

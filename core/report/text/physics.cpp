@@ -48,8 +48,9 @@ std::vector<TextEntry> texts_of_physics() {
        "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {um} µm（均方根），{@regime}。"},
       {"This run at one speed would hardly show {@name}{@where}: it cannot be excluded.",
        "本次单一转速的运行几乎不会显示{@name}{@where}：不能排除。"},
-      {"This recording cannot tell whether there is {+effects}: only more of it than there can be would have shown.",
-       "本次记录无法判断是否存在{+effects}：只有超出可能范围的大小才会显示出来。"},
+      {"This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
+       "shown here.",
+       "本次记录无法判断是否存在{+effects}：即使它达到可能的最大强度，在本次记录中也不会显现。"},
       {"No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
        "those described.",
        "没有缺少效应库中的效应，但只有在参数与描述相差很大时，仿真才与记录一致。"},
@@ -113,6 +114,21 @@ std::vector<TextEntry> texts_of_physics() {
       {"Recording {recording}: the machine description does not name {columns}, which was not used.",
        "记录 {recording}：机床描述中没有 {columns}，未予使用。"},
       {"Recording {@what}.", "记录 {@what}。"},
+      {"Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W "
+       "too much heat is simulated.",
+       "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，仿真的热量约多出 {watts} W。"},
+      {"Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "
+       "from so few; three or more, spread over its length, show places.",
+       "{part} "
+       "上所用的温度传感器数量：{count}"
+       "。数量太少，难以判断现象发生在其何处；沿其长度布置三个或更多传感器才能显示位置。"},
+      {"The description states a smaller tolerance for {+quantities} than anybody can know such a number to: {values} "
+       "was taken instead.",
+       "描述中{+quantities}的容差小于任何人所能确知的程度：已改用 {values}。"},
+      {"the conductance of joints", "接合处的热导"},
+      {"Recording {recording}: {channel} never changes (it is always {value}) although {um} µm are simulated: is the "
+       "gauge connected? It was not used.",
+       "记录 {recording}：{channel} 始终不变（始终为 {value}），而仿真值变化了 {um} µm：测头是否已连接？未予使用。"},
       {"Recording {recording}: {@what}.", "记录 {recording}：{@what}。"},
       {"Recording {recording}: the temperatures look like degrees Fahrenheit and were converted.",
        "记录 {recording}：温度似为华氏度，已换算。"},
@@ -225,8 +241,9 @@ std::vector<TextEntry> texts_of_physics() {
        "轴承的仿真温度仅在最初几小时偏低，与其后的温度无关"},
       {"Bearings are simulated too cold at first and too hot later; friction falls as the oil warms",
        "轴承的仿真温度先偏低后偏高；摩擦随油温升高而减小"},
-      {"One displacement jumps between two samples and stays there; no temperature moves",
-       "某个位移在两次采样之间跳变并保持；温度没有变化"},
+      {"One displacement jumps between two samples and stays there; no temperature moves. A gauge that was set to zero "
+       "again and a probe that was touched look the same",
+       "某个位移在两次采样之间跳变并保持；温度没有变化。测头重新置零或被碰动，看起来也是如此"},
       {"A surface starts fast and then goes on slowly, on the way up and on the way down",
        "表面温度先快后慢，升温和降温时均如此"},
       {"Temperatures saw with a period of their own that no logged input has",
@@ -240,8 +257,9 @@ std::vector<TextEntry> texts_of_physics() {
       {"The simulation is too hot from the moment the coolant runs; the error steps with coolant_on",
        "从冷却液开启起仿真温度偏高；误差随冷却液开关而跳变"},
       {"The nose is simulated too cold while the machine cuts", "切削时主轴端的仿真温度偏低"},
-      {"All surfaces cool together during one stretch of time that no logged input explains",
-       "在某一时段所有表面同时变冷，记录的输入均不能解释"},
+      {"All surfaces cool together during one stretch of time that no logged input explains. Coolant or compressed air "
+       "that is not logged looks the same",
+       "在某一时段所有表面同时变冷，记录的输入均不能解释。未记录的冷却液或压缩空气看起来也是如此"},
       {"One place is simulated too cold; the error is largest there and spreads both ways",
        "某处仿真温度偏低；误差在该处最大并向两侧扩散"},
       {"The heated end starts late and goes on warming after the heater is off",
@@ -252,7 +270,9 @@ std::vector<TextEntry> texts_of_physics() {
        "与对流类似，但热区散热超出正比；温升低于 20 K 时会被换热系数的容差掩盖"},
       {"All temperatures tend to another level than the logged room, also while the machine stands",
        "所有温度都趋于与记录室温不同的水平，静止时也如此"},
-      {"One channel is off in proportion to its rise, in step with it", "某一通道的偏差与其温升成比例且同步"},
+      {"One channel is off in proportion to its rise, in step with it. A sensor that touches its part badly looks the "
+       "same",
+       "某一通道的偏差与其温升成比例且同步。传感器与部件接触不良看起来也是如此"},
       {"One channel is late in every transient and right when the temperature stands",
        "某一通道在每次变化时滞后，温度稳定时正确"},
       {"One channel differs by a constant from the first sample on", "某一通道从第一个采样起就有固定偏差"},

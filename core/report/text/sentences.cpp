@@ -96,6 +96,7 @@ std::vector<TextEntry> texts_of_sentences() {
       {"no samples from {} s", "自 {} s 起无采样"},
       {"frozen from {} s", "自 {} s 起停滞"},
       {"{} samples", "{} 个采样"},
+      {"{} of {} samples left out", "{1} 个采样中已剔除 {0} 个"},
       {"from {} s", "自 {} s 起"},
       {"of {}", "{}"},
       {"{} measurements, {} parameters", "{} 个测量值，{} 个参数"},

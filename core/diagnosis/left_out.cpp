@@ -1,0 +1,78 @@
+#include "core/diagnosis/left_out.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/diagnosis/dataset.h"
+#include "core/diagnosis/plausible.h"
+#include "core/physics/simulate.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+constexpr std::size_t fewest = 5;  // samples
+
+std::vector<double> sorted_samples(const std::vector<double>& values) {
+  std::vector<double> there;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(there), [](double v) { return std::isfinite(v); });
+  std::sort(there.begin(), there.end());
+  return there;
+}
+
+/// Without the outermost 2 %.
+double middle_range(const std::vector<double>& sorted) {
+  return sorted.empty() ? 0.0 : sorted[sorted.size() * 98 / 100] - sorted[sorted.size() * 2 / 100];
+}
+
+/// What it reads all the time, but for a sample or two.
+std::optional<double> only_value(const recording::Channel& channel) {
+  const std::vector<double> there = sorted_samples(channel.values);
+  if (there.size() < fewest || middle_range(there) > 0.0) return std::nullopt;
+  return there[there.size() / 2];
+}
+
+}  // namespace
+
+std::vector<StillGauge> take_out_still_gauges(const physics::Machine& machine, recording::Recording& recording) {
+  constexpr double far_um = 5.0;  // gauges resolve a micrometre or less
+  std::vector<StillGauge> still;
+  for (const auto& displacement : machine.displacements) {
+    const recording::Channel* channel = recording.find(displacement.channel);
+    if (channel == nullptr) continue;
+    if (const auto value = only_value(*channel)) still.push_back({displacement.channel, *value, 0.0});
+  }
+  if (still.empty() || has_unknown_heat(machine)) return {};
+  const auto simulation = physics::simulate(machine, recording);
+  if (!simulation) return {};  // whoever fits it says why
+  for (StillGauge& gauge : still) {
+    const recording::Channel* simulated = simulation->prediction.find(gauge.channel);
+    if (simulated != nullptr) gauge.simulated_um = middle_range(sorted_samples(simulated->values));
+  }
+  std::erase_if(still, [](const StillGauge& gauge) { return gauge.simulated_um < far_um; });
+  for (const StillGauge& gauge : still) {
+    std::erase_if(recording.channels, [&](const auto& channel) { return channel.name == gauge.channel; });
+  }
+  return still;
+}
+
+std::vector<analysis::Finding> spikes_left_out(const physics::Machine& machine, const recording::Recording& recording) {
+  constexpr std::ptrdiff_t fewest_told = 3;  // one or two may be a kink where the coolant starts
+  std::vector<analysis::Finding> list;
+  const auto look_at = [&](const std::string& name, bool temperature) {
+    const recording::Channel* channel = recording.find(name);
+    if (channel == nullptr) return;
+    const std::vector<bool> spike = spikes_of(channel->values, temperature);
+    const auto count = std::count(spike.begin(), spike.end(), true);
+    if (count < fewest_told) return;
+    list.push_back({analysis::FindingKind::spikes, analysis::FindingAction::repaired, name,
+                    fmt::format("{} of {} samples left out", count, channel->values.size())});
+  };
+  for (const auto& sensor : machine.sensors) look_at(sensor.channel, true);
+  for (const auto& displacement : machine.displacements) look_at(displacement.channel, false);
+  return list;
+}
+
+}  // namespace zerodrift::diagnosis
