@@ -8175,14 +8175,6 @@
         <translation>仿真与记录</translation>
     </message>
     <message>
-        <source>K, over position in mm and time</source>
-        <translation>K，按位置（mm）和时间</translation>
-    </message>
-    <message>
-        <source>W, over position in mm and time</source>
-        <translation>W，按位置（mm）和时间</translation>
-    </message>
-    <message>
         <source>Drawn when the search is done</source>
         <translation>查找完成后绘制</translation>
     </message>

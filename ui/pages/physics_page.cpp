@@ -252,9 +252,7 @@ void PhysicsPage::render() {
                                               : tr("Missing heat"),
                               tr("Simulation and recording"), tr("Blind trial")};
   m_mapCard->setTitle(titles.value(m_views->currentIndex()));
-  m_mapCard->setSubtitle(m_views->currentIndex() == 0 ? (residual ? tr("K, over position in mm and time")
-                                                                  : tr("W, over position in mm and time"))
-                                                      : QString());
+  m_mapCard->setSubtitle(m_views->currentIndex() == 0 ? m_state.missingHeat.unit : QString());
   renderMap();
   renderChannels();
   renderExplanations();
