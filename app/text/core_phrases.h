@@ -7,6 +7,7 @@ namespace zerodrift {
 
 std::span<const char* const> phrases_of_measuring();
 std::span<const char* const> phrases_of_models();
+std::span<const char* const> phrases_of_diagnosis();
 std::span<const char* const> phrases_of_machines();
 std::span<const char* const> phrases_of_files();
 /// What the operating system says of files and connections (strerror of the C library).

@@ -25,12 +25,12 @@ constexpr int reweightings = 5;
 constexpr double negligible_sigmas = 0.03;
 constexpr double resampled_px = 5e-4;  // a smaller motion since the frame was sampled needs no new sample
 
-// From the template to a patch of the frame.
+// From the template to a patch of the frame. Plain numbers: Eigen's types differ where registers are wide.
 struct PixelMotion {
-  Eigen::Vector2f shift;
-  Eigen::Matrix2f turn;  // linear part less one
+  float shift_x, shift_y;
+  float xx, xy, yx, yy;  // linear part less one
   // The lens moves a pixel at w from the point by 2 (w s) w + |w|^2 s times its constant, s being the displacement.
-  Eigen::Vector2f way;
+  float way_x, way_y;
   float bent;                 // its constant
   int left, top, width;       // of the patch: where the region begins in it, and its own width
   int last_column, last_row;  // that can be sampled
@@ -40,29 +40,22 @@ struct PixelMotion {
 ZERODRIFT_WIDE void move_pixels(const PixelMotion& motion, const float* x, const float* y, const int* column,
                                 const int* row, int count, int* __restrict place, float* __restrict fraction_x,
                                 float* __restrict fraction_y, float* __restrict bend_x, float* __restrict bend_y) {
-  const float* shift = motion.shift.data();
-  const float* turn = motion.turn.data();  // column after column
-  const float shift_x = shift[0], shift_y = shift[1];
-  const float xx = turn[0], yx = turn[1], xy = turn[2], yy = turn[3];
-  const float way_x = motion.way.data()[0], way_y = motion.way.data()[1];
-  const float bent = motion.bent;
-  const int left = motion.left, top = motion.top, width = motion.width;
-  const int last_column = motion.last_column, last_row = motion.last_row;
+  const PixelMotion m = motion;  // which nothing that is written to can alias
   for (int k = 0; k < count; ++k) {
-    const float along = 2.0f * (x[k] * way_x + y[k] * way_y);
+    const float along = 2.0f * (x[k] * m.way_x + y[k] * m.way_y);
     const float squares = x[k] * x[k] + y[k] * y[k];
-    bend_x[k] = along * x[k] + squares * way_x;
-    bend_y[k] = along * y[k] + squares * way_y;
-    const float ux = shift_x + xx * x[k] + xy * y[k] + bent * bend_x[k];
-    const float uy = shift_y + yx * x[k] + yy * y[k] + bent * bend_y[k];
+    bend_x[k] = along * x[k] + squares * m.way_x;
+    bend_y[k] = along * y[k] + squares * m.way_y;
+    const float ux = m.shift_x + m.xx * x[k] + m.xy * y[k] + m.bent * bend_x[k];
+    const float uy = m.shift_y + m.yx * x[k] + m.yy * y[k] + m.bent * bend_y[k];
     const float whole_x = std::floor(ux);
     const float whole_y = std::floor(uy);
     fraction_x[k] = ux - whole_x;
     fraction_y[k] = uy - whole_y;
-    const int to_column = column[k] + left + static_cast<int>(whole_x);
-    const int to_row = row[k] + top + static_cast<int>(whole_y);
-    const bool known = (to_column >= 2) & (to_row >= 2) & (to_column <= last_column) & (to_row <= last_row);
-    place[k] = known ? to_row * width + to_column : -1;
+    const int to_column = column[k] + m.left + static_cast<int>(whole_x);
+    const int to_row = row[k] + m.top + static_cast<int>(whole_y);
+    const bool known = (to_column >= 2) & (to_row >= 2) & (to_column <= m.last_column) & (to_row <= m.last_row);
+    place[k] = known ? to_row * m.width + to_column : -1;
   }
 }
 
@@ -121,10 +114,13 @@ void RegistrationSolver::sample(int count) {
   const std::size_t size = static_cast<std::size_t>(m_frame.size());
   m_place.resize(size);
   for (std::vector<float>* one : {&m_fx, &m_fy, &m_bend_x, &m_bend_y}) one->resize(size);
+  const Eigen::Vector2f shift = m_shift.cast<float>();
+  const Eigen::Matrix2f turn = (m_linear - Eigen::Matrix2d::Identity()).cast<float>();
+  const Eigen::Vector2f way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
   PixelMotion motion;
-  motion.shift = m_shift.cast<float>();
-  motion.turn = (m_linear - Eigen::Matrix2d::Identity()).cast<float>();
-  motion.way = ((m_whole_px + m_shift) * lens_unit).cast<float>();
+  motion.shift_x = shift(0), motion.shift_y = shift(1);
+  motion.xx = turn(0, 0), motion.xy = turn(0, 1), motion.yx = turn(1, 0), motion.yy = turn(1, 1);
+  motion.way_x = way(0), motion.way_y = way(1);
   motion.bent = static_cast<float>(m_lens / lens_unit);
   motion.width = m_patch.spline.width();
   motion.left = m_model.region.x + static_cast<int>(m_whole_px(0)) - m_patch.at.x;
