@@ -97,6 +97,14 @@ struct StructureTerm {
   double factor = 1.0;
 };
 
+/// Where the temperature steps between two nodes, a sensor between them reads one side's: strength * probe beside what
+/// is straight between the nodes.
+struct StepTerm {
+  int probe = -1;               // difference of the two nodes
+  std::vector<int> parameters;  // of the law
+  Law law;
+};
+
 struct Observation {
   std::string channel;
   bool temperature = true;
@@ -110,6 +118,7 @@ struct Observation {
   int gain = -1;          // parameter: relative error of the gain
   double accuracy = 0.0;  // um: what the description says that it leaves out of a displacement, slowly changing
   std::vector<StructureTerm> structure;
+  std::vector<StepTerm> steps;  // temperatures only
 };
 
 /// A linear functional of the node temperatures.

@@ -1,5 +1,6 @@
 #include "core/physics/prediction.h"
 
+#include <array>
 #include <cmath>
 
 namespace zerodrift::physics {
@@ -50,6 +51,7 @@ class Observer {
     out.values.assign(m_run.rows, 0.0);
     out.derivatives.assign(m_run.rows * m_run.columns, 0.0);
     if (seen.probe >= 0) take_probe(seen, out);
+    for (const auto& step : seen.steps) add_step(step, out);
     if (seen.lag_s >= 0) apply_lag(m_values[seen.lag_s], column(seen.lag_s), out);
     if (seen.gain >= 0) apply_gain(seen, out);
     for (const auto& term : seen.structure) add_structure(term, out);
@@ -92,6 +94,27 @@ class Observer {
       add_column(out, column(seen.inner_share), scale, inner);
     }
     if (seen.scale >= 0) add_column(out, column(seen.scale), 1.0, raw);
+  }
+
+  void add_step(const StepTerm& step, PredictedChannel& out) const {
+    std::array<double, max_law_parameters> own{};
+    for (std::size_t i = 0; i < step.parameters.size(); ++i) own[i] = m_values[step.parameters[i]];
+    LawPoint at;
+    at.values = own.data();
+    const Strength strength = step.law(at);
+    const std::size_t probes = m_net.probes.size();
+    std::vector<double> difference(rows());
+    for (std::size_t k = 0; k < rows(); ++k) {
+      difference[k] = m_run.probes[k * probes + step.probe];
+      out.values[k] += strength.value * difference[k];
+    }
+    const double* by = m_run.derivatives.data() + step.probe * rows() * m_run.columns;
+    for (std::size_t i = 0; strength.value != 0.0 && i < out.derivatives.size(); ++i) {
+      out.derivatives[i] += strength.value * by[i];
+    }
+    for (std::size_t i = 0; i < step.parameters.size(); ++i) {
+      add_column(out, column(step.parameters[i]), strength.by_parameter[i], difference);
+    }
   }
 
   void apply_lag(double tau_s, int at, PredictedChannel& out) const {

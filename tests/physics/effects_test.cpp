@@ -210,6 +210,73 @@ TEST(Effect, SettlingByItselfHasExactDerivatives) {
   expect_exact_derivatives(s);
 }
 
+EffectSpec joint_at(double position_mm, double half_width_mm) {
+  return {"contact_resistance",
+          true,
+          {{"resistance_m2K_W", 0.0}, {"position_mm", position_mm}, {"half_width_mm", half_width_mm}},
+          {{"component", "spindle"}}};
+}
+
+/// The effect's own form stands between the sensors.
+TEST(Effect, JointBesideASensorHasExactDerivatives) {
+  for (const double half_width_mm : {3.0, 12.0}) {
+    for (const double position_mm : {101.0, 108.5, 113.5, 196.0, 202.7}) {  // sensors at 110 and 200
+      SCOPED_TRACE(position_mm);
+      RunFacts facts;
+      Setting s = setting_on(true, *find_effect("contact_resistance"), facts);
+      s.spec = joint_at(position_mm, half_width_mm);
+      s.spec.numbers["position_mm_prior_sigma"] = 5.0;
+      expect_exact_derivatives(s);
+    }
+  }
+}
+
+/// What a joint changes at each sensor, on so many cells.
+std::vector<std::vector<double>> change_by_joint(double position_mm, double half_width_mm, int cells) {
+  const recording::Recording run = test::stepped_run(3.0, 60.0);
+  Machine machine = test::spindle();
+  const auto simulated = [&] {
+    const Network network = build_network(machine, run, {cells});
+    return predict(network, make_inputs(network, run), network.start_values());
+  };
+  const Prediction without = simulated();
+  machine.effects.push_back(joint_at(position_mm, half_width_mm));
+  machine.effects.back().candidate = false;
+  machine.effects.back().numbers["resistance_m2K_W"] = 2e-3;
+  const Prediction with = simulated();
+  std::vector<std::vector<double>> change;
+  for (std::size_t c = 0; c < with.channels.size(); ++c) {
+    if (!with.channels[c].temperature) continue;
+    change.emplace_back();
+    for (std::size_t k = 0; k < with.rows; ++k)
+      change.back().push_back(with.channels[c].values[k] - without.channels[c].values[k]);
+  }
+  return change;
+}
+
+/// A sensor beside a joint reads its own side of it, wherever the cells' borders are.
+TEST(Effect, JointBesideASensorNeedsNoFineGrid) {
+  const auto rms = [](const std::vector<double>& of) {
+    double squares = 0.0;
+    for (const double value : of) squares += value * value;
+    return std::sqrt(squares / static_cast<double>(of.size()));
+  };
+  for (const double half_width_mm : {0.0, 4.0, 12.0}) {
+    for (const double position_mm : {103.0, 107.0, 112.0, 118.0, 192.0, 199.0, 204.0, 270.0, 287.0}) {
+      auto usual = change_by_joint(position_mm, half_width_mm, 40);
+      const auto fine = change_by_joint(position_mm, half_width_mm, 800);
+      double largest = 0.0;
+      double off = 0.0;
+      for (std::size_t c = 0; c < fine.size(); ++c) {
+        largest = std::max(largest, rms(fine[c]));
+        for (std::size_t k = 0; k < fine[c].size(); ++k) usual[c][k] -= fine[c][k];
+        off = std::max(off, rms(usual[c]));
+      }
+      EXPECT_LT(off, 0.06 * largest) << "joint at " << position_mm << " mm, half as broad as " << half_width_mm;
+    }
+  }
+}
+
 TEST(Effect, RadiationIsTheFourthPowerLaw) {
   Machine machine = test::spindle();
   machine.effects = {{"radiation", false, {{"emissivity", 0.9}}, {}}};

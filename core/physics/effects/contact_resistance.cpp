@@ -1,6 +1,7 @@
 // An imperfect joint at x: the heat flow across it needs a temperature step R q. The resistance is spread evenly over
 // the joint's breadth - shaft and housing do not part in one plane - and what lies between two cells' middles is shared
-// by the faces next to it, so that x and the breadth are continuous.
+// by the faces next to it, so that x and the breadth are continuous. A cell's temperature is then its mean, part of the
+// step within it included; a sensor reads the step's own share at its place and not what is straight between two cells.
 #include "core/physics/effects/laws.h"
 
 namespace zerodrift::physics {
@@ -60,6 +61,90 @@ Law face_law(double face, double cell_m, double section_m2) {
   };
 }
 
+/// Of the step, what lies before y, in m from the fixed end, and its integral over y.
+struct Passed {
+  double share = 0.0, by_place = 0.0, by_half = 0.0;
+  double sum = 0.0, sum_by_place = 0.0, sum_by_half = 0.0;
+};
+
+Passed passed_at(double y_m, double place_m, double half_m, double cell_m) {
+  const double u = y_m - place_m;
+  Passed p;
+  if (half_m < narrow_cells * cell_m) {
+    p.share = u > 0.0 ? 1.0 : u < 0.0 ? 0.0 : 0.5;
+    p.sum = std::max(0.0, u);
+    p.sum_by_place = -p.share;
+    return p;
+  }
+  if (u <= -half_m) return p;
+  p.share = std::min(1.0, 0.5 * (u + half_m) / half_m);
+  p.sum_by_place = -p.share;
+  if (u >= half_m) {
+    p.sum = u;
+    return p;
+  }
+  p.by_place = -0.5 / half_m;
+  p.by_half = -0.5 * u / (half_m * half_m);
+  p.sum = 0.25 * (u + half_m) * (u + half_m) / half_m;
+  p.sum_by_half = 0.25 * (u + half_m) * (half_m - u) / (half_m * half_m);
+  return p;
+}
+
+/// The step before a sensor, in shares of the whole, beside what its probe takes from the cells' means.
+FaceShare beside_probe(const Probe& probe, int first, double sensor_m, double place_m, double half_m, double cell_m) {
+  const Passed there = passed_at(sensor_m, place_m, half_m, cell_m);
+  FaceShare beside{there.share, there.by_place, there.by_half};
+  for (const auto& [node, weight] : probe) {
+    const Passed from = passed_at((node - first) * cell_m, place_m, half_m, cell_m);
+    const Passed to = passed_at((node - first + 1) * cell_m, place_m, half_m, cell_m);
+    beside.value -= weight * (to.sum - from.sum) / cell_m;
+    beside.by_place -= weight * (to.sum_by_place - from.sum_by_place) / cell_m;
+    beside.by_half -= weight * (to.sum_by_half - from.sum_by_half) / cell_m;
+  }
+  return beside;
+}
+
+/// The step at a sensor is the resistance times the flow between the two cells it lies between, which is their
+/// difference over what is between their middles.
+Law step_law(const Probe& probe, int first, double sensor_m, double cell_m) {
+  const int face = std::max(probe.front().first, probe.back().first) - first;
+  return [=](const LawPoint& at) {
+    Strength s;
+    const double resistance = at.values[0];
+    const double place_m = m_per_mm * at.values[1];
+    const double k = at.values[2];
+    const double half_m = m_per_mm * at.values[3];
+    const FaceShare beside = beside_probe(probe, first, sensor_m, place_m, half_m, cell_m);
+    const FaceShare between = share_of_face(place_m / cell_m - face, half_m / cell_m);
+    if (beside.value == 0.0 && beside.by_place == 0.0 && beside.by_half == 0.0) return s;
+    const double conductance = 1.0 / (cell_m / k + between.value * resistance);  // W/(m2 K)
+    const double by_share = -resistance * resistance * conductance * conductance * beside.value;
+    s.value = resistance * conductance * beside.value;
+    s.by_parameter[0] = conductance * conductance * cell_m / k * beside.value;
+    s.by_parameter[1] = m_per_mm * (resistance * conductance * beside.by_place + by_share * between.by_place / cell_m);
+    s.by_parameter[2] = resistance * conductance * conductance * beside.value * cell_m / (k * k);
+    s.by_parameter[3] = m_per_mm * (resistance * conductance * beside.by_half + by_share * between.by_half / cell_m);
+    return s;
+  };
+}
+
+/// Sensors read the outer cells.
+void add_steps(NetworkBuilder& builder, const std::string& id, const std::vector<int>& parameters) {
+  const auto at = builder.place(id);
+  if (at.count < 2) return;
+  for (const auto& sensor : builder.machine().sensors) {
+    Observation* seen = builder.network().observation(sensor.channel);
+    if (seen == nullptr || sensor.component != id) continue;
+    const Probe probe = builder.probe_at(id, sensor.position_mm);
+    const int last = std::max(probe.front().first, probe.back().first);
+    StepTerm step;
+    step.probe = builder.probe({{last, 1.0}, {last - 1, -1.0}});
+    step.parameters = parameters;
+    step.law = step_law(probe, at.first, m_per_mm * sensor.position_mm, at.cell_m);
+    seen->steps.push_back(std::move(step));
+  }
+}
+
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const std::vector<std::string> rods = builder.rods();
   if (rods.empty()) return;
@@ -87,6 +172,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   };
   add_joint(at.first, 1.0 - at.inner_share);
   if (at.inner >= 0) add_joint(at.inner, at.inner_share);
+  add_steps(builder, id, {resistance, place, builder.conductivity(id), half_width});
 }
 
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
