@@ -248,8 +248,8 @@ Extrapolated extrapolated(const FloatImage& still, const cv::Mat& inside) {
 // Everything that is known of what stands behind, drawn on the sheet.
 class Learning {
  public:
-  Learning(const GrayImage& picture, const Sheet& sheet, std::vector<LitFrame> away)
-      : m_picture(picture), m_sheet(sheet), m_away(std::move(away)), m_still(sheet.of_template()) {
+  Learning(const GrayImage& picture, const Sheet& sheet, std::vector<LitFrame> away, FloatImage still)
+      : m_picture(picture), m_sheet(sheet), m_away(std::move(away)), m_still(std::move(still)) {
     for (const LitFrame& one : m_away) m_moved.push_back(sheet.travelled(one));
     cv::Mat difference = floats_of(m_moved.front()) - floats_of(m_still);
     cv::patchNaNs(difference, 0.0);
@@ -343,7 +343,7 @@ float Backdrop::at(float x_px, float y_px) const {
 }
 
 std::shared_ptr<const Backdrop> learn_backdrop(const GrayImage& picture, const Region& region, const PixelPoint& point,
-                                               const std::vector<RegisteredFrame>& frames) {
+                                               const std::vector<RegisteredFrame>& frames, const FloatImage* still) {
   using namespace backdrop;
   const Sheet sheet(picture, region, point);
   std::vector<LitFrame> away;
@@ -352,7 +352,7 @@ std::shared_ptr<const Backdrop> learn_backdrop(const GrayImage& picture, const R
     if (const auto light = light_of(picture, sheet.at(), one)) away.push_back({one, *light});
   }
   if (away.size() < least_moved) return nullptr;
-  return Learning(picture, sheet, std::move(away)).run();
+  return Learning(picture, sheet, std::move(away), still != nullptr ? *still : sheet.of_template()).run();
 }
 
 }  // namespace zerodrift::vision

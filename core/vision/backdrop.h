@@ -36,6 +36,7 @@ struct RegisteredFrame {
 
 /// Nothing where the frames do not show what stands behind: too few moves, or a region all on the target.
 std::shared_ptr<const Backdrop> learn_backdrop(const GrayImage& picture, const Region& region, const PixelPoint& point,
-                                               const std::vector<RegisteredFrame>& frames);
+                                               const std::vector<RegisteredFrame>& frames,
+                                               const FloatImage* still = nullptr);
 
 }  // namespace zerodrift::vision

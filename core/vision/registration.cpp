@@ -151,7 +151,8 @@ Registrar::Registrar(TemplateSource source)
     : m_source(completed(std::move(source))),
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
-  if (m_model.noise_share < aliased_share) {
+  const double noise_ratio = m_source.frame_noise_levels / m_source.noise_levels;
+  if (m_model.noise_share * noise_ratio * noise_ratio < aliased_share) {
     const Eigen::Matrix2d wide = clear_prefilter_px2 * Eigen::Matrix2d::Identity();
     m_model = make_template_model(m_source, wide, wide);
   }
@@ -454,7 +455,8 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
   }
   out.partly_unlit = unlit;
   const TemplateModel& last = blurred_model ? *blurred_model : usual;
-  out.expected_residual = source.noise_levels * std::sqrt(2.0 / last.noise_correlation);
+  out.expected_residual =
+      std::hypot(source.noise_levels, source.frame_noise_levels) / std::sqrt(last.noise_correlation);
   out.converged = out.converged && (out.covariance_px2.diagonal().array() > 0.0).all();
   if (m_outline && m_source.backdrop) out.covariance_px2.diagonal().array() += learned_px * learned_px;
   out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;

@@ -9,6 +9,7 @@
 
 #include "core/vision/acceptance.h"
 #include "core/vision/coarse_search.h"
+#include "core/vision/gathered_template.h"
 #include "core/vision/moved_apart.h"
 #include "core/vision/registration.h"
 #include "core/vision/repeating_target.h"
@@ -41,6 +42,9 @@ constexpr double rough_coarse_correlation = 0.5;
 constexpr double rough_place_px = 0.3;  // what is known worse is known as well by the coarse search, to half a pixel
 constexpr double some_covered = 0.05;   // of the region, by what neither travels nor stood there before
 constexpr int least_moved = 3;          // frames in which the target is elsewhere
+constexpr double noisy_share = 0.06;    // of the gradients' energy: less noise in the template does no harm
+constexpr int gathering_rounds = 2;
+constexpr double same_blur_px2 = 0.2;
 
 bool like_the_target(const Registration& glance) {
   return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
@@ -66,23 +70,25 @@ double merit(const Registration& r) {
 
 }  // namespace
 
-struct Target::Impl {
+struct Target::Learned {
+  std::vector<std::uint8_t> mask;
+  std::shared_ptr<const Backdrop> backdrop;
+  std::shared_ptr<const GatheredTemplate> gathered;
+};
+
+struct Target::Impl : Learned {
   GrayImage image;
   Region region;
   PixelPoint point;
-  std::vector<std::uint8_t> mask;
-  std::shared_ptr<const Backdrop> backdrop;
   CoarseSearch coarse;
   Registrar fine;
   RepeatingTarget repeating;
 
-  Impl(GrayImage picture, const Region& at, const PixelPoint& named, std::vector<std::uint8_t> usable,
-       std::shared_ptr<const Backdrop> behind = nullptr)
-      : image(std::move(picture)),
+  Impl(GrayImage picture, const Region& at, const PixelPoint& named, Learned learned)
+      : Learned(std::move(learned)),
+        image(std::move(picture)),
         region(at),
         point(named),
-        mask(std::move(usable)),
-        backdrop(std::move(behind)),
         coarse(image, at),
         fine(source_of(*this)),
         repeating(image, region, point, mask) {}
@@ -154,6 +160,10 @@ struct Target::Impl {
     source.point = {self.point.x_px - at.x, self.point.y_px - at.y};
     source.usable = self.mask;
     source.backdrop = self.backdrop;
+    if (self.gathered) {
+      source.frame_noise_levels = completed(source).noise_levels;
+      source.pixels = self.gathered->pixels;
+    }
     return source;
   }
 };
@@ -181,7 +191,7 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
                 {{"what", "the named point"}, {"found", "not a place"}, {"expected", "X,Y in pixels"}});
   }
   std::vector<std::uint8_t> usable = usable_pixels(image, *telling);
-  auto impl = std::make_shared<const Impl>(image, *telling, named, std::move(usable));
+  auto impl = std::make_shared<const Impl>(image, *telling, named, Learned{std::move(usable), nullptr, nullptr});
   const TemplateModel& model = impl->fine.model();
   if (model.gradient_energy < least_energy || model.pixels < 200) {
     return fail(ErrorCode::template_without_texture, {{"file", name}});
@@ -277,11 +287,17 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   if (doubt.may_be_elsewhere) return refuse(Refusal::ambiguous);
   out.ok = true;
   out.refusal = Refusal::none;
-  out.x_px = best.displacement_px(0);
-  out.y_px = best.displacement_px(1);
-  out.sigma_x_px = std::sqrt(best.covariance_px2(0, 0));
-  out.sigma_y_px = std::sqrt(best.covariance_px2(1, 1));
-  out.covariance_xy_px2 = best.covariance_px2(0, 1);
+  Eigen::Vector2d moved_px = best.displacement_px;
+  Eigen::Matrix2d covariance_px2 = best.covariance_px2;
+  if (m_impl->gathered) {
+    moved_px -= m_impl->gathered->zero_px;
+    covariance_px2 += m_impl->gathered->zero_covariance_px2;
+  }
+  out.x_px = moved_px(0);
+  out.y_px = moved_px(1);
+  out.sigma_x_px = std::sqrt(covariance_px2(0, 0));
+  out.sigma_y_px = std::sqrt(covariance_px2(1, 1));
+  out.covariance_xy_px2 = covariance_px2(0, 1);
   return out;
 }
 
@@ -370,6 +386,27 @@ Target Target::without_what_stands(const std::vector<GrayImage>& frames, bool in
   return with_mask(travelling_pixels(m_impl->region, part));
 }
 
+// Laid by where the noisy template finds them, the frames share its error; laid once more by where their mean finds
+// them, they share that of one frame.
+Target Target::gathered_from(const std::vector<GrayImage>& frames) const {
+  if (m_impl->fine.model().noise_share < noisy_share) return *this;
+  Target out = *this;
+  for (int round = 0; round < gathering_rounds; ++round) {
+    std::vector<RegisteredFrame> alike;
+    for (const GrayImage& frame : frames) {
+      const Location at = out.search(frame);
+      if (!at.ok || std::abs(at.blur_px2) > same_blur_px2) continue;
+      alike.push_back({&frame, {at.x_px, at.y_px}, at.linear, at.lens});
+    }
+    auto mean = gathered_pixels(m_impl->image, m_impl->region, m_impl->point, alike, out.backdrop().get());
+    if (!mean) return out;
+    // What stands behind is told from the template's picture too.
+    auto behind = learn_backdrop(m_impl->image, m_impl->region, m_impl->point, alike, &*mean);
+    out = with_backdrop(behind ? std::move(behind) : m_impl->backdrop).with_gathered(std::move(*mean));
+  }
+  return out;
+}
+
 Target Target::learned_from(const std::vector<GrayImage>& frames, Cover cover) const {
   const Target seen = without_what_stands(frames, true, cover);
   const std::vector<GrayImage> open = cover == Cover::possible ? seen.without_covered(frames) : frames;
@@ -379,7 +416,7 @@ Target Target::learned_from(const std::vector<GrayImage>& frames, Cover cover) c
     const Location at = masked.search(frame);
     if (at.ok) lenses.push_back(at.lens);
   }
-  return masked.with_lens(combined(m_lens, lenses));
+  return masked.with_lens(combined(m_lens, lenses)).gathered_from(open);
 }
 
 Target Target::with_lens(const LensTerm& lens) const {
@@ -390,8 +427,9 @@ Target Target::with_mask(const std::vector<std::uint8_t>& mask) const {
   if (mask.size() != m_impl->mask.size()) return *this;
   std::vector<std::uint8_t> both = m_impl->mask;
   for (std::size_t k = 0; k < both.size(); ++k) both[k] = both[k] && mask[k];
-  auto impl =
-      std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(both), m_impl->backdrop);
+  Learned learned = *m_impl;
+  learned.mask = std::move(both);
+  auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(learned));
   // A mask that leaves hardly anything was learned from frames that do not show the target's motion.
   const double kept = static_cast<double>(impl->fine.model().pixels) / std::max(m_impl->fine.model().pixels, 1);
   return kept > 0.4 ? Target(std::move(impl), m_lens) : *this;
@@ -401,11 +439,34 @@ Target Target::with_backdrop(std::shared_ptr<const Backdrop> backdrop) const {
   const bool fits = !backdrop || (backdrop->clear.width == m_impl->region.width + 2 * template_margin_px &&
                                   backdrop->clear.height == m_impl->region.height + 2 * template_margin_px);
   if (!fits) return *this;
-  return Target(
-      std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, m_impl->mask, std::move(backdrop)),
-      m_lens);
+  Learned learned = *m_impl;
+  learned.backdrop = std::move(backdrop);
+  return Target(std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(learned)), m_lens);
 }
 
+// Where the template's own picture shows the target against its mean is the zero; a picture that does not show it has
+// none.
+Target Target::with_gathered(FloatImage pixels) const {
+  const Region& at = m_impl->region;
+  if (pixels.width != at.width + 2 * template_margin_px || pixels.height != at.height + 2 * template_margin_px) {
+    return *this;
+  }
+  const auto mean = std::make_shared<GatheredTemplate>();
+  mean->pixels = std::move(pixels);
+  Learned learned = *m_impl;
+  learned.gathered = mean;
+  Target out(std::make_shared<const Impl>(m_impl->image, at, m_impl->point, std::move(learned)), m_lens);
+  const Location zero = out.search(m_impl->image);
+  if (!zero.ok) return *this;
+  mean->zero_px = {zero.x_px, zero.y_px};
+  mean->zero_covariance_px2 << zero.sigma_x_px * zero.sigma_x_px, zero.covariance_xy_px2, zero.covariance_xy_px2,
+      zero.sigma_y_px * zero.sigma_y_px;
+  return out;
+}
+
+const FloatImage* Target::gathered() const {
+  return m_impl->gathered ? &m_impl->gathered->pixels : nullptr;
+}
 const std::shared_ptr<const Backdrop>& Target::backdrop() const {
   return m_impl->backdrop;
 }

@@ -70,8 +70,8 @@ class Target {
   Location locate(const GrayImage& frame) const;
 
   /// The same target, having learned from frames in which it was moved (the calibration's): what stands behind it,
-  /// which pixels of its region do not travel with it, and the lens. Frames in which it is not found are left out;
-  /// fewer than three teach no mask.
+  /// which pixels of its region do not travel with it, the lens and, where the template's noise matters, what it looks
+  /// like without it. Frames in which it is not found are left out; fewer than three teach no mask.
   Target learned_from(const std::vector<GrayImage>& frames, Cover cover = Cover::none) const;
   /// The same with what was measured of the lens.
   Target with_lens(const LensTerm& lens) const;
@@ -82,8 +82,15 @@ class Target {
   /// The same target with what stands behind it; null forgets it.
   Target with_backdrop(std::shared_ptr<const Backdrop> backdrop) const;
 
+  /// The same target with the mean of pictures in which it was moved for its template: the region with
+  /// template_margin_px around it. What is measured is as before the displacement since the template's own picture.
+  /// Itself if the mean does not suit.
+  Target with_gathered(FloatImage pixels) const;
+
   const LensTerm& lens() const;
   const std::shared_ptr<const Backdrop>& backdrop() const;
+  /// Null: the template's own picture is what is looked for.
+  const FloatImage* gathered() const;
   const Region& region() const;
   const PixelPoint& point() const;
   const GrayImage& image() const;
@@ -91,11 +98,13 @@ class Target {
   const std::vector<std::uint8_t>& mask() const;
 
  private:
+  struct Learned;
   struct Impl;
   std::optional<RegisteredFrame> place_in(const GrayImage& frame, bool rough) const;
   std::vector<RegisteredFrame> places_in(const std::vector<GrayImage>& frames, bool rough) const;
   Target learned_backdrop(const std::vector<GrayImage>& frames) const;
   std::vector<GrayImage> without_covered(const std::vector<GrayImage>& frames) const;
+  Target gathered_from(const std::vector<GrayImage>& frames) const;
   Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part, Cover cover) const;
   Location search(const GrayImage& frame, std::vector<float>* residual_map = nullptr,
                   Registration* fit = nullptr) const;

@@ -95,6 +95,18 @@ nlohmann::json backdrop_to_json(const Backdrop& backdrop) {
           {"clear_png", picture_of(backdrop.clear, clear_levels)}};
 }
 
+std::string size_of(int width, int height) {
+  return fmt::format("{}x{} pixels", width, height);
+}
+
+void check_covers_region(JsonObject& object, const char* key, const FloatImage& image, const Region& region) {
+  const int width = region.width + 2 * template_margin_px;
+  const int height = region.height + 2 * template_margin_px;
+  if (image.width != width || image.height != height) {
+    object.reject(key, size_of(image.width, image.height), size_of(width, height));
+  }
+}
+
 std::shared_ptr<const Backdrop> backdrop_from(JsonObject& object, const Region& region) {
   auto out = std::make_shared<Backdrop>();
   const int x = object.integer("x_px", -largest_side_px, largest_side_px);
@@ -102,15 +114,10 @@ std::shared_ptr<const Backdrop> backdrop_from(JsonObject& object, const Region& 
   out->levels = levels_in(object, "levels_png", 1.0f);
   out->clear = levels_in(object, "clear_png", clear_levels);
   out->area = {x, y, out->levels.width, out->levels.height};
-  const auto size_of = [](int width, int height) { return fmt::format("{}x{} pixels", width, height); };
   if (std::min(out->levels.width, out->levels.height) < 2) {
     object.reject("levels_png", size_of(out->levels.width, out->levels.height), "at least 2x2");
   }
-  const int width = region.width + 2 * template_margin_px;
-  const int height = region.height + 2 * template_margin_px;
-  if (out->clear.width != width || out->clear.height != height) {
-    object.reject("clear_png", size_of(out->clear.width, out->clear.height), size_of(width, height));
-  }
+  check_covers_region(object, "clear_png", out->clear, region);
   return out;
 }
 
@@ -143,6 +150,10 @@ StoredTarget stored_target(JsonObject& object) {
   out.mask = mask_from(object, out.region);
   out.lens = lens_from(object);
   if (JsonObject* backdrop = object.object_if("backdrop")) out.backdrop = backdrop_from(*backdrop, out.region);
+  if (object.has("mean_png")) {
+    out.gathered = levels_in(object, "mean_png", 1.0f);
+    check_covers_region(object, "mean_png", *out.gathered, out.region);
+  }
   if (object.has("size_px")) {
     const std::vector<double> size = object.numbers("size_px", 2);
     for (const double side : size) {
@@ -159,8 +170,8 @@ StoredTarget stored_target(JsonObject& object) {
   if (object.has("picture_png")) {
     out.picture = picture_in(object, "picture_png");
     if (out.picture->width != out.region.width || out.picture->height != out.region.height) {
-      object.reject("picture_png", fmt::format("{}x{} pixels", out.picture->width, out.picture->height),
-                    fmt::format("{}x{} pixels", out.region.width, out.region.height));
+      object.reject("picture_png", size_of(out.picture->width, out.picture->height),
+                    size_of(out.region.width, out.region.height));
     }
   }
   return out;
@@ -179,6 +190,7 @@ nlohmann::json target_to_json(const Target& target, const std::string& template_
                      {"size_px", {target.image().width, target.image().height}},
                      {"picture_png", picture_of(crop(target.image(), r), 1.0f)}};
   if (target.backdrop()) out["backdrop"] = backdrop_to_json(*target.backdrop());
+  if (target.gathered() != nullptr) out["mean_png"] = picture_of(*target.gathered(), 1.0f);
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // The target in calibration.json: template file name, region, named point, and what was learned from the views - mask,
-// lens, backdrop - so that `locate` measures with the same pixels the calibration was made with.
+// lens, backdrop, their mean - so that `locate` measures with the same pixels the calibration was made with.
 
 #include <array>
 #include <memory>
@@ -21,6 +21,7 @@ struct StoredTarget {
   std::vector<std::uint8_t> mask;  // region's width * height
   LensTerm lens;
   std::shared_ptr<const Backdrop> backdrop;   // null: none was learned
+  std::optional<FloatImage> gathered;         // mean of the views, where the template is too noisy
   std::optional<std::array<int, 2>> size_px;  // of the template's picture; files of before have neither this nor
   std::optional<GrayImage> picture;           // what it shows in the region
 };

@@ -187,6 +187,7 @@ void set_tiles(TemplateModel& model) {
 TemplateSource completed(TemplateSource source) {
   if (source.backdrop) source.behind = behind_of(source);
   source.noise_levels = std::max(noise_of_pixels(source.pixels), std::sqrt(rounding_variance));
+  if (source.frame_noise_levels == 0.0) source.frame_noise_levels = source.noise_levels;
   return source;
 }
 
@@ -257,7 +258,10 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   }
   set_tiles(model);
   model.gradient_noise = noise_each;
-  model.noise_correlation = 2.0 / (power_of(blur_px2) + power_of(frame_blur_px2));
+  const double template_variance = source.noise_levels * source.noise_levels;
+  const double frame_variance = source.frame_noise_levels * source.frame_noise_levels;
+  model.noise_correlation = (template_variance + frame_variance) /
+                            (template_variance * power_of(blur_px2) + frame_variance * power_of(frame_blur_px2));
   model.frame_blur_px2 = frame_blur_px2;
   model.gradient_x = std::move(fx);
   model.gradient_y = std::move(fy);

@@ -51,8 +51,9 @@ struct TemplateSource {
   std::shared_ptr<const Backdrop> backdrop;
   std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
   // What every model made of it asks for; completed() finds them.
-  FloatImage behind;          // what stands behind each of the pixels; empty without a backdrop
-  double noise_levels = 0.0;  // standard deviation of the noise in the pixels
+  FloatImage behind;                // what stands behind each of the pixels; empty without a backdrop
+  double noise_levels = 0.0;        // standard deviation of the noise in the pixels
+  double frame_noise_levels = 0.0;  // and in a frame's; that of the pixels unless it was set
 };
 
 TemplateSource completed(TemplateSource source);

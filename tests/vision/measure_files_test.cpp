@@ -175,6 +175,7 @@ TEST_F(MeasureFiles, ADamagedTargetInTheCalibrationIsNamed) {
   EXPECT_EQ(fault("lens_sigma_per_px2", 0), "target.lens_sigma_per_px2");
   EXPECT_EQ(fault("size_px", {640.5, 480}), "target.size_px");
   EXPECT_EQ(fault("picture_png", "AAAA"), "target.picture_png");
+  EXPECT_EQ(fault("mean_png", good["target"]["picture_png"]), "target.mean_png");  // without the margin
   EXPECT_EQ(fault("backdrop", {{"x_px", 0}, {"y_px", 0}, {"levels_png", "?"}}), "target.backdrop.levels_png");
 }
 

@@ -132,6 +132,47 @@ TEST(RenderedFrames, WhatStandsBehindABallDoesNotDrawIt) {
   EXPECT_FALSE(target->learned_from(views).backdrop());
 }
 
+// A ball shows so little that the noise of one picture of it is a third of all its gradients. The mean of the views has
+// less; displacements stay those since the template's picture.
+TEST(RenderedFrames, ABallInNoiseIsLookedForByTheMeanOfItsViews) {
+  double squares_alone = 0.0, squares = 0.0;
+  for (const std::uint64_t seed : {78, 79, 80, 81, 82, 83}) {
+    const test_support::Session session = test_support::make_session(PatternKind::ball, Disturbance::noise, seed, 3);
+    const auto target = target_of(session);
+    ASSERT_TRUE(target);
+    const Target learned = target->learned_from(views_of(session));
+    ASSERT_TRUE(learned.gathered() && learned.backdrop());
+    const Target alone = target->with_backdrop(learned.backdrop()).with_mask(learned.mask()).with_lens(learned.lens());
+    EXPECT_EQ(alone.gathered(), nullptr);
+    const Location zero = learned.locate(learned.image());
+    ASSERT_TRUE(zero.ok);
+    EXPECT_NEAR(std::hypot(zero.x_px, zero.y_px), 0.0, 1e-6);
+    for (const auto& spec : session.frames) {
+      const GrayImage frame = image_of(session.renderer.render(spec));
+      const auto truth = test_support::truth_of(session, spec).shift_px;
+      const auto square = [&](const Location& at) {
+        EXPECT_TRUE(at.ok) << at.reason;
+        return std::pow(at.x_px - truth.x, 2) + std::pow(at.y_px - truth.y, 2);
+      };
+      squares_alone += square(alone.locate(frame));
+      squares += square(learned.locate(frame));
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / 36.0), 0.010);
+  EXPECT_LT(squares, squares_alone);
+  // A print says so much that its noise does no harm.
+  const test_support::Session print = test_support::make_session(PatternKind::speckle, Disturbance::clean, 78, 1);
+  const auto target = target_of(print);
+  ASSERT_TRUE(target);
+  const Target learned = target->learned_from(views_of(print));
+  EXPECT_EQ(learned.gathered(), nullptr);
+  const Region& at = learned.region();
+  EXPECT_EQ(learned.with_gathered(FloatImage(at.width, at.height)).gathered(), nullptr);  // of another size
+  // And what does not show the target at all is no mean of it.
+  const FloatImage even(at.width + 2 * template_margin_px, at.height + 2 * template_margin_px);
+  EXPECT_EQ(learned.with_gathered(even).gathered(), nullptr);
+}
+
 // A dark ball of little contrast in a noise of 1.5 grey levels; its highlight beside where it was by `turned_px`.
 GrayImage faint_ball(double x_px, double y_px, double turned_px, unsigned seed) {
   Noise noise(seed);

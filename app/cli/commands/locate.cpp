@@ -98,6 +98,7 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
     request.learn = false;
   } else if (stored && stored->region == target.region()) {
     target = target.with_backdrop(stored->backdrop).with_mask(stored->mask).with_lens(stored->lens);
+    if (stored->gathered) target = target.with_gathered(*stored->gathered);
     request.learn = false;
   } else if (stored) {
     warnings.push_back(fmt::format(
