@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 235> measuring = {{
+constexpr std::array<const char*, 238> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -153,7 +153,12 @@ constexpr std::array<const char*, 235> measuring = {{
     QT_TRANSLATE_NOOP(
         "core",
         "the pattern goes on beyond the region and repeats itself: %1,%2,%3,%4 shows where it ends and is used"),
-    QT_TRANSLATE_NOOP("core", "no region was given: %1,%2,%3,%4 shows the most pattern and is used"),
+    QT_TRANSLATE_NOOP("core",
+                      "no region was given: %1,%2,%3,%4 shows the most pattern and is used, measured is the point %5, "
+                      "%6"),
+    QT_TRANSLATE_NOOP("core", "the target (no region was given)"),
+    QT_TRANSLATE_NOOP("core", "%1 stands still while %2 moves by up to %3 px"),
+    QT_TRANSLATE_NOOP("core", "the region of one of them"),
     QT_TRANSLATE_NOOP("core", "%1: %2x%3 pixels, the template has %4x%5"),
     QT_TRANSLATE_NOOP("core", "camera %1: %2"),
     QT_TRANSLATE_NOOP("core", "reference: %1"),

@@ -111,6 +111,28 @@ std::string beyond_calibration(const Calibration& calibration, const std::vector
       first->frame, first->location.x_px, first->location.y_px);
 }
 
+double largest_move_px(const Target& target, const std::vector<GrayImage>& frames) {
+  double largest = 0.0;
+  for (const GrayImage& frame : frames) {
+    if (const Location at = target.locate(frame); at.ok) largest = std::max(largest, std::hypot(at.x_px, at.y_px));
+  }
+  return largest;
+}
+
+// A pattern that nobody named, beside one that moves while it stands still, is hardly the target.
+Status check_which_moves(const Target& target, const Target& other, const std::vector<GrayImage>& frames) {
+  constexpr double still = 0.2;  // of the other's way
+  constexpr double least_way_px = 0.3;
+  const double way_px = largest_move_px(other, frames);
+  if (way_px < least_way_px || largest_move_px(target, frames) > still * way_px) return {};
+  const auto text_of = [](const Region& r) { return fmt::format("{},{},{},{}", r.x, r.y, r.width, r.height); };
+  return fail(ErrorCode::bad_argument,
+              {{"what", "the target (no region was given)"},
+               {"found", fmt::format("{} stands still while {} moves by up to {:.1f} px", text_of(target.region()),
+                                     text_of(other.region()), way_px)},
+               {"expected", "the region of one of them"}});
+}
+
 struct LoadedView {
   ViewRow row;
   GrayImage image;
@@ -141,8 +163,10 @@ Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string
     region = *choice.region;
   } else {
     ZD_TRY(region, find_textured_region(picture.image, name));
-    warn(warnings, fmt::format("no region was given: {},{},{},{} shows the most pattern and is used", region.x,
-                               region.y, region.width, region.height));
+    const PixelPoint measured = choice.point.value_or(centre_of(region));
+    warn(warnings, fmt::format("no region was given: {},{},{},{} shows the most pattern and is used, measured is the "
+                               "point {:.1f}, {:.1f}",
+                               region.x, region.y, region.width, region.height, measured.x_px, measured.y_px));
   }
   if (const auto& p = choice.point;
       p && !(p->x_px >= 0.0 && p->x_px < picture.image.width && p->y_px >= 0.0 && p->y_px < picture.image.height)) {
@@ -162,6 +186,13 @@ Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string
     warn(warnings, std::move(unseen));
   }
   return target;
+}
+
+std::optional<Target> other_pattern(const Target& target) {
+  const Result<Region> at = find_textured_region(target.image(), "", &target.region());
+  if (!at) return std::nullopt;
+  Result<Target> other = Target::create(target.image(), *at, std::nullopt, "");
+  return other ? std::optional(std::move(*other)) : std::nullopt;
 }
 
 Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::string>* warnings) {
@@ -246,7 +277,9 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
                                                     const fs::path& folder, std::vector<std::string>* warnings,
                                                     const TaskContext& context) {
   ZD_TRY(const std::vector<fs::path> files, pictures_in(folder, warnings));
-  const Target taught = request.learn ? target.learned_from(sample_of(files), Cover::possible) : target;
+  const std::vector<GrayImage> sample = request.learn || request.other ? sample_of(files) : std::vector<GrayImage>();
+  if (request.other) ZD_CHECK(check_which_moves(target, *request.other, sample));
+  const Target taught = request.learn ? target.learned_from(sample, Cover::possible) : target;
   std::vector<FramePosition> out;
   for (const fs::path& file : files) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);

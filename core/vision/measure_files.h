@@ -22,6 +22,10 @@ struct TemplateChoice {
 /// Warnings say which region was chosen and what was converted.
 Result<Target> load_target(const TemplateChoice& choice, std::vector<std::string>* warnings);
 
+/// What else the template shows, if anything: asked where no region was given, for a pattern that stands still beside
+/// one that moves is hardly the target.
+std::optional<Target> other_pattern(const Target& target);
+
 struct ViewRow {
   std::filesystem::path image;  // beside views.csv unless absolute
   std::string name;             // as written
@@ -49,10 +53,12 @@ struct FramePosition {
 struct LocateRequest {
   std::vector<Target> references;
   std::optional<Calibration> calibration;
+  std::optional<Target> other;  // see other_pattern
   bool learn = true;  // mask and lens from the frames themselves; not needed when the target has learned from views
 };
 /// Every picture in the folder by file name. Pictures that cannot be read have a row with their reason; other files and
-/// what was converted are warned of. Errors: file_not_found, not_enough_data when there is no picture at all.
+/// what was converted are warned of. Errors: file_not_found, not_enough_data when there is no picture at all,
+/// bad_argument when the other pattern moves and the target does not.
 Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const LocateRequest& request,
                                                     const std::filesystem::path& folder,
                                                     std::vector<std::string>* warnings, const TaskContext& context);

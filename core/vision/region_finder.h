@@ -10,7 +10,7 @@
 
 namespace zerodrift::vision {
 
-/// Errors: template_without_texture.
-Result<Region> find_textured_region(const GrayImage& image, const std::string& name);
+/// `beside`: what is there is not looked at. Errors: template_without_texture.
+Result<Region> find_textured_region(const GrayImage& image, const std::string& name, const Region* beside = nullptr);
 
 }  // namespace zerodrift::vision

@@ -2022,8 +2022,20 @@
         <translation>%1 已略去：%2</translation>
     </message>
     <message>
-        <source>no region was given: %1,%2,%3,%4 shows the most pattern and is used</source>
-        <translation>未指定区域：%1,%2,%3,%4 处纹理最丰富，予以采用</translation>
+        <source>no region was given: %1,%2,%3,%4 shows the most pattern and is used, measured is the point %5, %6</source>
+        <translation>未指定区域：%1,%2,%3,%4 处纹理最丰富，予以采用；测量点为 %5, %6</translation>
+    </message>
+    <message>
+        <source>the target (no region was given)</source>
+        <translation>靶标（未指定区域）</translation>
+    </message>
+    <message>
+        <source>%1 stands still while %2 moves by up to %3 px</source>
+        <translation>%1 静止不动，而 %2 最多移动了 %3 px</translation>
+    </message>
+    <message>
+        <source>the region of one of them</source>
+        <translation>两者之一的区域</translation>
     </message>
     <message>
         <source>%1: %2x%3 pixels, the template has %4x%5</source>

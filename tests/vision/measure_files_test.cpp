@@ -199,6 +199,47 @@ TEST_F(MeasureFiles, FramesBeyondTheCalibrationAreSaidOnce) {
 }
 
 // Three views in nine leave nothing to check the matrix with.
+// Two patterns of which the fainter one moves: nobody has said which is the target.
+TEST_F(MeasureFiles, WithoutARegionWhatStandsStillBesideSomethingThatMovesIsRefused) {
+  const Speckle mark(1, 180.0, 240.0, 140.0);
+  Speckle faint(2, 450.0, 240.0, 140.0);
+  for (Speckle::Dot& dot : faint.dots) dot.depth *= 0.4;
+  const auto put_both = [&](const std::string& name, const Pose& of_mark, const Pose& of_faint, unsigned seed) {
+    GrayImage image = render(mark, of_mark, {.noise = 1.0, .seed = seed});
+    const GrayImage other = render(faint, of_faint, {.noise = 1.0, .seed = seed + 100});
+    for (int y = 0; y < image.height; ++y) {
+      std::copy_n(other.pixels.begin() + std::ptrdiff_t{y} * image.width + 315, image.width - 315,
+                  image.pixels.begin() + std::ptrdiff_t{y} * image.width + 315);
+    }
+    ASSERT_TRUE(write_png(m_folder / name, image));
+  };
+  put_both("both.png", {}, {}, 1);
+  const auto target = load_target({m_folder / "both.png", std::nullopt, std::nullopt}, nullptr);
+  ASSERT_TRUE(target);
+  ASSERT_LT(target->region().x + target->region().width, 315);
+  LocateRequest request;
+  request.other = other_pattern(*target);
+  ASSERT_TRUE(request.other);
+  EXPECT_GT(request.other->region().x, 315);
+  const auto measured = [&](double mark_px, double faint_px) {
+    for (int k = 0; k < 4; ++k) {
+      const unsigned seed = 10 + static_cast<unsigned>(k);
+      put_both(fmt::format("frames/{}.png", k), {.dx = mark_px * k}, {.dx = faint_px * k, .dy = -0.2}, seed);
+    }
+    return locate_in_folder(*target, request, m_folder / "frames", nullptr, {});
+  };
+  const auto refused = measured(0.0, 1.3);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+  EXPECT_NE(refused.error().context.at("found").find("moves by up to 3.9 px"), std::string::npos)
+      << describe(refused.error());
+  // What moves is the target; and where nothing moves nothing tells.
+  const auto moves = measured(1.3, 0.0);
+  ASSERT_TRUE(moves);
+  EXPECT_NEAR(moves->back().location.x_px, 3.9, 0.02);
+  EXPECT_TRUE(measured(0.0, 0.0));
+}
+
 TEST_F(MeasureFiles, MostViewsWithoutTheTargetAreNoCalibration) {
   std::vector<ViewRow> views;
   for (int k = 0; k < 9; ++k) {
@@ -284,6 +325,13 @@ TEST(RegionFinder, FindsAllOfASingleThing) {
   EXPECT_GE(found->x + found->width, 430 + 4);
   EXPECT_GE(found->y + found->height, 336 + 4);
   EXPECT_LE(std::max(found->width, found->height), 200 + 60);
+  // And hardly more than a small one.
+  const auto small = find_textured_region(render(Speckle(5, 330.0, 236.0, 60.0)), "t.png");
+  ASSERT_TRUE(small);
+  EXPECT_NEAR(centre_of(*small).x_px, 330.0, 8.0);
+  EXPECT_NEAR(centre_of(*small).y_px, 236.0, 8.0);
+  EXPECT_LE(std::max(small->width, small->height), 60 + 45);
+  EXPECT_GE(std::min(small->width, small->height), 60 + 8);
   const auto everywhere = find_textured_region(render(Speckle(4, 320.0, 240.0, 700.0)), "t.png");
   ASSERT_TRUE(everywhere);
   EXPECT_EQ(everywhere->width, 160);

@@ -81,6 +81,7 @@ Result<Prepared> prepare(const Options& options, std::vector<std::string>& warni
                                         loaded.error().context.at("size"))}});
   }
   ZD_TRY(vision::Target target, std::move(loaded));
+  if (!choice.region) request.other = vision::other_pattern(target);
   if (stored) ZD_CHECK(vision::made_with(*stored, target, options.calibration, options.image));
   if (request.calibration && !(stored && stored->picture)) {
     warnings.push_back(options.calibration +
