@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/vision/acceptance.h"
+#include "core/vision/bare_place.h"
 #include "core/vision/coarse_search.h"
 #include "core/vision/gathered_template.h"
 #include "core/vision/moved_apart.h"
@@ -234,7 +235,13 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
 
   Registration best;
   double best_coarse = candidates.front().correlation;
-  const std::vector<Candidate> likeliest = m_impl->likeliest(frame, candidates);
+  std::vector<Candidate> likeliest = m_impl->likeliest(frame, candidates);
+  if (m_impl->backdrop) {
+    const auto bare = [&](const Candidate& one) {
+      return is_bare(frame, m_impl->image, m_impl->region, *m_impl->backdrop, one.dx_px, one.dy_px);
+    };
+    likeliest.erase(std::remove_if(likeliest.begin(), likeliest.end(), bare), likeliest.end());
+  }
   if (likeliest.empty()) return refuse(Refusal::missing);
   for (const Candidate& one : likeliest) {
     const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
