@@ -332,8 +332,10 @@ bool doubles_a_joint(const Model& model) {
 }
 
 bool mends_a_joint(const Model& model) {
-  const std::vector<EffectSpec>& effects = model.machine().effects;
-  if (effects.empty() || effects.back().id != "extra_heat_source") return false;
+  const Machine& machine = model.machine();
+  const std::vector<EffectSpec>& effects = machine.effects;
+  if (effects.empty()) return false;
+  const EffectSpec& last = effects.back();
   const auto number = [&](std::size_t effect, std::string_view key) {
     for (std::size_t i = 0; i < model.unknowns(); ++i) {
       const auto& unknown = model.unknown(i);
@@ -341,11 +343,17 @@ bool mends_a_joint(const Model& model) {
     }
     return effects[effect].number_or(std::string(key), std::nan(""));
   };
-  const double heat_mm = number(effects.size() - 1, "position_mm");
+  const physics::Sensor* sensor =
+      last.id.starts_with("sensor_") ? machine.sensor(last.word_or("channel", "")) : nullptr;
+  if (last.id != "extra_heat_source" && sensor == nullptr) return false;
+  // A joint's edge is not as sharp as the one that is fitted: a sensor beside it reads some share of the step.
+  constexpr double edge = 2.0;
+  const double at_mm = sensor != nullptr ? sensor->position_mm : number(effects.size() - 1, "position_mm");
+  const std::string component = sensor != nullptr ? sensor->component : last.word_or("component", "");
+  const double breadths = sensor != nullptr ? edge : 1.0;
   for (std::size_t i = 0; i + 1 < effects.size(); ++i) {
-    const bool same_rod = effects[i].word_or("component", "") == effects.back().word_or("component", "");
-    if (effects[i].id != "contact_resistance" || !same_rod) continue;
-    if (std::abs(number(i, "position_mm") - heat_mm) < number(i, "half_width_mm")) return true;
+    if (effects[i].id != "contact_resistance" || effects[i].word_or("component", "") != component) continue;
+    if (std::abs(number(i, "position_mm") - at_mm) < breadths * number(i, "half_width_mm")) return true;
   }
   return false;
 }

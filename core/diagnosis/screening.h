@@ -32,7 +32,8 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts,
                               double least = 0.0);
 /// Two joints so close that the second only mends the shape of the first: places move while they are fitted.
 bool doubles_a_joint(const Model& model);
-/// The last effect is a heat so close to a joint that it may only mend the joint's shape, which is hardly known.
+/// The last effect is a heat, or the fault of a sensor, so close to a joint that it may only mend the joint's shape,
+/// which is hardly known.
 bool mends_a_joint(const Model& model);
 /// The model with one candidate more, or several, started at the candidates' steps, not yet fitted.
 std::shared_ptr<Model> extended(const Model& base, const Candidate& candidate);
