@@ -40,7 +40,7 @@ constexpr std::array<const char*, 257> models = {{
     QT_TRANSLATE_NOOP("core", "a share from 0.05 to 1"),
     QT_TRANSLATE_NOOP("core", "rpm, 10 to 500000"),
     QT_TRANSLATE_NOOP("core", "kelvin, above 0 and up to 20"),
-    QT_TRANSLATE_NOOP("core", "a share above 0, for example 0.1"),
+    QT_TRANSLATE_NOOP("core", "a share above 0 and up to 5, for example 0.1 for 10 %"),
     QT_TRANSLATE_NOOP("core", "a list of on, n, n2"),
     QT_TRANSLATE_NOOP("core", "a friction factor from 0 to 0.5 (usual 0.0003 to 0.002)"),
     QT_TRANSLATE_NOOP("core", "mm2/s, 0.5 to 20000"),

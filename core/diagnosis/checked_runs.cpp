@@ -66,18 +66,25 @@ void leave_out_what_lacks_inputs(CheckedRuns& runs) {
   }
 }
 
-void leave_out_still_gauges(const physics::Machine& machine, recording::Recording& recording, CheckedRuns& runs,
-                            std::vector<RunFinding>& findings) {
-  for (const StillGauge& gauge : take_out_still_gauges(machine, recording)) {
+void leave_out_still_gauges(const physics::Machine& machine, recording::Recording& recording,
+                            const std::vector<recording::Recording>& all, CheckedRuns& runs,
+                            std::vector<RunFinding>& told) {
+  for (const StillGauge& gauge : take_out_still_gauges(machine, recording, all)) {
     const std::string value = fmt::format("{:.4g}", gauge.always_um);
-    runs.warnings.push_back(fmt::format("never_changes:{}:{}", recording.name, gauge.channel));
+    const bool used = gauge.why == StillGauge::Why::at_rest;
+    const analysis::Finding finding{analysis::FindingKind::error_never_moves,
+                                    used ? analysis::FindingAction::noted : analysis::FindingAction::dropped,
+                                    gauge.channel, "always " + value};
+    if (!used) runs.warnings.push_back(fmt::format("never_changes:{}:{}", recording.name, gauge.channel));
+    if (gauge.why != StillGauge::Why::moves_as_described) {
+      runs.findings.push_back({recording.name, finding});
+      continue;
+    }
     runs.told.push_back(explain_note("run_gauge_never_changes", {{"recording", recording.name},
                                                                  {"channel", gauge.channel},
                                                                  {"value", value},
                                                                  {"um", fmt::format("{:.0f}", gauge.simulated_um)}}));
-    findings.push_back({recording.name,
-                        {analysis::FindingKind::error_never_moves, analysis::FindingAction::dropped, gauge.channel,
-                         "always " + value}});
+    told.push_back({recording.name, finding});
   }
 }
 
@@ -153,7 +160,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
                                                        {"by", fmt::format("{:.3g}", jump.by_s / 60.0)},
                                                        {"at", fmt::format("{:.0f}", jump.at_s / 60.0)}}));
     }
-    leave_out_still_gauges(machine, sound.recording, out, still);
+    leave_out_still_gauges(machine, sound.recording, given, out, still);
     for (auto& spikes : spikes_left_out(machine, sound.recording))
       out.findings.push_back({one.name, std::move(spikes)});
     out.recordings.push_back(std::move(sound.recording));

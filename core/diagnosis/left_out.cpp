@@ -34,25 +34,46 @@ std::optional<double> only_value(const recording::Channel& channel) {
   return there[there.size() / 2];
 }
 
+/// Neighbouring samples differ as a rule: a gauge that resolves its own noise.
+bool shows_noise(const recording::Channel& channel) {
+  constexpr double as_a_rule = 0.5;
+  std::vector<double> there;
+  std::copy_if(channel.values.begin(), channel.values.end(), std::back_inserter(there),
+               [](double v) { return std::isfinite(v); });
+  if (there.size() < fewest) return false;
+  std::size_t differ = 0;
+  for (std::size_t k = 1; k < there.size(); ++k) differ += there[k] != there[k - 1] ? 1 : 0;
+  return static_cast<double>(differ) > as_a_rule * static_cast<double>(there.size() - 1);
+}
+
 }  // namespace
 
-std::vector<StillGauge> take_out_still_gauges(const physics::Machine& machine, recording::Recording& recording) {
+std::vector<StillGauge> take_out_still_gauges(const physics::Machine& machine, recording::Recording& recording,
+                                              const std::vector<recording::Recording>& all) {
   constexpr double far_um = 5.0;  // gauges resolve a micrometre or less
   std::vector<StillGauge> still;
   for (const auto& displacement : machine.displacements) {
     const recording::Channel* channel = recording.find(displacement.channel);
     if (channel == nullptr) continue;
-    if (const auto value = only_value(*channel)) still.push_back({displacement.channel, *value, 0.0});
+    const auto value = only_value(*channel);
+    if (!value) continue;
+    const bool reads = std::any_of(all.begin(), all.end(), [&](const recording::Recording& other) {
+      const recording::Channel* there = other.find(displacement.channel);
+      return there != nullptr && shows_noise(*there);
+    });
+    using Why = StillGauge::Why;
+    still.push_back({displacement.channel, *value, 0.0, reads ? Why::reads_elsewhere : Why::at_rest});
   }
-  if (still.empty() || has_unknown_heat(machine)) return {};
-  const auto simulation = physics::simulate(machine, recording);
-  if (!simulation) return {};  // whoever fits it says why
+  if (still.empty()) return {};
+  const auto simulation = physics::simulate(machine, recording);  // where it cannot be, whoever fits it says why
   for (StillGauge& gauge : still) {
+    if (!simulation || has_unknown_heat(machine)) break;
     const recording::Channel* simulated = simulation->prediction.find(gauge.channel);
     if (simulated != nullptr) gauge.simulated_um = middle_range(sorted_samples(simulated->values));
+    if (gauge.simulated_um >= far_um) gauge.why = StillGauge::Why::moves_as_described;
   }
-  std::erase_if(still, [](const StillGauge& gauge) { return gauge.simulated_um < far_um; });
   for (const StillGauge& gauge : still) {
+    if (gauge.why == StillGauge::Why::at_rest) continue;
     std::erase_if(recording.channels, [&](const auto& channel) { return channel.name == gauge.channel; });
   }
   return still;

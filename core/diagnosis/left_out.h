@@ -12,14 +12,20 @@
 namespace zerodrift::diagnosis {
 
 struct StillGauge {
+  enum class Why {
+    moves_as_described,  // far beyond what any gauge resolves
+    reads_elsewhere,     // in another recording it shows noise: alive it cannot repeat itself
+    at_rest              // perhaps: nothing moves it by more than it may resolve
+  };
   std::string channel;
   double always_um = 0.0;
-  double simulated_um = 0.0;  // movement as described
+  double simulated_um = 0.0;  // movement as described, 0 where heat of unknown size leaves nothing to compare with
+  Why why = Why::at_rest;
 };
 
-/// Takes displacements out that repeat one value all the time where the machine as described moves far beyond what any
-/// gauge resolves. None where heat of unknown size leaves nothing to compare with.
-std::vector<StillGauge> take_out_still_gauges(const physics::Machine& machine, recording::Recording& recording);
+/// The displacements that repeat one value all the time. What cannot be a gauge at rest is taken out.
+std::vector<StillGauge> take_out_still_gauges(const physics::Machine& machine, recording::Recording& recording,
+                                              const std::vector<recording::Recording>& all);
 
 /// For each channel that is compared with the simulation: how many samples no fit looks at, where there are a few. They
 /// stay where they are.

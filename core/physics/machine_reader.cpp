@@ -30,7 +30,7 @@ constexpr NumberRange power_range{10.0, 2e6, false, "watts, 10 to 2000000 (is it
 constexpr NumberRange efficiency_range{0.05, 1.0, false, "a share from 0.05 to 1"};
 constexpr NumberRange speed_range{10.0, 500000.0, false, "rpm, 10 to 500000"};
 constexpr NumberRange accuracy_range{0.0, 20.0, true, "kelvin, above 0 and up to 20"};
-constexpr NumberRange tolerance_range{0.0, 5.0, true, "a share above 0, for example 0.1"};
+constexpr NumberRange tolerance_range{0.0, 5.0, true, "a share above 0 and up to 5, for example 0.1 for 10 %"};
 
 CoolingJacket read_jacket(JsonObject& o) {
   CoolingJacket jacket;

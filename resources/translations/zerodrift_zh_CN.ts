@@ -2286,8 +2286,8 @@
         <translation>K，大于 0 且不超过 20</translation>
     </message>
     <message>
-        <source>a share above 0, for example 0.1</source>
-        <translation>大于 0 的比例，例如 0.1</translation>
+        <source>a share above 0 and up to 5, for example 0.1 for 10 %</source>
+        <translation>大于 0、至多为 5 的比例，例如 0.1 即 10 %</translation>
     </message>
     <message>
         <source>a list of on, n, n2</source>
