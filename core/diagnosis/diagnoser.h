@@ -65,6 +65,8 @@ class Diagnoser {
   void times();
   void place_from_effect();
   void held_out();
+  double left_elsewhere(const physics::Machine& machine) const;
+  bool counts_from_each_start(const physics::Machine& best) const;
   void slips_of_its_own(const physics::Machine& best, const recording::Recording& other, HeldOut& result) const;
   bool refuted() const;
   bool only_comes_and_goes() const;
@@ -93,8 +95,9 @@ class Diagnoser {
   std::vector<std::shared_ptr<const Dataset>> m_other_sets;  // as m_limits.others at first
   std::shared_ptr<const Dataset> m_data, m_default_data;
   bool m_lumps_only = false;
-  std::string m_moved_elsewhere;  // what only another recording shows to be unexplained
-  bool m_wide = false;            // the data asked for more than the ordinary discrepancy
+  std::string m_moved_elsewhere;   // what only another recording shows to be unexplained
+  bool m_from_each_start = false;  // temperature laws of what is named
+  bool m_wide = false;             // the data asked for more than the ordinary discrepancy
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <random>
 #include <tuple>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/physics/simulate.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -382,6 +385,53 @@ TEST(WrongSetUp, WhatOneRunShowsHoldsInOneThatStartsWarm) {
   }
 }
 
+/// What a machine with this preload shows from a start at that temperature, by the simulation itself, with noise.
+recording::Recording warmed_from(double start_C, std::optional<double> reference_C, const physics::Machine& described,
+                                 recording::Recording run) {
+  physics::Machine machine = described;
+  machine.initial_temperature_C = start_C;
+  machine.reference_temperature_C = reference_C;
+  machine.effects.push_back({"bearing_preload", false, {{"growth_1_K", 0.08}}, {}});
+  auto& room = run.find("ambient_C")->values;
+  const double warmer_K = start_C - room.front();
+  for (double& value : room) value += warmer_K;
+  for (const auto& sensor : machine.sensors) {
+    if (sensor.channel != "ambient_C") run.find(sensor.channel)->values.assign(run.rows(), start_C);
+  }
+  const auto simulated = physics::simulate(machine, run);
+  std::mt19937 random(7);
+  for (const auto& name : simulated->predicted) {
+    recording::Channel* channel = run.find(name);
+    if (channel == nullptr) continue;
+    std::normal_distribution<double> noise(0.0, name.front() == 'T' ? 0.05 : 0.2);
+    const auto& clean = simulated->prediction.find(name)->values;
+    for (std::size_t k = 0; k < clean.size(); ++k) channel->values[k] = clean[k] + noise(random);
+  }
+  return run;
+}
+
+TEST(WrongSetUp, AnotherRunTellsWhereALawOfTemperatureCountsFrom) {
+  proof::Case one = proof::make_case(320, "none");
+  one.recordings.resize(2);
+  one.machine.erase("initial_temperature_C");
+  const auto described = physics::machine_from_json(one.machine, one.name);
+  ASSERT_TRUE(described.has_value());
+  const std::vector<recording::Recording> inputs = one.recordings;
+  for (const bool from_each_start : {false, true}) {
+    const std::optional<double> reference_C = from_each_start ? std::nullopt : std::optional(20.0);
+    one.recordings[0] = warmed_from(20.0, reference_C, *described, inputs[0]);
+    one.recordings[1] = warmed_from(24.0, reference_C, *described, inputs[1]);
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    ASSERT_EQ(answer->effects.size(), 1U);
+    EXPECT_EQ(answer->effects[0].id, "bearing_preload");
+    EXPECT_EQ(notes(*answer, "counts_from_each_start"), from_each_start);
+    EXPECT_EQ(answer->refined.reference_temperature_C.has_value(), !from_each_start);
+    for (const auto& channel : answer->channels)
+      EXPECT_LT(answer->held_out[0].explained.at(channel.channel), 3.0 * channel.noise) << channel.channel;
+  }
+}
+
 TEST(WrongSetUp, ACutOfTheFittedRunIsNoSecondOne) {
   proof::Case one = proof::make_case(308, "none");
   one.recordings.resize(1);
@@ -449,6 +499,39 @@ TEST(WrongSetUp, AGaugeThatNeverChangesIsToldAndNotUsed) {
     EXPECT_EQ(answer->effects[0].id, "coolant");
     for (const auto& channel : answer->channels) EXPECT_NE(channel.channel, "dZ_um");
   }
+}
+
+/// The description moves nothing across, and one recording's gauge was dead: the other shows that it has noise.
+TEST(WrongSetUp, AGaugeThatReadsInOneRecordingAloneIsNotUsedInTheOther) {
+  for (const std::size_t dead : {0U, 1U}) {
+    proof::Case one = proof::make_case(334, "structure_bending");
+    ASSERT_EQ(one.recordings.size(), 2U);
+    auto& seen_um = one.recordings[dead].find("dY_um")->values;
+    std::fill(seen_um.begin(), seen_um.end(), 0.0);
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(notes(*answer, "never_changes:" + one.recordings[dead].name + ":dY_um"));
+    EXPECT_TRUE(says(*answer, "run_finding"));
+    EXPECT_NE(answer->verdict, Verdict::unexplained);
+    if (dead == 0) continue;  // nothing of it is left in what is fitted
+    ASSERT_EQ(answer->effects.size(), 1U);
+    EXPECT_EQ(answer->effects[0].id, "structure_bending");
+  }
+}
+
+/// Nothing moves it as described, and nobody knows how coarse it is: told, and still used.
+TEST(WrongSetUp, AGaugeThatMayBeAtRestIsToldAndUsed) {
+  proof::Case one = proof::make_case(330, "none");
+  for (auto& run : one.recordings) {
+    auto& seen_um = run.find("dY_um")->values;
+    std::fill(seen_um.begin(), seen_um.end(), 0.0);
+  }
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::consistent);
+  EXPECT_TRUE(says(*answer, "run_finding"));
+  EXPECT_TRUE(std::any_of(answer->channels.begin(), answer->channels.end(),
+                          [](const auto& channel) { return channel.channel == "dY_um"; }));
 }
 
 TEST(WrongSetUp, ADescriptionBentBeyondBeliefIsNotConsistent) {
