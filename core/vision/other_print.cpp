@@ -10,6 +10,7 @@ namespace {
 constexpr int bins = 32;
 constexpr float levels_a_bin = 8.0f;
 constexpr double even_energy = 0.25;      // of the mean squared gradient
+constexpr int near_end = 3;               // bins from the darkest or the brightest tone
 constexpr double own_share = 0.06;        // of the even pixels: a tone of the target
 constexpr double most_tones = 0.5;        // of the range from the darkest tone to the brightest
 constexpr float another_tone = 24.0f;     // grey levels
@@ -47,7 +48,9 @@ double printed_otherwise(const TemplateModel& model, const Eigen::VectorXf& tone
     const float change = tone(k) - model.value[k];
     if (hidden[k] != 1 || std::abs(change) < another_tone) continue;
     ++gone;
-    if (own[bin_of(tone(k))]) ++(change > 0.0f ? brighter : darker);
+    const int shown = bin_of(tone(k));
+    // A cover of a tone in between - of the backdrop's, say - is brighter here and darker there as well.
+    if (own[shown] && std::min(shown - first, last - shown) <= near_end) ++(change > 0.0f ? brighter : darker);
   }
   if (gone < least_hidden * static_cast<double>(even.size())) return 0.0;
   if (std::min(brighter, darker) < least_both_ways * (brighter + darker)) return 0.0;
