@@ -16,15 +16,16 @@ constexpr int tiles = tiles_a_side * tiles_a_side;
 constexpr double tile_weight = 30.0;  // pixels' worth: a tile with less says nothing
 constexpr double most_of_part = 0.95;
 constexpr double least_of_tile = 0.5;
-constexpr double beyond_noise = 3.3;       // times: 0.1 % of chi-square of eight over eight is above
-constexpr double whole_target = 0.97;      // of the pixels: nothing lies over it
-constexpr std::size_t least_tiles = 8;     // that tell how even the errors are
-constexpr double even_ratio = 1.75;        // upper quartile of the tiles' variances over the lower
-constexpr double uneven_ratio = 2.75;      // the same, of covers that were taken for a part of the target
-constexpr double at_rest_px = 5e-4;        // a larger last step was followed by others, if it had been let
-constexpr double steps_to_come = 3.0;      // times: they shrink slowly where weights and motion wait for each other
-constexpr double hidden_weight = 0.05;     // a pixel with less does not show the target
-constexpr double least_rim_energy = 0.05;  // of the gradient energy: with less the rim says nothing
+constexpr double beyond_noise = 3.3;          // times: 0.1 % of chi-square of eight over eight is above
+constexpr double halves_beyond_noise = 25.0;  // the same of one, five standard deviations: it is seldom noise
+constexpr double whole_target = 0.97;         // of the pixels: nothing lies over it
+constexpr std::size_t least_tiles = 8;        // that tell how even the errors are
+constexpr double even_ratio = 1.75;           // upper quartile of the tiles' variances over the lower
+constexpr double uneven_ratio = 2.75;         // the same, of covers that were taken for a part of the target
+constexpr double at_rest_px = 5e-4;           // a larger last step was followed by others, if it had been let
+constexpr double steps_to_come = 3.0;         // times: they shrink slowly where weights and motion wait for each other
+constexpr double hidden_weight = 0.05;        // a pixel with less does not show the target
+constexpr double least_rim_energy = 0.05;     // of the gradient energy: with less the rim says nothing
 
 bool in_rim(int tile) {
   const int row = tile / tiles_a_side;
@@ -189,6 +190,15 @@ Eigen::Vector2d RegistrationSolver::variance_by_parts(const Scores& scores) cons
   for (const Eigen::Vector2d& along : {by_columns, by_rows}) {
     for (int axis = 0; axis < 2; ++axis) {
       if (along(axis) > beyond_noise * by_tiles(axis)) out(axis) = std::max(out(axis), along(axis));
+    }
+  }
+  // Two halves that moved by different amounts: of many parts each says little of that.
+  constexpr int half = tiles_a_side / 2;
+  const Eigen::Vector2d left_and_right = jackknife(scores, [](int tile) { return tile % tiles_a_side / half; });
+  const Eigen::Vector2d above_and_below = jackknife(scores, [](int tile) { return tile / tiles_a_side / half; });
+  for (const Eigen::Vector2d& halves : {left_and_right, above_and_below}) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (halves(axis) > halves_beyond_noise * by_tiles(axis)) out(axis) = std::max(out(axis), 0.5 * halves(axis));
     }
   }
   return out;
