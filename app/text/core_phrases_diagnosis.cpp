@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 117> diagnosis = {{
+constexpr std::array<const char*, 118> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -200,6 +200,10 @@ constexpr std::array<const char*, 117> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: worst at {channel}, {@regime}, where "
                       "about {watts} W too much heat is simulated."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "What oil and preload do counts from the temperature at which each run starts, not from one that stays: the "
+        "other recording, which starts at another, is predicted better so."),
     QT_TRANSLATE_NOOP(
         "core",
         "Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "

@@ -350,6 +350,9 @@ void Diagnoser::notes() {
                      {{"part", component.id}, {"above", fmt::format("{:.1f}", std::abs(above_K))}}));
   }
   coarse_rows();
+  if (std::count(m_out.notes.begin(), m_out.notes.end(), "counts_from_each_start") != 0) {
+    m_out.sentences.push_back(explain_note("counts_from_each_start"));
+  }
   another_machine();
   worse_elsewhere();
   const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {

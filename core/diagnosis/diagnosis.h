@@ -169,7 +169,8 @@ struct DiagnoseOptions {
 /// them never acted. Note "coarse_rows": switching times are hardly known.
 /// Note "never_changes:RECORDING:CHANNEL": a displacement that repeats one value while the machine moves; it is not
 /// used. Note "few_sensors:COMPONENT:COUNT": so few see where along it something happens. Note
-/// "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be known.
+/// "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be known. Note
+/// "counts_from_each_start": oil and preload, and the refined description states no reference temperature.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

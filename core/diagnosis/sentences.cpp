@@ -95,6 +95,9 @@ constexpr std::array catalogue{
         "tolerances_raised",
         "The description states a smaller tolerance for {+quantities} than anybody can know such a number to: {values} "
         "was taken instead."},
+    Entry{"counts_from_each_start",
+          "What oil and preload do counts from the temperature at which each run starts, not from one that stays: the "
+          "other recording, which starts at another, is predicted better so."},
     Entry{"held_out_differs",
           "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
           "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "

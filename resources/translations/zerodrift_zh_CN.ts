@@ -3602,6 +3602,10 @@
         <translation>存在效应库无法解释的缺失：{channel} 处最严重，{@regime}，仿真的热量约多出 {watts} W。</translation>
     </message>
     <message>
+        <source>What oil and preload do counts from the temperature at which each run starts, not from one that stays: the other recording, which starts at another, is predicted better so.</source>
+        <translation>润滑油和预紧的作用以每次运行开始时的温度为基准，而不是一个固定温度：另一份从不同温度开始的记录按此预测得更准。</translation>
+    </message>
+    <message>
         <source>Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told from so few; three or more, spread over its length, show places.</source>
         <translation>{part} 上所用的温度传感器数量：{count}。数量太少，难以判断现象发生在其何处；沿其长度布置三个或更多传感器才能显示位置。</translation>
     </message>

@@ -426,6 +426,7 @@ TEST(WrongSetUp, AnotherRunTellsWhereALawOfTemperatureCountsFrom) {
     ASSERT_EQ(answer->effects.size(), 1U);
     EXPECT_EQ(answer->effects[0].id, "bearing_preload");
     EXPECT_EQ(notes(*answer, "counts_from_each_start"), from_each_start);
+    EXPECT_EQ(says(*answer, "counts_from_each_start"), from_each_start);
     EXPECT_EQ(answer->refined.reference_temperature_C.has_value(), !from_each_start);
     for (const auto& channel : answer->channels)
       EXPECT_LT(answer->held_out[0].explained.at(channel.channel), 3.0 * channel.noise) << channel.channel;

@@ -117,6 +117,10 @@ std::vector<TextEntry> texts_of_physics() {
       {"Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W "
        "too much heat is simulated.",
        "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，仿真的热量约多出 {watts} W。"},
+      {"What oil and preload do counts from the temperature at which each run starts, not from one that stays: the "
+       "other recording, which starts at another, is predicted better so.",
+       "润滑油和预紧的作用以每次运行开始时的温度为基准，而不是一个固定温度：另一份从不同温度开始的记录按此预测得更准"
+       "。"},
       {"Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "
        "from so few; three or more, spread over its length, show places.",
        "{part} "
