@@ -45,7 +45,8 @@ constexpr double some_covered = 0.05;   // of the region, by what neither travel
 constexpr int least_moved = 3;          // frames in which the target is elsewhere
 constexpr double noisy_share = 0.06;    // of the gradients' energy: less noise in the template does no harm
 constexpr int gathering_rounds = 2;
-constexpr double same_blur_px2 = 0.2;
+constexpr double same_blur_px2 = 0.2;  // in other light a lamp may stand elsewhere too
+constexpr double same_contrast = 0.1;
 
 bool like_the_target(const Registration& glance) {
   return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
@@ -402,7 +403,8 @@ Target Target::gathered_from(const std::vector<GrayImage>& frames) const {
     std::vector<RegisteredFrame> alike;
     for (const GrayImage& frame : frames) {
       const Location at = out.search(frame);
-      if (!at.ok || std::abs(at.blur_px2) > same_blur_px2) continue;
+      const bool same = std::abs(at.blur_px2) < same_blur_px2 && std::abs(at.contrast - 1.0) < same_contrast;
+      if (!at.ok || !same) continue;
       alike.push_back({&frame, {at.x_px, at.y_px}, at.linear, at.lens});
     }
     auto mean = gathered_pixels(m_impl->image, m_impl->region, m_impl->point, alike, out.backdrop().get());
