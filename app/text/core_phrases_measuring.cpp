@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 238> measuring = {{
+constexpr std::array<const char*, 239> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -166,6 +166,11 @@ constexpr std::array<const char*, 238> measuring = {{
     QT_TRANSLATE_NOOP("core", "%1 (reference %2)"),
     QT_TRANSLATE_NOOP("core", "%1 was measured without %2"),
     QT_TRANSLATE_NOOP("core", "the target was found in %1 of %2 views (the first without it is %3)"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "the target was found in %1 of %2 views (the first without it is %3), and there the residual of %4 "
+        "um rms is more than their pictures and the machine explain: what stands behind shows through; give "
+        "it an even backdrop, brighter or darker than the target"),
     QT_TRANSLATE_NOOP("core", "the file does not exist"),
     QT_TRANSLATE_NOOP("core", "target missing"),
     QT_TRANSLATE_NOOP("core", "target occluded, or another one"),

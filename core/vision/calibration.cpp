@@ -285,6 +285,29 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
   return out;
 }
 
+bool scatters_beyond_pictures(const Calibration& calibration, const CalibrationLimits& limits) {
+  constexpr double never_by_chance = 1e-3;
+  constexpr double fair_part = 0.2;  // of the residual
+  double chi_square = 0.0;
+  double stated_um2 = 0.0;
+  for (const CalibrationView& view : calibration.views) {
+    const double stated_um = view.sigma_px * calibration.scale_um_per_px;
+    const double miss_um2 = view.residual_x_um * view.residual_x_um + view.residual_y_um * view.residual_y_um;
+    chi_square += miss_um2 / (stated_um * stated_um + limits.repeatability_um * limits.repeatability_um);
+    stated_um2 += stated_um * stated_um / static_cast<double>(calibration.views.size());
+  }
+  if (stated_um2 < fair_part * fair_part * calibration.rms_um * calibration.rms_um) return false;
+  // The tail of chi-square has a closed form for an even number of degrees of freedom: two for each view, less the six
+  // of the fit.
+  double term = 1.0;
+  double sum = 0.0;
+  for (std::size_t k = 0; k + 3 < calibration.views.size(); ++k) {
+    sum += term;
+    term *= 0.5 * chi_square / static_cast<double>(k + 1);
+  }
+  return sum > 0.0 && std::exp(-0.5 * chi_square) * sum < never_by_chance;
+}
+
 std::vector<ProposedPosition> propose_positions(double span_mm, int per_side, double approach_mm) {
   std::vector<ProposedPosition> out{{0.0, 0.0, -approach_mm, -approach_mm}};
   const double step = span_mm / (per_side - 1);

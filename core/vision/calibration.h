@@ -24,6 +24,7 @@ struct CalibrationView {
   double y_mm = 0.0;  // along the axis seen upwards
   double x_px = 0.0;  // displacement since the template
   double y_px = 0.0;
+  double sigma_px = 0.0;       // stated of both, rms; 0: not known
   double residual_x_um = 0.0;  // machine coordinate - calibrated image coordinate
   double residual_y_um = 0.0;
 };
@@ -72,6 +73,11 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
 
 /// Which view the others predict worst; nothing below five views, which cannot tell.
 std::optional<std::size_t> oddest_view(const std::vector<CalibrationView>& views);
+
+/// Whether the views scatter about the calibration by more than chance makes of what their pictures state and a machine
+/// of the assumed repeatability, where the pictures state a fair part of it: then it is likelier what they state that
+/// is wrong than the machine.
+bool scatters_beyond_pictures(const Calibration& calibration, const CalibrationLimits& limits = {});
 
 /// A position to drive to, relative to the place of the template, always reached from the same side (backlash).
 struct ProposedPosition {

@@ -85,6 +85,7 @@ CalibrationView view_of(JsonObject& object) {
   view.y_mm = object.number_or("y_mm", 0.0);
   view.x_px = object.number_or("x_px", 0.0);
   view.y_px = object.number_or("y_px", 0.0);
+  view.sigma_px = object.number_or("sigma_px", 0.0);
   view.residual_x_um = object.number_or("residual_x_um", 0.0);
   view.residual_y_um = object.number_or("residual_y_um", 0.0);
   return view;
@@ -100,6 +101,7 @@ nlohmann::json to_json(const Calibration& c) {
                      {"y_mm", view.y_mm},
                      {"x_px", view.x_px},
                      {"y_px", view.y_px},
+                     {"sigma_px", view.sigma_px},
                      {"residual_x_um", view.residual_x_um},
                      {"residual_y_um", view.residual_y_um}});
   }

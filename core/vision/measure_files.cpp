@@ -256,7 +256,8 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
       if (refused.empty()) refused = loaded[k].row.name + ": " + at.reason;
       continue;
     }
-    used.push_back({loaded[k].row.name, loaded[k].row.x_mm, loaded[k].row.y_mm, at.x_px, at.y_px, 0.0, 0.0});
+    used.push_back({loaded[k].row.name, loaded[k].row.x_mm, loaded[k].row.y_mm, at.x_px, at.y_px,
+                    std::hypot(at.sigma_x_px, at.sigma_y_px) / std::sqrt(2.0)});
   }
   // What most views do not show is not what the few others can be trusted to show, and they leave nothing to check
   // with.
@@ -270,6 +271,17 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
     return fail(ErrorCode::calibration_refused, {{"reason", reason}});
   }
   ZD_TRY(Calibration calibration, calibrate(std::move(used)));
+  // A backdrop that is taken for part of the target hides it in some views and draws it in the others, the zero
+  // included.
+  if (!refused.empty() && scatters_beyond_pictures(calibration)) {
+    return fail(
+        ErrorCode::calibration_refused,
+        {{"reason", fmt::format("the target was found in {} of {} views (the first without it is {}), and there the "
+                                "residual of {:.1f} um rms is more than their pictures and the machine explain: what "
+                                "stands behind shows through; give it an even backdrop, brighter or darker than the "
+                                "target",
+                                calibration.views.size(), loaded.size(), refused, calibration.rms_um)}});
+  }
   return FileCalibration{std::move(calibration), masked};
 }
 

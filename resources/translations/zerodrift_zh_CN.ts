@@ -4246,6 +4246,10 @@
         <translation>%2 个视图中只在 %1 个里找到靶标（第一个未找到的是 %3）</translation>
     </message>
     <message>
+        <source>the target was found in %1 of %2 views (the first without it is %3), and there the residual of %4 um rms is more than their pictures and the machine explain: what stands behind shows through; give it an even backdrop, brighter or darker than the target</source>
+        <translation>%2 个视图中只在 %1 个里找到靶标（第一个未找到的是 %3），且残差 %4 um（均方根）超出图像与机床所能解释的范围：背景透入了靶标；请使用比靶标更亮或更暗的均匀背景</translation>
+    </message>
+    <message>
         <source>not clearly worse, and steadier where the sensors rise together</source>
         <translation>并无明显劣势，且在各传感器同步升温时更稳定</translation>
     </message>

@@ -28,7 +28,7 @@ std::vector<CalibrationView> views_at(const std::vector<std::pair<double, double
     const Eigen::Vector2d actual_um(1000.0 * x_mm + repeatability_um * noise(random),
                                     1000.0 * y_mm + repeatability_um * noise(random));
     const Eigen::Vector2d px = um_from_px.inverse() * actual_um;
-    views.push_back({"view" + std::to_string(views.size()) + ".png", x_mm + 100.0, y_mm - 20.0, px(0), px(1), 0, 0});
+    views.push_back({"view" + std::to_string(views.size()) + ".png", x_mm + 100.0, y_mm - 20.0, px(0), px(1)});
   }
   return views;
 }
@@ -53,6 +53,25 @@ TEST(Calibration, GridGivesTheFullMatrixWithTrueUncertainty) {
   const Eigen::Matrix2d pull = (noisy->um_from_px - true_um_from_px()).cwiseQuotient(noisy->sigma());
   EXPECT_LT(pull.cwiseAbs().maxCoeff(), 3.0);
   EXPECT_GT(noisy->leave_one_out_um, noisy->rms_um);
+}
+
+// Of a hundred draws; the pictures are as good as they say, and the machine repeats to `machine_um`.
+int scattering_beyond(double stated_px, double machine_um) {
+  int count = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    auto views = views_at(grid(), true_um_from_px(), machine_um, seed);
+    for (CalibrationView& view : views) view.sigma_px = stated_px;
+    const auto result = calibrate(views);
+    if (result && scatters_beyond_pictures(*result)) ++count;
+  }
+  return count;
+}
+
+TEST(Calibration, AScatterBeyondWhatThePicturesStateIsTheirsWhereTheyStateAFairPartOfIt) {
+  EXPECT_LE(scattering_beyond(0.08, 1.0), 1);
+  EXPECT_GE(scattering_beyond(0.08, 4.0), 90);
+  // A machine that repeats to 4 um, seen by pictures that are good to a hundredth of it.
+  EXPECT_EQ(scattering_beyond(0.003, 4.0), 0);
 }
 
 TEST(Calibration, APositionReadWronglyIsNamed) {
