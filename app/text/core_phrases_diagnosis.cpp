@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 118> diagnosis = {{
+constexpr std::array<const char*, 120> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -87,7 +87,9 @@ constexpr std::array<const char*, 118> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "radiation to the room"),
     QT_TRANSLATE_NOOP("core", "cooling by the coolant"),
     QT_TRANSLATE_NOOP("core", "bearing oil that thins as it warms"),
+    QT_TRANSLATE_NOOP("core", "another bearing preload than described"),
     QT_TRANSLATE_NOOP("core", "bearing preload that grows with the heat"),
+    QT_TRANSLATE_NOOP("core", "bearing preload that grows with speed"),
     QT_TRANSLATE_NOOP("core", "an extra heat source"),
     QT_TRANSLATE_NOOP("core", "a joint that conducts badly"),
     QT_TRANSLATE_NOOP("core", "the structure following the room"),

@@ -106,6 +106,13 @@ void put_place(Sentence& s, const std::string& channel, const std::optional<doub
   }
 }
 
+/// In the form that was found.
+std::string name_of_form(const FoundEffect& effect) {
+  if (effect.id == "bearing_preload" && effect.parameters.count("growth_1_K") != 0) return "bearing_preload_heat";
+  if (effect.id == "bearing_preload" && effect.parameters.count("speed_share") != 0) return "bearing_preload_speed";
+  return effect.id;
+}
+
 /// Where the size of the effect is its heat already, that is not said twice.
 void put_heat(Sentence& s, const FoundEffect& effect) {
   s.facts["heat"] = "heat_none";
@@ -193,12 +200,13 @@ namespace {
 /// What it is, how large and where, and when it acts.
 Sentence about_effect(const FoundEffect& effect, double end_s, const std::string& worst_channel) {
   Sentence s;
-  s.facts = {{"name", effect.id},
+  s.facts = {{"name", name_of_form(effect)},
              {"parameters", parameters_in_words(effect)},
              {"channel", worst_channel},
              {"fingerprint", std::string(physics::find_effect(effect.id)->fingerprint)},
              {"regime", regime_of_effect(effect, end_s)}};
-  put_place(s, effect.channel, effect.position_mm, effect.component);
+  const auto bearing = effect.words.find("bearing");
+  put_place(s, effect.channel, effect.position_mm, bearing == effect.words.end() ? effect.component : bearing->second);
   put_heat(s, effect);
   const auto from = effect.parameters.find("from_mm");
   const auto to = effect.parameters.find("to_mm");

@@ -3278,6 +3278,14 @@
         <translation>轴承润滑油受热变稀</translation>
     </message>
     <message>
+        <source>another bearing preload than described</source>
+        <translation>与描述不同的轴承预紧力</translation>
+    </message>
+    <message>
+        <source>bearing preload that grows with speed</source>
+        <translation>随转速增大的轴承预紧力</translation>
+    </message>
+    <message>
         <source>bearing preload that grows with the heat</source>
         <translation>随温升增大的轴承预紧力</translation>
     </message>
