@@ -287,7 +287,7 @@ Result<Calibration> calibrate(std::vector<CalibrationView> views, const Calibrat
 
 bool scatters_beyond_pictures(const Calibration& calibration, const CalibrationLimits& limits) {
   constexpr double never_by_chance = 1e-3;
-  constexpr double fair_part = 0.2;  // of the residual
+  constexpr double fair_part = 0.25;  // of the residual
   double chi_square = 0.0;
   double stated_um2 = 0.0;
   for (const CalibrationView& view : calibration.views) {

@@ -69,7 +69,7 @@ int scattering_beyond(double stated_px, double machine_um) {
 
 TEST(Calibration, AScatterBeyondWhatThePicturesStateIsTheirsWhereTheyStateAFairPartOfIt) {
   EXPECT_LE(scattering_beyond(0.08, 1.0), 1);
-  EXPECT_GE(scattering_beyond(0.08, 4.0), 90);
+  EXPECT_GE(scattering_beyond(0.08, 3.0), 80);  // three times what they state
   // A machine that repeats to 4 um, seen by pictures that are good to a hundredth of it.
   EXPECT_EQ(scattering_beyond(0.003, 4.0), 0);
 }
