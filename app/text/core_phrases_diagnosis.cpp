@@ -87,7 +87,7 @@ constexpr std::array<const char*, 120> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "radiation to the room"),
     QT_TRANSLATE_NOOP("core", "cooling by the coolant"),
     QT_TRANSLATE_NOOP("core", "bearing oil that thins as it warms"),
-    QT_TRANSLATE_NOOP("core", "another bearing preload than described"),
+    QT_TRANSLATE_NOOP("core", "a different bearing preload"),
     QT_TRANSLATE_NOOP("core", "bearing preload that grows with the heat"),
     QT_TRANSLATE_NOOP("core", "bearing preload that grows with speed"),
     QT_TRANSLATE_NOOP("core", "an extra heat source"),

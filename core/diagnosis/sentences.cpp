@@ -157,7 +157,7 @@ constexpr std::array catalogue{
     Entry{"radiation", "radiation to the room"},
     Entry{"coolant", "cooling by the coolant"},
     Entry{"bearing_viscosity", "bearing oil that thins as it warms"},
-    Entry{"bearing_preload", "another bearing preload than described"},
+    Entry{"bearing_preload", "a different bearing preload"},
     Entry{"bearing_preload_heat", "bearing preload that grows with the heat"},
     Entry{"bearing_preload_speed", "bearing preload that grows with speed"},
     Entry{"extra_heat_source", "an extra heat source"},

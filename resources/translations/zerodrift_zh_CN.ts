@@ -3278,7 +3278,7 @@
         <translation>轴承润滑油受热变稀</translation>
     </message>
     <message>
-        <source>another bearing preload than described</source>
+        <source>a different bearing preload</source>
         <translation>与描述不同的轴承预紧力</translation>
     </message>
     <message>

@@ -197,7 +197,7 @@ std::vector<TextEntry> texts_of_physics() {
       {"radiation to the room", "向环境的辐射散热"},
       {"cooling by the coolant", "冷却液的冷却"},
       {"bearing oil that thins as it warms", "轴承润滑油升温变稀"},
-      {"another bearing preload than described", "与描述不同的轴承预紧力"},
+      {"a different bearing preload", "与描述不同的轴承预紧力"},
       {"bearing preload that grows with the heat", "轴承预紧力随发热增大"},
       {"bearing preload that grows with speed", "轴承预紧力随转速增大"},
       {"an extra heat source", "额外热源"},
