@@ -28,7 +28,9 @@ constexpr double least_blur_px2 = 0.1;      // along one axis, left to the blur 
 constexpr double round_blur_px2 = 0.3;      // nearer to round than this, the blur is made round, which is quicker
 constexpr double structure_limit = 1.55;    // tile means over their noise: above it a smooth field is solved as well
 constexpr double doubtful_structure = 1.1;  // from here on it is tried whether a field moves the result
-constexpr double glance_structure = 3.4;    // the same on a quarter of the pixels, when there is no doubt
+constexpr double reflected_structure =
+    0.9;  // from here on of a ball, where what is reflected may have moved: of a rim alone nothing would show
+constexpr double glance_structure = 3.4;  // the same on a quarter of the pixels, when there is no doubt
 constexpr double glance_structure_expected = 1.7;
 constexpr double strong_blur_px2 = 1.0;
 constexpr double with_field_px2 = 1.0;  // beside a field the solve's own blur columns do for a smaller change
@@ -49,6 +51,7 @@ constexpr double outline_known_px = 0.003;  // what stands behind is not known b
 constexpr double outline_bias = 6.0;        // one frame in twenty without need: what is reflected is hardly missed
 constexpr double outline_in_part = 0.75;    // of the gradient energy: less of it is no better than the whole
 constexpr double drawn_middle_px = 5.0;     // a point further from the middle was named on purpose
+constexpr double all_but_chips = 0.9;       // of a rim's pixels
 constexpr double all_of_it = 0.98;          // of the pixels
 constexpr double turn_step_px = 0.8;        // at the region's edge: a glance follows thin lines half as far
 constexpr double least_turn_step_rad = 0.004;
@@ -159,10 +162,13 @@ Registrar::Registrar(TemplateSource source)
   find_noise_effects(m_model);
   m_outline = outline_of(m_source, m_model);
   m_middle = middle_of_turn(m_model);
-  if (!m_outline) return;
-  m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
-  m_middle = middle_of_turn(*m_outline_model);
-  find_noise_effects(*m_outline_model);
+  m_rim = Rim::seen_in(m_source, m_model.blur_px2);
+  if (m_outline) {
+    m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));
+    m_middle = middle_of_turn(*m_outline_model);
+    find_noise_effects(*m_outline_model);
+  }
+  if (m_rim) m_middle = m_rim->middle_px();
 }
 
 Region Registrar::patch_at(int dx_px, int dy_px) const {
@@ -335,13 +341,39 @@ struct Registrar::Course {
   bool with_residual_map = false;
 };
 
+// Light that has changed across a ball is what it reflects, which tells nothing of where it is.
 Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
+  bool changed = false;
+  Registration out = by_levels(patches, std::move(start), with_residual_map, changed);
+  if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
+  if (!changed && out.structure < reflected_structure) return out;
+  const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
+  const auto rim = m_rim->find(patch, out.middle_px, out.contrast);
+  out.converged = rim.has_value();
+  // Of a rim that is hidden in part the levels know more.
+  if (!rim || rim->fitting_share < all_but_chips) return out;
+  out.middle_px = out.displacement_px = rim->moved_px;
+  out.covariance_px2 = rim->covariance_px2;
+  out.unseen_turn_px2.setZero();
+  if (m_middle.norm() > drawn_middle_px) {
+    const Eigen::Vector2d turned = (out.linear - Eigen::Matrix2d::Identity()) * m_middle;
+    out.covariance_px2.diagonal() += turned.cwiseAbs2();
+  }
+  out.linear.setIdentity();
+  out.informed_share = out.inlier_share = rim->fitting_share;
+  out.structure = 1.0;
+  return out;
+}
+
+Registration Registrar::by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map,
+                                  bool& changed) const {
   const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
   Course course{patches, std::move(start), plain, std::nullopt, false, with_residual_map};
   course.start.middle_px = m_middle;
   const RegistrationStart first_start = course.start;
   course.glare = match_blur_at_a_glance(patches, course.setup, course.blurred_model, course.start) > glare_share;
   Registration whole = solve(m_source, m_model, first_start, course);
+  changed = course.setup.with_field || whole.structure > doubtful_structure;
   if (!outline_tells_more(whole)) return whole;
   // What disagrees may be what is reflected within the outline, and what agrees so far may have been moved by less than
   // the residual shows.

@@ -10,6 +10,7 @@
 
 #include "core/vision/image.h"
 #include "core/vision/lens_term.h"
+#include "core/vision/rim.h"
 #include "core/vision/template_model.h"
 
 namespace zerodrift::vision {
@@ -72,10 +73,13 @@ class Registrar {
 
   const TemplateModel& model() const { return m_model; }
   const TemplateSource& source() const { return m_source; }
+  /// Empty where the target is no ball, whose rim is told from what it reflects.
+  const std::optional<Rim>& rim() const { return m_rim; }
 
  private:
   struct Course;
   Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
+  Registration by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map, bool& changed) const;
   Registration solve(const TemplateSource& source, const TemplateModel& usual, const RegistrationStart& first_start,
                      Course& course) const;
   bool outline_tells_more(const Registration& whole) const;
@@ -92,6 +96,7 @@ class Registrar {
   // reflection of a lamp, which may have moved.
   std::optional<TemplateSource> m_outline;
   std::optional<TemplateModel> m_outline_model;
+  std::optional<Rim> m_rim;
   Eigen::Vector2d m_middle = Eigen::Vector2d::Zero();  // about which it shows a turn least, from the named point
 };
 

@@ -76,6 +76,7 @@ struct Target::Learned {
   std::vector<std::uint8_t> mask;
   std::shared_ptr<const Backdrop> backdrop;
   std::shared_ptr<const GatheredTemplate> gathered;
+  std::optional<RimCircle> ball;
 };
 
 struct Target::Impl : Learned {
@@ -93,7 +94,9 @@ struct Target::Impl : Learned {
         point(named),
         coarse(image, at),
         fine(source_of(*this)),
-        repeating(image, region, point, mask) {}
+        repeating(image, region, point, mask) {
+    if (fine.rim()) ball = fine.rim()->circle();
+  }
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
   std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
@@ -162,6 +165,7 @@ struct Target::Impl : Learned {
     source.point = {self.point.x_px - at.x, self.point.y_px - at.y};
     source.usable = self.mask;
     source.backdrop = self.backdrop;
+    source.ball = self.ball;
     if (self.gathered) {
       source.frame_noise_levels = completed(source).noise_levels;
       source.pixels = self.gathered->pixels;
@@ -193,9 +197,10 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
                 {{"what", "the named point"}, {"found", "not a place"}, {"expected", "X,Y in pixels"}});
   }
   std::vector<std::uint8_t> usable = usable_pixels(image, *telling);
-  auto impl = std::make_shared<const Impl>(image, *telling, named, Learned{std::move(usable), nullptr, nullptr});
+  auto impl =
+      std::make_shared<const Impl>(image, *telling, named, Learned{std::move(usable), nullptr, nullptr, std::nullopt});
   const TemplateModel& model = impl->fine.model();
-  if (model.gradient_energy < least_energy || model.pixels < 200) {
+  if ((model.gradient_energy < least_energy && !impl->fine.rim()) || model.pixels < 200) {
     return fail(ErrorCode::template_without_texture, {{"file", name}});
   }
   return Target(std::move(impl));

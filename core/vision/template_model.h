@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/vision/backdrop.h"
@@ -43,6 +44,13 @@ struct TemplateModel {
 /// Of whole grey levels. Where a camera has hardly any other noise, even places show none of it and edges all.
 inline constexpr double rounding_variance = 1.0 / 12.0;
 
+/// The rim of a ball.
+struct RimCircle {
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
+  double radius_px = 0.0;
+  double blur_px = 0.0;  // standard deviation across the edge
+};
+
 struct TemplateSource {
   FloatImage pixels;  // the region with a margin on each side
   int margin_px = 0;
@@ -50,6 +58,7 @@ struct TemplateSource {
   Region region;     // in the template's image
   std::shared_ptr<const Backdrop> backdrop;
   std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
+  std::optional<RimCircle> ball;      // if it is known to be one; its middle from the named point
   // What every model made of it asks for; completed() finds them.
   FloatImage behind;                // what stands behind each of the pixels; empty without a backdrop
   double noise_levels = 0.0;        // standard deviation of the noise in the pixels
