@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 239> measuring = {{
+constexpr std::array<const char*, 242> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -193,6 +193,9 @@ constexpr std::array<const char*, 239> measuring = {{
     QT_TRANSLATE_NOOP("core", "falling to the right"),
     QT_TRANSLATE_NOOP("core", "choose a region or a target with structure in both directions"),
     QT_TRANSLATE_NOOP("core", "%1: \"%2\" is no position in mm; %3 was left out"),
+    QT_TRANSLATE_NOOP("core", "%1: %2 is there already; it counts once"),
+    QT_TRANSLATE_NOOP("core", "%1 once more, at another position"),
+    QT_TRANSLATE_NOOP("core", "every picture once, with the position at which it was taken"),
     QT_TRANSLATE_NOOP("core",
                       "%1 of %2 frames lie beyond the range of the calibration, +-%3 and +-%4 px (the first is %5 at "
                       "%6, %7 px): calibrate over all of the drift, or trust them less than their uncertainty says"),

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/vision/error_view.h"
 
 namespace zerodrift::vision {
@@ -36,6 +38,12 @@ struct Pattern {
   const std::vector<Target>& marks;
 };
 
+void take(const Location& at, CalibrationView& view) {
+  view.x_px = at.x_px;
+  view.y_px = at.y_px;
+  view.sigma_px = std::hypot(at.sigma_x_px, at.sigma_y_px) / std::sqrt(2.0);
+}
+
 MeanLocation located(const Pattern& pattern, const std::vector<GrayImage>& frames) {
   std::vector<Location> locations;
   for (const GrayImage& frame : frames) {
@@ -66,8 +74,7 @@ Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Pa
   if (!mean.location.ok) {
     return fail(ErrorCode::target_refused, {{"reason", mean.location.reason + " at " + seen.view.image}});
   }
-  seen.view.x_px = mean.location.x_px;
-  seen.view.y_px = mean.location.y_px;
+  take(mean.location, seen.view);
   return seen;
 }
 
@@ -87,10 +94,8 @@ CalibrationOutcome taught(const Pattern& pattern, const std::vector<Seen>& all, 
   out.target = pattern.target.learned_from(out.frames);
   for (const Seen& seen : all) {
     CalibrationView view = seen.view;
-    if (const MeanLocation mean = located({out.target, pattern.marks}, seen.frames); mean.location.ok) {
-      view.x_px = mean.location.x_px;
-      view.y_px = mean.location.y_px;
-    }
+    const MeanLocation mean = located({out.target, pattern.marks}, seen.frames);
+    if (mean.location.ok) take(mean.location, view);
     views.push_back(view);
   }
   return out;

@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double farthest_mm = 1e5;  // that any machine moves
 const char* const folder_of_pictures = "a folder of PNG, JPEG, BMP or TIFF pictures";
 
 void warn(std::vector<std::string>* warnings, std::string text) {
@@ -215,7 +216,7 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::s
     bool good = true;
     for (std::size_t k = 1; k < 3 && good; ++k) {
       const Result<double> value = recording::number_in(table, row, columns[k]);
-      good = value && std::isfinite(*value);
+      good = value && std::abs(*value) <= farthest_mm;
       if (good) {
         (k == 1 ? view.x_mm : view.y_mm) = *value;
         continue;
@@ -233,6 +234,19 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::s
     const fs::path beside = file.parent_path() / view.name;
     std::error_code ignored;
     view.image = fs::exists(beside, ignored) || !fs::exists(view.name, ignored) ? beside : fs::path(view.name);
+    const auto before =
+        std::find_if(out.begin(), out.end(), [&](const ViewRow& one) { return one.image == view.image; });
+    if (before != out.end()) {
+      const std::string place = fmt::format("{}, line {}", file.string(), table.lines[row]);
+      if (before->x_mm != view.x_mm || before->y_mm != view.y_mm) {
+        return fail(ErrorCode::bad_argument,
+                    {{"what", place},
+                     {"found", view.name + " once more, at another position"},
+                     {"expected", "every picture once, with the position at which it was taken"}});
+      }
+      warn(warnings, fmt::format("{}: {} is there already; it counts once", place, view.name));
+      continue;
+    }
     out.push_back(std::move(view));
   }
   if (first_fault && out.size() < 2) return fail(*first_fault);

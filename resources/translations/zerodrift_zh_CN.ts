@@ -3962,6 +3962,18 @@
         <translation>请选择两个方向都有结构的区域或靶标</translation>
     </message>
     <message>
+        <source>%1: %2 is there already; it counts once</source>
+        <translation>%1：%2 已列出，只计一次</translation>
+    </message>
+    <message>
+        <source>%1 once more, at another position</source>
+        <translation>%1 再次出现，位置却不同</translation>
+    </message>
+    <message>
+        <source>every picture once, with the position at which it was taken</source>
+        <translation>每张图片一次，并给出拍摄时的位置</translation>
+    </message>
+    <message>
         <source>%1: &quot;%2&quot; is no position in mm; %3 was left out</source>
         <translation>%1：“%2”不是以 mm 为单位的位置；%3 已略去</translation>
     </message>

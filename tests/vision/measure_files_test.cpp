@@ -284,6 +284,22 @@ TEST_F(MeasureFiles, AViewWithoutAPositionIsNamedAndTheOthersStay) {
   EXPECT_NE(warnings[1].find("line 4, x_mm: \"nan\""), std::string::npos);
 }
 
+TEST_F(MeasureFiles, APictureCountsOnceAndStandsAtOnePlace) {
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,1\na.png,1,1\nb.png,2,1e300\nc.png,2,1\n"));
+  std::vector<std::string> warnings;
+  const auto views = read_views(m_folder / "views.csv", &warnings);
+  ASSERT_TRUE(views);
+  EXPECT_EQ(views->size(), 2u);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0], (m_folder / "views.csv").string() + ", line 3: a.png is there already; it counts once");
+  EXPECT_NE(warnings[1].find("\"1e300\" is no position in mm"), std::string::npos);
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image,x_mm,y_mm\na.png,1,1\nb.png,2,1\na.png,3,1\n"));
+  const auto twice = read_views(m_folder / "views.csv");
+  ASSERT_FALSE(twice);
+  EXPECT_EQ(twice.error().context.at("what"), (m_folder / "views.csv").string() + ", line 4");
+  EXPECT_EQ(twice.error().context.at("found"), "a.png once more, at another position");
+}
+
 TEST(OneDirection, WhatBarsDoNotShowIsSaid) {
   const auto bars = [](double turn_deg) {
     GrayImage image{320, 240, std::vector<std::uint8_t>(320 * 240)};
