@@ -353,12 +353,7 @@ bool mends_a_joint(const Model& model) {
   const double breadths = sensor != nullptr ? edge : 1.0;
   for (std::size_t i = 0; i + 1 < effects.size(); ++i) {
     if (effects[i].id != "contact_resistance" || effects[i].word_or("component", "") != component) continue;
-    // The step spreads through the wall before it shows at the surface.
-    const physics::Component* rod = machine.find(component);
-    const double wall_mm =
-        rod == nullptr || sensor != nullptr ? 0.0 : 0.5 * (rod->outer_diameter_mm - rod->bore_diameter_mm);
-    const double near_mm = std::max(breadths * number(i, "half_width_mm"), wall_mm);
-    if (std::abs(number(i, "position_mm") - at_mm) < near_mm) return true;
+    if (std::abs(number(i, "position_mm") - at_mm) < breadths * number(i, "half_width_mm")) return true;
   }
   return false;
 }

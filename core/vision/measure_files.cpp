@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double unmoved_px = 0.3;
 constexpr double farthest_mm = 1e5;  // that any machine moves
 const char* const folder_of_pictures = "a folder of PNG, JPEG, BMP or TIFF pictures";
 
@@ -299,6 +300,17 @@ Result<FileCalibration> calibrate_from_files(const Target& target, const std::ve
   return FileCalibration{std::move(calibration), masked};
 }
 
+namespace {
+
+// Where nothing has moved, the frame shows what the template shows, the backdrop included. Of one that does not, and
+// that was found there by what frames taught, only what stands still was found.
+bool unlike_unmoved(const Target& target, const Location& at, const GrayImage& frame) {
+  if (!at.ok || std::hypot(at.x_px, at.y_px) > unmoved_px) return false;
+  return !target.locate(frame).ok;
+}
+
+}  // namespace
+
 Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const LocateRequest& request,
                                                     const fs::path& folder, std::vector<std::string>* warnings,
                                                     const TaskContext& context) {
@@ -319,6 +331,9 @@ Result<std::vector<FramePosition>> locate_in_folder(const Target& target, const 
       if (!picture->note.empty()) warn(warnings, position.frame + ": " + picture->note);
       std::vector<Location> marks;
       position.location = locate_against(taught, request.references, picture->image, &marks);
+      if (request.learn && unlike_unmoved(target, position.location, picture->image)) {
+        position.location = target.locate(picture->image);
+      }
       const std::string lost = marks_not_seen(marks);
       if (position.location.ok && !lost.empty()) warn(warnings, position.frame + " was measured without " + lost);
       if (position.location.refusal == Refusal::other_size) {

@@ -350,8 +350,12 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
   const auto rim = m_rim->find(patch, out.middle_px, out.contrast);
   out.converged = rim.has_value();
-  // Of a rim that is hidden in part the levels know more.
-  if (!rim || rim->fitting_share < all_but_chips) return out;
+  if (!rim) return out;
+  // Of a rim that is hidden in part the levels know more, and not more than that it is where they say.
+  if (rim->fitting_share < all_but_chips) {
+    out.covariance_px2.diagonal() += (rim->moved_px - out.middle_px).cwiseAbs2();
+    return out;
+  }
   out.middle_px = out.displacement_px = rim->moved_px;
   out.covariance_px2 = rim->covariance_px2;
   out.unseen_turn_px2.setZero();

@@ -18,13 +18,15 @@ constexpr int harmonics = 8;  // around the rim, of what is seen within
 constexpr int angles = 2 * harmonics + 1;
 constexpr int orders = 3;  // in the surface's slope
 constexpr int within_count = angles * orders;
-constexpr int beside_count = 3;  // a plane
+constexpr int beside_harmonics = 4;
+constexpr int beside_angles = 2 * beside_harmonics + 1;
+constexpr int beside_count = 2 * beside_angles;  // level and slope along the radius
 constexpr int light_terms = within_count + beside_count;
 constexpr int simpler_terms = angles * (orders - 1) + beside_count;
 constexpr double simpler_share = 0.06;  // of the square of what a simpler light moves
 constexpr int shape_terms = 4;          // middle, radius, blur
 constexpr double within_px = 4.0, within_blurs = 2.2;
-constexpr double beside_px = 3.0, beside_blurs = 2.0;
+constexpr double beside_px = 5.0, beside_blurs = 2.0;
 constexpr double pixel_px = 0.5;
 constexpr double least_radius_px = 12.0;
 constexpr double least_blur_px = 0.4, largest_blur_px = 4.0;
@@ -119,7 +121,10 @@ struct Ring {
       for (int order = 0; order < orders; ++order, power *= height) {
         for (int a = 0; a < angles; ++a) within(k, order * angles + a) = static_cast<float>(power * around[a]);
       }
-      beside.row(k) << 1.0f, static_cast<float>(px / radius), static_cast<float>(py / radius);
+      for (int a = 0; a < beside_angles; ++a) {
+        beside(k, a) = static_cast<float>(around[a]);
+        beside(k, beside_angles + a) = static_cast<float>(around[a] * (r - radius) / (outer - radius));
+      }
     }
     Eigen::MatrixXf all(count, light_terms);
     all.leftCols<within_count>() = inside.asDiagonal() * within;
@@ -437,30 +442,7 @@ std::vector<RimCircle> circles_in(const TemplateSource& source) {
   return out;
 }
 
-// Deviation of what lies beside the circle from a plane, and the share within it that shows a print.
-bool stands_before_even(const TemplateSource& source, const RimCircle& circle) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const double outer = circle.radius_px + beside_px + beside_blurs * circle.blur_px;
-  const auto each = [&](const auto& use) {
-    for (int y = source.margin_px; y < source.pixels.height - source.margin_px; ++y) {
-      for (int x = source.margin_px; x < source.pixels.width - source.margin_px; ++x) {
-        const Eigen::Vector2d from = Eigen::Vector2d(x, y) - circle.middle_px;
-        if (from.norm() > outer) use(Eigen::Vector3d(1.0, from(0), from(1)), double{source.pixels.row(y)[x]});
-      }
-    }
-  };
-  each([&](const Eigen::Vector3d& row, double level) {
-    normal += row * row.transpose();
-    right += row * level;
-  });
-  if (normal(0, 0) < 50.0) return true;
-  const Eigen::Vector3d plane = normal.ldlt().solve(right);
-  double squares = 0.0;
-  each([&](const Eigen::Vector3d& row, double level) { squares += std::pow(level - plane.dot(row), 2); });
-  return std::sqrt(squares / normal(0, 0)) < rim_noises * source.noise_levels + rim_levels;
-}
-
+// Whether much within the circle changes from pixel to pixel; a ball shows smooth shades and some highlights.
 bool shows_a_print(const TemplateSource& source, const RimCircle& circle) {
   cv::Mat fine, broad;
   cv::GaussianBlur(mat_view(source.pixels), fine, {0, 0}, 0.8);
@@ -531,14 +513,13 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
     return one.fitting_share > least_fitting && one.circle.radius_px > least_radius_px &&
            one.deviation < rim_noises * noise + (source.backdrop ? learned_levels : rim_levels) &&
            one.covariance_px2.diagonal().maxCoeff() < largest_rim_sigma_px * largest_rim_sigma_px &&
-           (source.backdrop || stands_before_even(source, one.circle)) && !shows_a_print(source, one.circle);
+           !shows_a_print(source, one.circle);
   };
   std::optional<Fit> best;
   for (const RimCircle& circle : circles_in(source)) {
-    // Neither needs the circle so well, and most targets are no balls.
-    RimCircle wide = circle, narrow = circle;
-    wide.radius_px += circle_known_px, narrow.radius_px -= circle_known_px;
-    if (!source.backdrop && !stands_before_even(source, wide)) continue;
+    // Most targets are no balls, and this needs the circle less well.
+    RimCircle narrow = circle;
+    narrow.radius_px -= circle_known_px;
     if (shows_a_print(source, narrow)) continue;
     best = fit(levels, circle, nullptr, blur_px2);
     if (best && is_ball(*best)) break;
@@ -579,6 +560,9 @@ std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d
   RimPlace out;
   out.moved_px = found->circle.middle_px + corner - stood;
   out.covariance_px2 = found->covariance_px2 + m_seen->fit.covariance_px2;
+  // A ball keeps its size: what the light did to the radius it may have done to the middle.
+  const double grown_px = found->circle.radius_px - m_seen->fit.circle.radius_px;
+  out.covariance_px2.diagonal().array() += 0.5 * grown_px * grown_px;
   out.fitting_share = found->fitting_share;
   return out;
 }

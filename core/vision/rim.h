@@ -2,8 +2,9 @@
 // The rim of a ball. What a ball shows within it is the reflection of its surroundings and of a lamp, which need not
 // move as the ball does; the circle in which it meets what stands behind is all that travels with it. Fitted to the
 // levels on both sides: within, any smooth function of the direction in which the surface looks (which is what a
-// reflection is a function of: Basri and Jacobs, IEEE PAMI 25 (2003) 218); beside it a plane, or what has been learned
-// of the backdrop. So the levels within may cross those beside it, and both may change from picture to picture.
+// reflection is a function of: Basri and Jacobs, IEEE PAMI 25 (2003) 218); beside it levels and slopes that change
+// little around it, or what has been learned of the backdrop. So the levels within may cross those beside it, and both
+// may change from picture to picture.
 
 #include <Eigen/Core>
 #include <memory>
@@ -23,7 +24,7 @@ struct RimPlace {
 class Rim {
  public:
   /// The source must be completed. Nothing where the template shows no ball: no circle, one with a print within it, or
-  /// one beside which it is neither even nor learned.
+  /// one beside which it is neither smooth nor learned.
   static std::optional<Rim> seen_in(const TemplateSource& source, const Eigen::Matrix2d& blur_px2);
 
   /// Of the ball in the template, from the named point.
