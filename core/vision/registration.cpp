@@ -168,7 +168,7 @@ Registrar::Registrar(TemplateSource source)
     m_middle = middle_of_turn(*m_outline_model);
     find_noise_effects(*m_outline_model);
   }
-  if (m_rim) m_middle = m_rim->middle_px();
+  if (m_rim && !m_outline) m_middle = m_rim->middle_px();
 }
 
 Region Registrar::patch_at(int dx_px, int dy_px) const {
@@ -348,14 +348,11 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   if (!changed && out.structure < reflected_structure) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
-  const auto rim = m_rim->find(patch, out.middle_px, out.contrast);
+  const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.blur_px2);
   out.converged = rim.has_value();
   if (!rim) return out;
-  // Of a rim that is hidden in part the levels know more, and not more than that it is where they say.
-  if (rim->fitting_share < all_but_chips) {
-    out.covariance_px2.diagonal() += (rim->moved_px - out.middle_px).cwiseAbs2();
-    return out;
-  }
+  // Of a rim that is hidden in part the levels know more.
+  if (rim->fitting_share < all_but_chips) return out;
   out.middle_px = out.displacement_px = rim->moved_px;
   out.covariance_px2 = rim->covariance_px2;
   out.unseen_turn_px2.setZero();

@@ -539,7 +539,8 @@ RimCircle Rim::circle() const {
   return {m_seen->middle_px, m_seen->fit.circle.radius_px, m_seen->fit.circle.blur_px};
 }
 
-std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d& expected_px, double contrast) const {
+std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d& expected_px, double contrast,
+                                  double blur_px2) const {
   const TemplateSource& source = m_seen->source;
   const Eigen::Vector2d corner(patch.at.x, patch.at.y);
   const Eigen::Vector2d stood = m_seen->fit.circle.middle_px +
@@ -555,7 +556,9 @@ std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d
   };
   RimCircle start = m_seen->fit.circle;
   start.middle_px = stood + expected_px - corner;
-  const std::optional<Fit> found = fit(levels, start, &m_seen->ring, patch.blur_px2);
+  start.blur_px = std::sqrt(std::max(start.blur_px * start.blur_px + blur_px2, least_blur_px * least_blur_px));
+  const bool alike = std::abs(start.blur_px - m_seen->ring.blur_px) < other_shape * start.blur_px;
+  const std::optional<Fit> found = fit(levels, start, alike ? &m_seen->ring : nullptr, patch.blur_px2);
   if (!found) return std::nullopt;
   RimPlace out;
   out.moved_px = found->circle.middle_px + corner - stood;
