@@ -58,7 +58,7 @@ struct TemplateSource {
   Region region;     // in the template's image
   std::shared_ptr<const Backdrop> backdrop;
   std::vector<std::uint8_t> usable;  // one a pixel of the region; 0: does not belong to the target, or saturated
-  std::optional<RimCircle> ball;      // if it is known to be one; its middle from the named point
+  std::optional<RimCircle> ball;     // if it is known to be one; its middle from the named point
   // What every model made of it asks for; completed() finds them.
   FloatImage behind;                // what stands behind each of the pixels; empty without a backdrop
   double noise_levels = 0.0;        // standard deviation of the noise in the pixels
