@@ -254,6 +254,12 @@ FloatImage blur_kernel(const Eigen::Matrix2d& covariance_px2) {
   return kernel;
 }
 
+double blur_power(const Eigen::Matrix2d& covariance_px2) {
+  double power = 0.0;
+  for (const float value : blur_kernel(covariance_px2).values) power += double{value} * value;
+  return power;
+}
+
 FloatImage blurred(const FloatImage& image, const Eigen::Matrix2d& covariance_px2) {
   FloatImage out(image.width, image.height);
   cv::Mat target = mat_view(out);

@@ -31,6 +31,8 @@ FloatImage blurred(const FloatImage& image, const Eigen::Matrix2d& covariance_px
 std::vector<float> gaussian_weights(double variance);
 /// The kernel of that blur as an image of odd size; its sum is 1.
 FloatImage blur_kernel(const Eigen::Matrix2d& covariance_px2);
+/// Share of independent noise's variance that the blur lets through.
+double blur_power(const Eigen::Matrix2d& covariance_px2);
 
 /// At the pixels.
 struct SplineDerivatives {

@@ -128,13 +128,6 @@ void calm(FloatImage& gradient, double noise_energy) {
   }
 }
 
-// Share of independent noise's variance that the blur lets through.
-double power_of(const Eigen::Matrix2d& blur_px2) {
-  double power = 0.0;
-  for (const float value : blur_kernel(blur_px2).values) power += double{value} * value;
-  return power;
-}
-
 // Variance of a shift estimated from blurred noise over that from independent noise of equal power: by each of the two
 // blurs, weighted by the noise that it lets through. Some of the rows tell it well enough.
 double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d, 2>& blurs_px2) {
@@ -145,7 +138,7 @@ double noise_growth(const FloatImage& gradient, const std::array<Eigen::Matrix2d
     const std::vector<float> weights = gaussian_weights(blur_px2.trace());
     const int taps = static_cast<int>(weights.size());
     const int reach = taps - 1;
-    const double power = power_of(blur_px2);
+    const double power = blur_power(blur_px2);
     cv::Mat padded;
     cv::copyMakeBorder(mat_view(gradient), padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
     std::vector<float> down(static_cast<std::size_t>(padded.cols));
@@ -261,7 +254,7 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   const double template_variance = source.noise_levels * source.noise_levels;
   const double frame_variance = source.frame_noise_levels * source.frame_noise_levels;
   model.noise_correlation = (template_variance + frame_variance) /
-                            (template_variance * power_of(blur_px2) + frame_variance * power_of(frame_blur_px2));
+                            (template_variance * blur_power(blur_px2) + frame_variance * blur_power(frame_blur_px2));
   model.frame_blur_px2 = frame_blur_px2;
   model.gradient_x = std::move(fx);
   model.gradient_y = std::move(fy);

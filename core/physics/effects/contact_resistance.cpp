@@ -9,8 +9,8 @@ namespace contact_resistance {
 
 // A fit is a few to some tens of millimetres long where a spindle is some hundreds.
 constexpr double usual_half_width = 0.03;  // of the length
-constexpr double widest = 0.05;
-constexpr double narrow_cells = 1e-3;  // of a cell: a plane
+constexpr double widest = 0.05;            // wider, it would take the place of the rod beside it
+constexpr double narrow_cells = 1e-3;      // of a cell: a plane
 
 /// How much of what lies at u, in cells from a face, counts for that face.
 double hat(double u) {
