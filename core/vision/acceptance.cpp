@@ -20,6 +20,7 @@ constexpr double least_rim = 0.25;
 constexpr double least_fine_correlation = 0.95;
 constexpr double largest_contrast = 3.0;
 constexpr double largest_linear_in_glare = 0.07;  // a halo bends what little a ball shows
+constexpr double largest_growth = 0.015;          // a lamp from another side makes a ball look 0.004 larger
 constexpr double some_saturated = 0.005;          // of the pixels: it is glare that spoils the picture
 constexpr double accepted_blur_px2 = 12.0;
 constexpr double largest_sigma_px = 0.15;  // what is known worse than this is no measurement
@@ -56,6 +57,7 @@ Refusal refusal_of(const Registration& r, double coarse_correlation) {
   const bool all_but_glare = r.correlation > glare_correlation && r.inlier_share + r.saturated_share > glare_explained;
   const bool bent_by_glare = all_but_glare && r.saturated_share > some_glare;
   if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
+  if (std::abs(r.growth) > largest_growth) return Refusal::wrong_target;
   if (r.structure > largest_structure)
     return r.saturated_share > some_saturated ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;

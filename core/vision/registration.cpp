@@ -345,11 +345,13 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   bool changed = false;
   Registration out = by_levels(patches, std::move(start), with_residual_map, changed);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
+  out.growth = 0.5 * out.linear.trace() - 1.0;
   if (!changed && out.structure < reflected_structure) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
   const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.blur_px2);
   out.converged = rim.has_value();
   if (!rim) return out;
+  out.growth = rim->growth;
   // Of a rim that is hidden in part the levels know more.
   if (rim->fitting_share < all_but_chips) return out;
   out.middle_px = out.displacement_px = rim->moved_px;

@@ -19,6 +19,7 @@ struct RimPlace {
   Eigen::Vector2d moved_px = Eigen::Vector2d::Zero();        // of the ball's middle since the template, right and down
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // of that; the template's own part is in it
   double fitting_share = 0.0;                                // of the rim's pixels
+  double growth = 0.0;                                       // of the radius since the template, as a share of it
 };
 
 class Rim {

@@ -9,12 +9,9 @@
 
 #include "core/vision/acceptance.h"
 #include "core/vision/bare_place.h"
-#include "core/vision/coarse_search.h"
-#include "core/vision/gathered_template.h"
 #include "core/vision/moved_apart.h"
-#include "core/vision/registration.h"
-#include "core/vision/repeating_target.h"
 #include "core/vision/spoilt_picture.h"
+#include "core/vision/target_impl.h"
 #include "core/vision/target_mask.h"
 
 namespace zerodrift::vision {
@@ -34,19 +31,9 @@ constexpr double sure_correlation = 0.98;   // of the best candidate with its ri
 constexpr double sure_lead = 0.15;
 // Of the best glance: targets under glare, chips or strong blur have 0.9 and more, other patterns seldom 0.8.
 constexpr double least_glance_correlation = 0.8;
-constexpr double least_move_px = 2.0;  // a target that stands still does not show what travels with it
-constexpr double least_energy = 4.0;   // mean squared gradient, grey levels^2 / px^2: below it is noise
+constexpr double least_energy = 4.0;  // mean squared gradient, grey levels^2 / px^2: below it is noise
 
-constexpr double part_correlation = 0.98;
-constexpr double rough_correlation = 0.9;
-constexpr double rough_coarse_correlation = 0.5;
-constexpr double rough_place_px = 0.3;  // what is known worse is known as well by the coarse search, to half a pixel
-constexpr double some_covered = 0.05;   // of the region, by what neither travels nor stood there before
-constexpr int least_moved = 3;          // frames in which the target is elsewhere
-constexpr double noisy_share = 0.06;    // of the gradients' energy: less noise in the template does no harm
-constexpr int gathering_rounds = 2;
-constexpr double same_blur_px2 = 0.2;  // in other light a lamp may stand elsewhere too
-constexpr double same_contrast = 0.1;
+constexpr double some_covered = 0.05;  // of the region, by what neither travels nor stood there before
 
 bool like_the_target(const Registration& glance) {
   return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
@@ -54,12 +41,6 @@ bool like_the_target(const Registration& glance) {
 
 bool may_be_turned(Refusal why) {
   return why == Refusal::wrong_target || why == Refusal::occluded || why == Refusal::too_different;
-}
-
-// Refused, and yet the place is known well enough to learn from.
-bool fits_in_part(const Location& at) {
-  return (at.refusal == Refusal::occluded || at.refusal == Refusal::wrong_target) &&
-         at.correlation > part_correlation && at.inlier_share > least_inliers;
 }
 
 // Better of two registrations: more of the target explained, and to a smaller residual; a bad fit has no outliers
@@ -72,107 +53,74 @@ double merit(const Registration& r) {
 
 }  // namespace
 
-struct Target::Learned {
-  std::vector<std::uint8_t> mask;
-  std::shared_ptr<const Backdrop> backdrop;
-  std::shared_ptr<const GatheredTemplate> gathered;
-  std::optional<RimCircle> ball;
-};
-
-struct Target::Impl : Learned {
-  GrayImage image;
-  Region region;
-  PixelPoint point;
-  CoarseSearch coarse;
-  Registrar fine;
-  RepeatingTarget repeating;
-
-  Impl(GrayImage picture, const Region& at, const PixelPoint& named, Learned learned)
-      : Learned(std::move(learned)),
-        image(std::move(picture)),
-        region(at),
-        point(named),
-        coarse(image, at),
-        fine(source_of(*this)),
-        repeating(image, region, point, mask) {
-    if (fine.rim()) ball = fine.rim()->circle();
+std::vector<Candidate> Target::Impl::likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
+  const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
+  if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
+  double most_saturated = 0.0;
+  const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
+  std::vector<std::array<int, 2>> places;
+  for (const Candidate& one : candidates) {
+    if (one.correlation < candidates.front().correlation - behind) break;
+    places.push_back({one.dx_px, one.dy_px});
   }
-
-  // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
-  std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
-    const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
-    if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
-    double most_saturated = 0.0;
-    const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
-    std::vector<std::array<int, 2>> places;
-    for (const Candidate& one : candidates) {
-      if (one.correlation < candidates.front().correlation - behind) break;
-      places.push_back({one.dx_px, one.dy_px});
-    }
-    const std::vector<Registration> glances = fine.glances(frame, places);
-    for (const Registration& seen : glances) {
-      most_saturated = std::max(most_saturated, seen.saturated_share);
-    }
-    const auto settled = [](const Registration& seen) { return seen.converged; };
-    // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
-    const bool told = std::any_of(glances.begin(), glances.end(), settled) && most_saturated < some_glare;
-    if (told && std::none_of(glances.begin(), glances.end(), like_the_target) &&
-        candidates.front().correlation < alike_correlation) {
-      return {};
-    }
-    std::vector<std::size_t> order(glances.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    // An even place leaves a small residual without being like the target.
-    const auto alike = [&](std::size_t k) { return like_the_target(glances[k]); };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return alike(a) != alike(b) ? alike(a) : merit(glances[a]) > merit(glances[b]);
-    });
-    std::vector<Candidate> out;
-    for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), candidates_refined); ++k) {
-      const Registration& seen = glances[order[k]];
-      if (k > 0) {
-        const Registration& first = glances[order[0]];
-        if (alike(order[k]) != alike(order[0]) || merit(seen) <= rival_merit * merit(first)) break;
-        // A rival that came to the same place would be the same once more.
-        if ((seen.displacement_px - first.displacement_px).norm() < same_place_px) continue;
-      }
-      out.push_back(candidates[order[k]]);
-    }
-    return out;
+  const std::vector<Registration> glances = fine.glances(frame, places);
+  for (const Registration& seen : glances) {
+    most_saturated = std::max(most_saturated, seen.saturated_share);
   }
-
-  RegisteredFrame place_of(const GrayImage& frame, const Location& at) const {
-    return {&frame, {at.point.x_px - point.x_px, at.point.y_px - point.y_px}, at.linear, at.lens};
+  const auto settled = [](const Registration& seen) { return seen.converged; };
+  // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
+  const bool told = std::any_of(glances.begin(), glances.end(), settled) && most_saturated < some_glare;
+  if (told && std::none_of(glances.begin(), glances.end(), like_the_target) &&
+      candidates.front().correlation < alike_correlation) {
+    return {};
   }
-
-  // Empty where hardly anything lies over the target: as it moves, it hides and uncovers some of what stands behind it.
-  std::vector<std::uint8_t> under_a_cover(const GrayImage& frame, const Location& at,
-                                          const std::vector<float>& residual_map) const {
-    std::vector<std::uint8_t> out = pixels_under_a_cover(image, region, point, place_of(frame, at), residual_map);
-    std::size_t covered = 0;
-    for (std::size_t k = 0; k < out.size(); ++k) covered += out[k] != 0 && mask[k] != 0;
-    if (static_cast<double>(covered) <= some_covered * static_cast<double>(mask.size())) out.clear();
-    return out;
-  }
-
-  static TemplateSource source_of(const Impl& self) {
-    TemplateSource source;
-    const Region& at = self.region;
-    source.pixels = crop(self.image, {at.x - template_margin_px, at.y - template_margin_px,
-                                      at.width + 2 * template_margin_px, at.height + 2 * template_margin_px});
-    source.margin_px = template_margin_px;
-    source.region = at;
-    source.point = {self.point.x_px - at.x, self.point.y_px - at.y};
-    source.usable = self.mask;
-    source.backdrop = self.backdrop;
-    source.ball = self.ball;
-    if (self.gathered) {
-      source.frame_noise_levels = completed(source).noise_levels;
-      source.pixels = self.gathered->pixels;
+  std::vector<std::size_t> order(glances.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // An even place leaves a small residual without being like the target.
+  const auto alike = [&](std::size_t k) { return like_the_target(glances[k]); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return alike(a) != alike(b) ? alike(a) : merit(glances[a]) > merit(glances[b]);
+  });
+  std::vector<Candidate> out;
+  for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), candidates_refined); ++k) {
+    const Registration& seen = glances[order[k]];
+    if (k > 0) {
+      const Registration& first = glances[order[0]];
+      if (alike(order[k]) != alike(order[0]) || merit(seen) <= rival_merit * merit(first)) break;
+      // A rival that came to the same place would be the same once more.
+      if ((seen.displacement_px - first.displacement_px).norm() < same_place_px) continue;
     }
-    return source;
+    out.push_back(candidates[order[k]]);
   }
-};
+  return out;
+}
+
+std::vector<std::uint8_t> Target::Impl::under_a_cover(const GrayImage& frame, const Location& at,
+                                                      const std::vector<float>& residual_map) const {
+  std::vector<std::uint8_t> out = pixels_under_a_cover(image, region, point, place_of(frame, at), residual_map);
+  std::size_t covered = 0;
+  for (std::size_t k = 0; k < out.size(); ++k) covered += out[k] != 0 && mask[k] != 0;
+  if (static_cast<double>(covered) <= some_covered * static_cast<double>(mask.size())) out.clear();
+  return out;
+}
+
+TemplateSource Target::Impl::source_of(const Impl& self) {
+  TemplateSource source;
+  const Region& at = self.region;
+  source.pixels = crop(self.image, {at.x - template_margin_px, at.y - template_margin_px,
+                                    at.width + 2 * template_margin_px, at.height + 2 * template_margin_px});
+  source.margin_px = template_margin_px;
+  source.region = at;
+  source.point = {self.point.x_px - at.x, self.point.y_px - at.y};
+  source.usable = self.mask;
+  source.backdrop = self.backdrop;
+  source.ball = self.ball;
+  if (self.gathered) {
+    source.frame_noise_levels = completed(source).noise_levels;
+    source.pixels = self.gathered->pixels;
+  }
+  return source;
+}
 
 Result<Target> Target::create(const GrayImage& image, const Region& region, std::optional<PixelPoint> point,
                               const std::string& name) {
@@ -214,14 +162,25 @@ Location Target::locate(const GrayImage& frame) const {
     out.refusal = told_by_the_picture(out.refusal, frame, m_impl->image, m_impl->region, moved_px);
     out.reason = words_of(out.refusal);
   }
+  if (!out.ok) return out;
+  const auto refuse = [&](Refusal why) {
+    out.ok = false;
+    out.refusal = why;
+    out.reason = words_of(why);
+    out.x_px = out.y_px = out.sigma_x_px = out.sigma_y_px = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  };
+  if (m_impl->disc) {
+    const Disc::Seen seen = m_impl->disc->in(frame, m_impl->point, found);
+    if (seen == Disc::Seen::elsewhere) return refuse(Refusal::moved_apart);
+    if (seen == Disc::Seen::of_another_size) return refuse(Refusal::wrong_target);
+  }
   // What stands behind it is known, or the pattern is its own rival a period further.
-  if (!out.ok || m_impl->backdrop || m_impl->repeating.repeats()) return out;
+  if (m_impl->backdrop || m_impl->repeating.repeats()) return out;
   if (found.inlier_share + found.saturated_share > nothing_hidden) return out;
-  if (!moved_apart(m_impl->image, m_impl->region, m_impl->point, m_impl->mask, frame, found)) return out;
-  out.ok = false;
-  out.refusal = Refusal::moved_apart;
-  out.reason = words_of(out.refusal);
-  out.x_px = out.y_px = out.sigma_x_px = out.sigma_y_px = std::numeric_limits<double>::quiet_NaN();
+  if (moved_apart(m_impl->image, m_impl->region, m_impl->point, m_impl->mask, frame, found)) {
+    return refuse(Refusal::moved_apart);
+  }
   return out;
 }
 
@@ -312,125 +271,6 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   out.sigma_y_px = std::sqrt(covariance_px2(1, 1));
   out.covariance_xy_px2 = covariance_px2(0, 1);
   return out;
-}
-
-namespace {
-
-// Though it may be refused.
-bool roughly_known(const Location& at, const Registration& fit) {
-  const double sigma_px = std::sqrt(fit.covariance_px2.diagonal().maxCoeff());
-  return at.correlation > rough_correlation && at.inlier_share > least_inliers && sigma_px < rough_place_px;
-}
-
-}  // namespace
-
-// Where a frame shows the target; `rough`: as far as can be told before what stands behind it is known.
-std::optional<RegisteredFrame> Target::place_in(const GrayImage& frame, bool rough) const {
-  Registration fit;
-  const Location at = search(frame, nullptr, &fit);
-  if (at.ok) return RegisteredFrame{&frame, {at.x_px, at.y_px}, at.linear, at.lens};
-  if (!rough) return std::nullopt;
-  RegisteredFrame out{&frame, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), {}};
-  if (roughly_known(at, fit)) {
-    out.displacement_px = {at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px};
-    return out;
-  }
-  const std::vector<Candidate> places = m_impl->coarse.find(frame, 1);
-  if (places.empty() || places.front().correlation < rough_coarse_correlation) return std::nullopt;
-  out.displacement_px = {places.front().dx_px, places.front().dy_px};
-  return out;
-}
-
-std::vector<RegisteredFrame> Target::places_in(const std::vector<GrayImage>& frames, bool rough) const {
-  std::vector<RegisteredFrame> out;
-  for (const GrayImage& frame : frames) {
-    if (const auto place = place_in(frame, rough)) out.push_back(*place);
-  }
-  return out;
-}
-
-// What lies over the target in some frames would be learned as what stands behind it.
-std::vector<GrayImage> Target::without_covered(const std::vector<GrayImage>& frames) const {
-  std::vector<GrayImage> out;
-  for (const GrayImage& frame : frames) {
-    Registration fit;
-    std::vector<float> map;
-    const Location at = search(frame, &map, &fit);
-    const bool known = at.ok || roughly_known(at, fit);
-    if (!known || m_impl->under_a_cover(frame, at, map).empty()) out.push_back(frame);
-  }
-  return out;
-}
-
-// Round after round, from where the target is found with what the one before taught. Before a backdrop that hides how
-// much is like the target rough places have to do, until it is found.
-Target Target::learned_backdrop(const std::vector<GrayImage>& frames) const {
-  const auto moved = [](const RegisteredFrame& one) { return one.displacement_px.norm() > least_move_px; };
-  std::vector<RegisteredFrame> registered = places_in(frames, false);
-  const bool rough = std::count_if(registered.begin(), registered.end(), moved) < least_moved;
-  if (rough) registered = places_in(frames, true);
-  Target out = *this;
-  for (int round = 0; round < (rough ? 3 : 2); ++round) {
-    if (round > 0) registered = out.places_in(frames, rough);
-    const auto backdrop = learn_backdrop(m_impl->image, m_impl->region, m_impl->point, registered);
-    if (!backdrop) break;
-    out = with_backdrop(backdrop);
-  }
-  return out;
-}
-
-// A region with much of what stands still in it looks hidden in part until that has been left out: `in_part` counts
-// such frames, where the others are too few to learn from.
-Target Target::without_what_stands(const std::vector<GrayImage>& frames, bool in_part, Cover cover) const {
-  std::vector<ShownFrame> whole, part;
-  int moved = 0, moved_in_part = 0;
-  for (const GrayImage& frame : frames) {
-    ShownFrame shown;
-    const Location at = search(frame, &shown.residual_map);
-    if (!at.ok && !fits_in_part(at)) continue;
-    if (cover == Cover::possible) shown.under_a_cover = m_impl->under_a_cover(frame, at, shown.residual_map);
-    const bool moves =
-        std::hypot(at.point.x_px - m_impl->point.x_px, at.point.y_px - m_impl->point.y_px) > least_move_px;
-    if (at.ok) whole.push_back(shown), moved += moves;
-    part.push_back(std::move(shown)), moved_in_part += moves;
-  }
-  if (!in_part) return moved >= least_moved ? with_mask(travelling_pixels(m_impl->region, whole)) : *this;
-  if (moved >= least_moved || moved_in_part < least_moved) return *this;
-  return with_mask(travelling_pixels(m_impl->region, part));
-}
-
-// Laid by where the noisy template finds them, the frames share its error; laid once more by where their mean finds
-// them, they share that of one frame.
-Target Target::gathered_from(const std::vector<GrayImage>& frames) const {
-  if (m_impl->fine.model().noise_share < noisy_share) return *this;
-  Target out = *this;
-  for (int round = 0; round < gathering_rounds; ++round) {
-    std::vector<RegisteredFrame> alike;
-    for (const GrayImage& frame : frames) {
-      const Location at = out.search(frame);
-      const bool same = std::abs(at.blur_px2) < same_blur_px2 && std::abs(at.contrast - 1.0) < same_contrast;
-      if (!at.ok || !same) continue;
-      alike.push_back({&frame, {at.x_px, at.y_px}, at.linear, at.lens});
-    }
-    auto mean = gathered_pixels(m_impl->image, m_impl->region, m_impl->point, alike, out.backdrop().get());
-    if (!mean) return out;
-    // What stands behind is told from the template's picture too.
-    auto behind = learn_backdrop(m_impl->image, m_impl->region, m_impl->point, alike, &*mean);
-    out = with_backdrop(behind ? std::move(behind) : m_impl->backdrop).with_gathered(std::move(*mean));
-  }
-  return out;
-}
-
-Target Target::learned_from(const std::vector<GrayImage>& frames, Cover cover) const {
-  const Target seen = without_what_stands(frames, true, cover);
-  const std::vector<GrayImage> open = cover == Cover::possible ? seen.without_covered(frames) : frames;
-  const Target masked = seen.learned_backdrop(open).without_what_stands(open, false, cover);
-  std::vector<LensTerm> lenses;
-  for (const GrayImage& frame : frames) {
-    const Location at = masked.search(frame);
-    if (at.ok) lenses.push_back(at.lens);
-  }
-  return masked.with_lens(combined(m_lens, lenses)).gathered_from(open);
 }
 
 Target Target::with_lens(const LensTerm& lens) const {
