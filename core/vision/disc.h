@@ -3,6 +3,7 @@
 // registration follows; and of another size it fits nearly as well. Where a frame shows the circle tells both.
 
 #include <optional>
+#include <vector>
 
 #include "core/vision/image.h"
 #include "core/vision/registration.h"
@@ -12,8 +13,9 @@ namespace zerodrift::vision {
 
 class Disc {
  public:
-  /// Nothing where the template shows no circle without a print within it. The source must be completed.
-  static std::optional<Disc> seen_in(const TemplateSource& source);
+  /// Those without a print within that the named point lies in, or where it lies in none all of them; of a ball with
+  /// this rim none of its highlights. The source must be completed.
+  static std::vector<Disc> all_in(const TemplateSource& source, const std::optional<RimCircle>& rim);
 
   enum class Seen { as_expected, elsewhere, of_another_size };
   /// In a frame, against where the registration has found the target; `named` is the named point in the template. As

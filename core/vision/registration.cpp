@@ -354,6 +354,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   out.growth = rim->growth;
   // Of a rim that is hidden in part the levels know more.
   if (rim->fitting_share < all_but_chips) return out;
+  out.by_rim = true;
   out.middle_px = out.displacement_px = rim->moved_px;
   out.covariance_px2 = rim->covariance_px2;
   out.unseen_turn_px2.setZero();

@@ -29,7 +29,8 @@ struct Registration {
   double inlier_share = 0.0;                                      // of the pixels, by weight over a quarter
   double informed_share = 0.0;                                    // of the gradient energy
   double rim_share = 1.0;                                         // the same in the outermost eighths of the region
-  double growth = 0.0;             // of a ball, as a share of its size
+  bool by_rim = false;                                            // of a ball: all that it shows within was left out
+  double growth = 0.0;                                            // of a ball, as a share of its size
   double printed_otherwise = 0.0;  // of what does not fit: shows the target's other tones
   double seen_share = 0.0;         // of the pixels that lie in the frame
   double saturated_share = 0.0;

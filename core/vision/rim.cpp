@@ -88,7 +88,14 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
            !shows_a_print(source, one.circle);
   };
   std::optional<Fit> best;
-  for (const RimCircle& circle : circles_in(source)) {
+  std::vector<RimCircle> circles;
+  const Eigen::Vector2d named(source.point.x_px + source.margin_px, source.point.y_px + source.margin_px);
+  if (source.ball) {
+    circles.push_back({source.ball->middle_px + named, source.ball->radius_px, source.ball->blur_px});
+  } else {
+    circles = circles_in(source);
+  }
+  for (const RimCircle& circle : circles) {
     // Most targets are no balls, and this needs the circle less well.
     RimCircle narrow = circle;
     narrow.radius_px -= circle_known_px;
@@ -98,7 +105,6 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
     best.reset();
   }
   if (!best) return std::nullopt;
-  const Eigen::Vector2d named(source.point.x_px + source.margin_px, source.point.y_px + source.margin_px);
   return Rim(std::make_shared<const Seen>(
       Seen{source, best->circle.middle_px - named, *best, Ring(best->circle.radius_px, best->circle.blur_px)}));
 }

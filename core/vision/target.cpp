@@ -24,6 +24,7 @@ constexpr double rival_merit = 0.75;           // of the best glance: the candid
 constexpr double clear_inliers = 0.9;          // the best explains nearly all of the target
 constexpr double hopeless_correlation = 0.25;  // of the coarse search: nothing like the target is in the frame
 constexpr int candidates_glanced = 8;
+constexpr double twin_correlation = 0.95, twin_reach_px = 12.0;
 constexpr int most_periods_off = 6;         // that a pattern which repeats is followed back to its place
 constexpr double rival_correlation = 0.3;   // a candidate further behind the best is not looked at, and half of it
 constexpr double clear_correlation = 0.85;  // when the best is above this
@@ -81,6 +82,18 @@ std::vector<Candidate> Target::Impl::likeliest(const GrayImage& frame, const std
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return alike(a) != alike(b) ? alike(a) : merit(glances[a]) > merit(glances[b]);
   });
+  // One of two alike is the one that stands nearer to where it stood than to where the other did.
+  const auto is_twin = [&](std::size_t k) {
+    return std::any_of(twins.begin(), twins.end(), [&](const Candidate& one) {
+      return std::hypot(candidates[k].dx_px - one.dx_px, candidates[k].dy_px - one.dy_px) < twin_reach_px;
+    });
+  };
+  const auto as_good = [&](std::size_t k) {
+    return !is_twin(k) && alike(k) && merit(glances[k]) > rival_merit * merit(glances[order[0]]);
+  };
+  if (is_twin(order[0]) && std::any_of(order.begin(), order.end(), as_good)) {
+    order.erase(std::remove_if(order.begin(), order.end(), is_twin), order.end());
+  }
   std::vector<Candidate> out;
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), candidates_refined); ++k) {
     const Registration& seen = glances[order[k]];
@@ -92,6 +105,16 @@ std::vector<Candidate> Target::Impl::likeliest(const GrayImage& frame, const std
     }
     out.push_back(candidates[order[k]]);
   }
+  return out;
+}
+
+std::vector<Candidate> Target::Impl::seen_again() const {
+  std::vector<Candidate> out = coarse.find(image, candidates_glanced);
+  const double apart_px = 0.5 * std::min(region.width, region.height);
+  const auto itself = [&](const Candidate& one) {
+    return one.correlation < twin_correlation || std::hypot(one.dx_px, one.dy_px) < apart_px;
+  };
+  out.erase(std::remove_if(out.begin(), out.end(), itself), out.end());
   return out;
 }
 
@@ -170,8 +193,9 @@ Location Target::locate(const GrayImage& frame) const {
     out.x_px = out.y_px = out.sigma_x_px = out.sigma_y_px = std::numeric_limits<double>::quiet_NaN();
     return out;
   };
-  if (m_impl->disc) {
-    const Disc::Seen seen = m_impl->disc->in(frame, m_impl->point, found);
+  for (const Disc& disc : m_impl->discs) {
+    if (found.by_rim) break;
+    const Disc::Seen seen = disc.in(frame, m_impl->point, found);
     if (seen == Disc::Seen::elsewhere) return refuse(Refusal::moved_apart);
     if (seen == Disc::Seen::of_another_size) return refuse(Refusal::wrong_target);
   }

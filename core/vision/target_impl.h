@@ -27,7 +27,8 @@ struct Target::Impl : Learned {
   CoarseSearch coarse;
   Registrar fine;
   RepeatingTarget repeating;
-  std::optional<Disc> disc;
+  std::vector<Disc> discs;
+  std::vector<Candidate> twins;  // where the template's picture shows the like of it once more
 
   Impl(GrayImage picture, const Region& at, const PixelPoint& named, Learned learned)
       : Learned(std::move(learned)),
@@ -37,11 +38,9 @@ struct Target::Impl : Learned {
         coarse(image, at),
         fine(source_of(*this)),
         repeating(image, region, point, mask) {
-    if (fine.rim()) {
-      ball = fine.rim()->circle();
-    } else {
-      disc = Disc::seen_in(fine.source());
-    }
+    if (fine.rim()) ball = fine.rim()->circle();
+    discs = Disc::all_in(fine.source(), ball);
+    if (!repeating.repeats()) twins = seen_again();
   }
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
@@ -50,6 +49,8 @@ struct Target::Impl : Learned {
   RegisteredFrame place_of(const GrayImage& frame, const Location& at) const {
     return {&frame, {at.point.x_px - point.x_px, at.point.y_px - point.y_px}, at.linear, at.lens};
   }
+
+  std::vector<Candidate> seen_again() const;
 
   // Empty where hardly anything lies over the target: as it moves, it hides and uncovers some of what stands behind it.
   std::vector<std::uint8_t> under_a_cover(const GrayImage& frame, const Location& at,
