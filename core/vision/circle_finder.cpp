@@ -18,7 +18,8 @@ constexpr double print_levels = 4.0;
 constexpr double print_share = 0.1;  // of what lies within: a ball has its highlights
 constexpr double print_blur_px = 3.0;
 constexpr double least_edge = 50.0, most_edge = 120.0;  // of Sobel's operator, where the levels reach from 0 to 255
-constexpr double extreme_share = 0.02;                  // of the pixels
+constexpr double band_width = 1.6;
+constexpr double extreme_share = 0.02;  // of the pixels
 constexpr std::size_t circles_tried = 40, most_circles = 6;
 constexpr std::size_t rays = 64, sure_rays = 38;
 constexpr int edge_rounds = 3, edge_turns = 12;
@@ -138,9 +139,15 @@ std::vector<RimCircle> circles_in(const TemplateSource& source) {
   // Of what noise the blur leaves Sobel's operator makes three times as much.
   const double edge = std::clamp(10.0 * source.noise_levels * gain, least_edge, most_edge);
   const int side = std::min(grey.cols, grey.rows);
-  std::vector<cv::Vec3f> found;
-  cv::HoughCircles(grey, found, cv::HOUGH_GRADIENT, 1.0, 4.0, edge, 12.0,
-                   std::max(static_cast<int>(least_radius_px), side / 8), side / 2);
+  // Of circles about one middle the strongest alone is found, so in bands of the radius; with the votes for each.
+  std::vector<cv::Vec4f> found;
+  for (double least = std::max(least_radius_px, side / 8.0); least < side / 2.0; least *= band_width) {
+    std::vector<cv::Vec4f> some;
+    cv::HoughCircles(grey, some, cv::HOUGH_GRADIENT, 1.0, 4.0, edge, 12.0, static_cast<int>(least),
+                     static_cast<int>(std::min(least * band_width, side / 2.0)));
+    found.insert(found.end(), some.begin(), some.end());
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a[3] > b[3]; });
   const double noise = smooth_noise * source.noise_levels;
   std::vector<RimCircle> out;
   for (std::size_t k = 0; k < std::min(found.size(), circles_tried) && out.size() < most_circles; ++k) {

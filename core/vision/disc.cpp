@@ -49,6 +49,7 @@ std::vector<Disc> Disc::all_in(const TemplateSource& source, const std::optional
     one.m_circle = circle;
     one.m_circle.middle_px -= named;
     one.m_noise_levels = source.frame_noise_levels;
+    one.m_is_rim = rim && std::abs(rim->radius_px - circle.radius_px) < circle_known_px;
     out.push_back(one);
   }
   // Beside the one that is named others may move as they like.
@@ -60,6 +61,7 @@ std::vector<Disc> Disc::all_in(const TemplateSource& source, const std::optional
 }
 
 Disc::Seen Disc::in(const GrayImage& frame, const PixelPoint& named, const Registration& found) const {
+  if (found.by_rim && m_is_rim) return Seen::as_expected;
   const Eigen::Vector2d expected =
       Eigen::Vector2d(named.x_px, named.y_px) + found.displacement_px + found.linear * m_circle.middle_px;
   const double radius_px = m_circle.radius_px * std::sqrt(std::abs(found.linear.determinant()));

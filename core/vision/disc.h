@@ -25,6 +25,7 @@ class Disc {
  private:
   RimCircle m_circle;  // its middle from the named point
   double m_noise_levels = 0.0;
+  bool m_is_rim = false;
 };
 
 }  // namespace zerodrift::vision

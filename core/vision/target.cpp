@@ -194,7 +194,6 @@ Location Target::locate(const GrayImage& frame) const {
     return out;
   };
   for (const Disc& disc : m_impl->discs) {
-    if (found.by_rim) break;
     const Disc::Seen seen = disc.in(frame, m_impl->point, found);
     if (seen == Disc::Seen::elsewhere) return refuse(Refusal::moved_apart);
     if (seen == Disc::Seen::of_another_size) return refuse(Refusal::wrong_target);

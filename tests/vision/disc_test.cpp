@@ -103,28 +103,36 @@ TEST(Disc, OfAnotherSizeIsAnotherTarget) {
   }
 }
 
-// The stronger of two things, and what encloses the named one, stand still.
-TEST(Disc, ThatMovesWithinWhatStandsIsNotTakenForIt) {
-  const auto shot = [](double dx, double dy, unsigned seed) {
-    GrayImage out = picture(Behind::even, {}, seed);
-    for (int row = 0; row < out.height; ++row) {
-      for (int column = 0; column < out.width; ++column) {
-        const auto within = [&](double x, double y, double r) {
-          return 0.5 * std::erfc((std::hypot(column - x, row - y) - r) / (std::sqrt(2.0) * 0.9));
-        };
-        const double ring = within(named_x, named_y, 55.0) - within(named_x, named_y, 48.0);
-        const double ink = ring + within(named_x + dx, named_y + dy, 30.0);
-        std::uint8_t& level = out.pixels[static_cast<std::size_t>(row) * 640 + column];
-        level = static_cast<std::uint8_t>(std::clamp(std::lround(level - 70.0 * ink), 0L, 255L));
+// Printed rings and discs of 70 levels.
+struct Print {
+  double x, y, radius;
+  double hole = 0.0;  // px, of a ring its inner radius
+};
+
+GrayImage printed(const std::vector<Print>& prints, unsigned seed) {
+  GrayImage out = picture(Behind::even, {}, seed);
+  for (int row = 0; row < out.height; ++row) {
+    for (int column = 0; column < out.width; ++column) {
+      double ink = 0.0;
+      for (const Print& one : prints) {
+        const double r = std::hypot(column - one.x, row - one.y);
+        const auto within = [&](double radius) { return 0.5 * std::erfc((r - radius) / (std::sqrt(2.0) * 0.9)); };
+        ink += within(one.radius) - (one.hole > 0.0 ? within(one.hole) : 0.0);
       }
+      std::uint8_t& level = out.pixels[static_cast<std::size_t>(row) * 640 + column];
+      level = static_cast<std::uint8_t>(std::clamp(std::lround(level - 70.0 * ink), 0L, 255L));
     }
-    return out;
-  };
-  const Target target = target_of(shot(0.0, 0.0, 1), {258, 179, 124, 124});
-  EXPECT_TRUE(target.locate(shot(0.0, 0.0, 2)).ok);
+  }
+  return out;
+}
+
+TEST(Disc, ThatMovesWithinWhatStandsIsNotTakenForIt) {
+  const Print ring{named_x, named_y, 55.0, 48.0};
+  const Target target = target_of(printed({{named_x, named_y, 30.0}, ring}, 1), {258, 179, 124, 124});
+  EXPECT_TRUE(target.locate(printed({{named_x, named_y, 30.0}, ring}, 2)).ok);
   for (unsigned k = 0; k < 6; ++k) {
     const double dx = 4.9 * std::cos(2.1 * k), dy = 4.3 * std::sin(1.7 * k + 0.3);
-    const Location at = target.locate(shot(dx, dy, 20 + k));
+    const Location at = target.locate(printed({{named_x + dx, named_y + dy, 30.0}, ring}, 20 + k));
     if (at.ok) {
       EXPECT_LT(std::hypot(at.x_px - dx, at.y_px - dy), 0.2) << k;
     }
@@ -132,11 +140,11 @@ TEST(Disc, ThatMovesWithinWhatStandsIsNotTakenForIt) {
 }
 
 TEST(Disc, IsNotTakenForItsTwinBesideTheRegion) {
-  const Round twin{named_x + 110.0, named_y, 40.0};
-  const Target target = target_of(picture(Behind::even, {{named_x, named_y, 40.0}, twin}, 1), {272, 193, 96, 96});
+  const Print twin{named_x + 85.0, named_y, 30.0};
+  const Target target = target_of(printed({{named_x, named_y, 30.0}, twin}, 1), {276, 197, 90, 90});
   for (unsigned k = 0; k < 8; ++k) {
     const double dx = 3.9 * std::cos(2.1 * k), dy = 3.3 * std::sin(1.7 * k + 0.3);
-    const Location at = target.locate(picture(Behind::even, {{named_x + dx, named_y + dy, 40.0}, twin}, 30 + k));
+    const Location at = target.locate(printed({{named_x + dx, named_y + dy, 30.0}, twin}, 30 + k));
     ASSERT_TRUE(at.ok) << k << " " << at.reason;
     EXPECT_LT(std::hypot(at.x_px - dx, at.y_px - dy), 0.2) << k;
   }
