@@ -19,6 +19,7 @@ constexpr double print_share = 0.1;  // of what lies within: a ball has its high
 constexpr double print_blur_px = 3.0;
 constexpr double least_edge = 50.0, most_edge = 120.0;  // of Sobel's operator, where the levels reach from 0 to 255
 constexpr double band_width = 1.6;
+constexpr float full_share = 0.6f;
 constexpr double extreme_share = 0.02;  // of the pixels
 constexpr std::size_t circles_tried = 40, most_circles = 6;
 constexpr std::size_t rays = 64, sure_rays = 38;
@@ -148,6 +149,11 @@ std::vector<RimCircle> circles_in(const TemplateSource& source) {
     found.insert(found.end(), some.begin(), some.end());
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a[3] > b[3]; });
+  // Contours of shades draw circles too, of fewer edges for their size than a rim's.
+  float fullest = 0.0f;
+  for (const cv::Vec4f& one : found) fullest = std::max(fullest, one[3] / one[2]);
+  const auto faint = [&](const cv::Vec4f& one) { return one[3] / one[2] < full_share * fullest; };
+  found.erase(std::remove_if(found.begin(), found.end(), faint), found.end());
   const double noise = smooth_noise * source.noise_levels;
   std::vector<RimCircle> out;
   for (std::size_t k = 0; k < std::min(found.size(), circles_tried) && out.size() < most_circles; ++k) {
