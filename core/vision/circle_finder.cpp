@@ -18,8 +18,8 @@ constexpr double print_levels = 4.0;
 constexpr double print_share = 0.1;  // of what lies within: a ball has its highlights
 constexpr double print_blur_px = 3.0;
 constexpr double least_edge = 50.0, most_edge = 120.0;  // of Sobel's operator, where the levels reach from 0 to 255
-constexpr double band_width = 1.6;
-constexpr float full_share = 0.6f;
+constexpr double band_width = 1.6;                      // from radius to radius
+constexpr float full_share = 0.6f;      // of the edges for its size that the clearest circle has: shades have a third
 constexpr double extreme_share = 0.02;  // of the pixels
 constexpr std::size_t circles_tried = 40, most_circles = 6;
 constexpr std::size_t rays = 64, sure_rays = 38;
@@ -28,7 +28,7 @@ constexpr int edge_reach_px = 8, near_reach_px = 3;
 constexpr double edge_noises = 4.0;
 constexpr double near_edge_px = 1.5;
 constexpr double same_edge_px = 0.75;
-constexpr double many_more_edges = 1.35;
+constexpr double many_more_edges = 1.35;                // times what the expected circle has
 constexpr double smooth_px = 1.0, smooth_noise = 0.28;  // the blur leaves that share of the noise's deviation
 
 struct Edge {

@@ -342,11 +342,10 @@ struct Registrar::Course {
 
 // Light that has changed across a ball is what it reflects, which tells nothing of where it is.
 Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
-  bool changed = false;
-  Registration out = by_levels(patches, std::move(start), with_residual_map, changed);
+  Registration out = by_levels(patches, std::move(start), with_residual_map);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   out.growth = 0.5 * out.linear.trace() - 1.0;
-  if (!changed && out.structure < reflected_structure) return out;
+  if (!out.light_changed && out.structure < reflected_structure) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
   const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.blur_px2);
   out.converged = rim.has_value();
@@ -368,15 +367,14 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   return out;
 }
 
-Registration Registrar::by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map,
-                                  bool& changed) const {
+Registration Registrar::by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
   const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
   Course course{patches, std::move(start), plain, std::nullopt, false, with_residual_map};
   course.start.middle_px = m_middle;
   const RegistrationStart first_start = course.start;
   course.glare = match_blur_at_a_glance(patches, course.setup, course.blurred_model, course.start) > glare_share;
   Registration whole = solve(m_source, m_model, first_start, course);
-  changed = course.setup.with_field || whole.structure > doubtful_structure;
+  whole.light_changed = course.setup.with_field || whole.structure > doubtful_structure;
   if (!outline_tells_more(whole)) return whole;
   // What disagrees may be what is reflected within the outline, and what agrees so far may have been moved by less than
   // the residual shows.
@@ -416,6 +414,7 @@ Registration Registrar::by_levels(PatchOfFrame& patches, RegistrationStart start
   if (lever.norm() > drawn_middle_px) {
     outline.covariance_px2.diagonal().array() += ((whole.linear - outline.linear) * lever).array().square();
   }
+  outline.light_changed = whole.light_changed;
   return outline;
 }
 

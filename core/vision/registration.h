@@ -29,6 +29,7 @@ struct Registration {
   double inlier_share = 0.0;                                      // of the pixels, by weight over a quarter
   double informed_share = 0.0;                                    // of the gradient energy
   double rim_share = 1.0;                                         // the same in the outermost eighths of the region
+  bool light_changed = false;                                     // across the target, since the template
   bool by_rim = false;                                            // of a ball: all that it shows within was left out
   double growth = 0.0;                                            // of a ball, as a share of its size
   double printed_otherwise = 0.0;  // of what does not fit: shows the target's other tones
@@ -81,7 +82,7 @@ class Registrar {
  private:
   struct Course;
   Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
-  Registration by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map, bool& changed) const;
+  Registration by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
   Registration solve(const TemplateSource& source, const TemplateModel& usual, const RegistrationStart& first_start,
                      Course& course) const;
   bool outline_tells_more(const Registration& whole) const;
