@@ -28,9 +28,9 @@ constexpr double rough_residual = 2.4;     // standard deviations of shot noise,
 constexpr double rough_to_noise = 1.5;     // times what the template's noise makes it
 constexpr double rough_sigma_px = 0.01;
 constexpr double hidden_sigma_px = 0.03;
-// With one of two edges hidden the target may seem to be another size, and the other edge to have moved with it. Bodies
-// that warm by tens of kelvin stretch by less than 0.001; how much of a camera's own motion is left open.
-constexpr double stretch_in_part = 0.012;
+// Where parts of the region move apart, or one of two edges is hidden, the target may seem to be stretched. Bodies that
+// warm by tens of kelvin stretch by less than 0.001, and a camera that has come nearer by more is no longer calibrated.
+constexpr double largest_stretch = 0.008;
 // Of what does not fit: covers and chips stay below 0.25; mazes of thin lines are above 0.34, codes and letters 0.65.
 constexpr double another_print = 0.33;
 constexpr double least_seen = 0.70;
@@ -57,7 +57,11 @@ Refusal refusal_of(const Registration& r, double coarse_correlation) {
   const bool all_but_glare = r.correlation > glare_correlation && r.inlier_share + r.saturated_share > glare_explained;
   const bool bent_by_glare = all_but_glare && r.saturated_share > some_glare;
   if (linear_change(r) > (bent_by_glare ? largest_linear_in_glare : largest_linear)) return Refusal::wrong_target;
+  if (r.parts_apart) return Refusal::moved_apart;
   if (std::abs(r.growth) > largest_growth) return Refusal::wrong_target;
+  if (!bent_by_glare && stretch_of(r) > largest_stretch) {
+    return r.inlier_share + r.saturated_share < nothing_hidden ? Refusal::occluded : Refusal::wrong_target;
+  }
   if (r.structure > largest_structure)
     return r.saturated_share > some_saturated ? Refusal::glare : Refusal::too_different;
   if (r.blur_px2 > accepted_blur_px2) return Refusal::blurred;
@@ -66,7 +70,6 @@ Refusal refusal_of(const Registration& r, double coarse_correlation) {
   // better; noise is rough without hiding anything. That a round target hides its turn says nothing against the place.
   const double sigma_px = std::sqrt((r.covariance_px2 - r.unseen_turn_px2).diagonal().maxCoeff());
   if (r.inlier_share + r.saturated_share < nothing_hidden) {
-    if (!bent_by_glare && stretch_of(r) > stretch_in_part) return Refusal::occluded;
     const bool rough = r.residual > std::max(rough_residual, rough_to_noise * r.expected_residual);
     if (sigma_px > (rough ? rough_sigma_px : hidden_sigma_px)) return Refusal::occluded;
   }

@@ -1,127 +1,185 @@
 #include "core/vision/moved_apart.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/vision/frame_patch.h"
 #include "core/vision/opencv_image.h"
-#include "core/vision/window_likeness.h"
+#include "core/vision/registration_solver.h"
 
 namespace zerodrift::vision {
 namespace {
 
-constexpr int sample_step_px = 2;      // of the samples
-constexpr int apart_window = 9;        // samples
-constexpr int searched_samples = 40;   // each way
-constexpr double even_part = 0.05;     // of the region's variance: a window with less shows nothing
-constexpr double least_part = 0.08;    // of the region: what is reflected in a ball moves with the lamp, and is less
-constexpr double least_found = 0.5;    // of what does not fit, that is seen elsewhere and was not there before
-constexpr double least_alike = 0.5;    // correlation of what does not fit with where it is looked for
-constexpr double least_across = 0.1;   // of a window's squared gradients along the strongest direction, across it
-constexpr double least_swapped = 0.3;  // of what is seen elsewhere: such windows
-constexpr double clipped = 252.0;
+constexpr float misfit_scales = 4.0f;
+constexpr int around_misfit_px = 3;  // the other side of an edge, and what it lies on
+constexpr int least_part_pixels = 400;
+constexpr double least_part_energy = 0.06;                // of the gradients'
+constexpr int sample_step_px = 2, searched_samples = 40;  // each way
+constexpr int places_tried = 3, same_place_samples = 4;
+constexpr double least_alike = 0.6;  // correlation at the samples
+constexpr double part_correlation = 0.995;
+constexpr double most_of_part = 0.7;    // of its pixels: it hides and uncovers some of what stands
+constexpr double part_known_px = 0.03;  // along a cover's edge nearly anything fits somewhere, not so well
+constexpr double apart_px = 0.1;
+constexpr double apart_chi_square = 36.0;
+constexpr double next_piece_px = 3.0;  // further away a pattern that repeats is like itself
+constexpr double alike = 0.8;          // correlation
 
-// The frame as it would be with the target at rest, sampled over the region and around it.
-cv::Mat1f put_back(const GrayImage& frame, const Region& region, const PixelPoint& named, const Registration& found,
-                   const cv::Size& samples) {
-  cv::Mat1f map_x(samples.height + 2 * searched_samples, samples.width + 2 * searched_samples), map_y(map_x.size());
-  const Eigen::Vector2d point(named.x_px, named.y_px);
-  for (int row = 0; row < map_x.rows; ++row) {
-    for (int column = 0; column < map_x.cols; ++column) {
-      const Eigen::Vector2d at(region.x + (column - searched_samples) * sample_step_px,
-                               region.y + (row - searched_samples) * sample_step_px);
-      const Eigen::Vector2d there = point + found.displacement_px + found.linear * (at - point);
-      map_x(row, column) = static_cast<float>(there(0));
-      map_y(row, column) = static_cast<float>(there(1));
+struct Part {
+  std::vector<std::uint8_t> pixels;                     // of the region, 1 each
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // from the named point
+};
+
+// What does not fit, with its surroundings; nothing where it is too little to tell a place.
+std::optional<Part> part_that_does_not_fit(const Registrar& fine, const std::vector<float>& residual_map) {
+  const TemplateSource& source = fine.source();
+  const TemplateModel& model = fine.model();
+  const Region& region = source.region;
+  cv::Mat1b misfit(region.height, region.width, std::uint8_t{0});
+  for (int k = 0; k < model.pixels; ++k) {
+    const float residual = residual_map[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]];
+    misfit(model.row[k], model.column[k]) = std::abs(residual) > misfit_scales ? 1 : 0;  // not if it is not a number
+  }
+  cv::dilate(misfit, misfit, cv::Mat::ones(2 * around_misfit_px + 1, 2 * around_misfit_px + 1, CV_8U));
+  Part out;
+  out.pixels.assign(misfit.begin(), misfit.end());
+  for (std::size_t k = 0; k < out.pixels.size(); ++k) out.pixels[k] = out.pixels[k] && source.usable[k];
+  double all = 0.0, part = 0.0;
+  int count = 0;
+  for (int k = 0; k < model.pixels; ++k) {
+    const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
+    all += energy;
+    if (!out.pixels[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]]) continue;
+    part += energy;
+    out.middle_px += energy * Eigen::Vector2d(model.x[k], model.y[k]);
+    ++count;
+  }
+  if (count < least_part_pixels || part < least_part_energy * all) return std::nullopt;
+  out.middle_px /= part;
+  return out;
+}
+
+RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
+  RegistrationStart out;
+  out.whole_px = displacement_px.array().round();
+  out.shift_px = displacement_px - out.whole_px;
+  return out;
+}
+
+FramePatch patch_at(const RegistrationStart& start, const TemplateSource& source, const TemplateModel& model,
+                    const GrayImage& frame) {
+  const Region at{source.region.x + static_cast<int>(start.whole_px(0)) - patch_margin_px,
+                  source.region.y + static_cast<int>(start.whole_px(1)) - patch_margin_px,
+                  source.region.width + 2 * patch_margin_px, source.region.height + 2 * patch_margin_px};
+  return {frame, at, model.blur_px2};
+}
+
+// Of all that the template shows, where an outline alone was followed.
+std::vector<float> residuals_of(const Registrar& fine, const GrayImage& frame, const Registration& found) {
+  if (!found.by_outline) return found.residual_map;
+  RegistrationStart start = start_at(found.displacement_px);
+  start.linear = found.linear;
+  const FramePatch patch = patch_at(start, fine.source(), fine.model(), frame);
+  RegistrationSolver solver(fine.model(), patch, nullptr, start);
+  if (!solver.compare()) return found.residual_map;
+  return solver.residual_map(fine.source().region.width, fine.source().region.height);
+}
+
+// Where the part is seen best in the frame, from where the rest is.
+std::vector<Eigen::Vector2d> places_of(const TemplateSource& source, const Part& part, const GrayImage& frame,
+                                       const Registration& found) {
+  const Region& region = source.region;
+  const cv::Size samples(region.width / sample_step_px, region.height / sample_step_px);
+  cv::Mat1f smooth, shown(samples), mask(samples),
+      there(samples.height + 2 * searched_samples, samples.width + 2 * searched_samples);
+  cv::blur(mat_view(source.pixels), smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
+  for (int row = 0; row < samples.height; ++row) {
+    for (int column = 0; column < samples.width; ++column) {
+      const int x = column * sample_step_px, y = row * sample_step_px;
+      shown(row, column) = smooth(y + source.margin_px, x + source.margin_px);
+      mask(row, column) = part.pixels[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1.0f : 0.0f;
     }
   }
-  cv::Mat1f smooth, out;
+  cv::Mat1f map_x(there.size()), map_y(there.size());
+  const Eigen::Vector2d point(source.point.x_px, source.point.y_px), corner(region.x, region.y);
+  for (int row = 0; row < there.rows; ++row) {
+    for (int column = 0; column < there.cols; ++column) {
+      const Eigen::Vector2d at(column - searched_samples, row - searched_samples);
+      const Eigen::Vector2d in_frame =
+          corner + point + found.displacement_px + found.linear * (sample_step_px * at - point);
+      map_x(row, column) = static_cast<float>(in_frame(0));
+      map_y(row, column) = static_cast<float>(in_frame(1));
+    }
+  }
   mat_view(frame).convertTo(smooth, CV_32F);
   cv::blur(smooth, smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
-  cv::remap(smooth, out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  return out;
-}
-
-FloatImage held(const cv::Mat1f& values) {
-  FloatImage out(values.cols, values.rows);
-  values.copyTo(mat_view(out));
-  return out;
-}
-
-cv::Mat1f at_shift(const cv::Mat1f& wide, const cv::Point& shift, const cv::Size& samples) {
-  return wide(cv::Rect({searched_samples + shift.x, searched_samples + shift.y}, samples)).clone();
-}
-
-// Whether much of what the picture shows there tells a place along both axes: any edge is like a straight one, and any
-// corner like a corner.
-bool tells_both_ways(const cv::Mat1f& picture, const cv::Mat& there) {
-  cv::Mat1f gx, gy;
-  cv::Sobel(picture, gx, CV_32F, 1, 0);
-  cv::Sobel(picture, gy, CV_32F, 0, 1);
-  const auto around = [](const cv::Mat1f& a, const cv::Mat1f& b) {
-    cv::Mat1f product, out;
-    cv::multiply(a, b, product);
-    cv::boxFilter(product, out, CV_32F, {apart_window, apart_window});
-    return out;
-  };
-  const cv::Mat1f xx = around(gx, gx), xy = around(gx, gy), yy = around(gy, gy);
-  int both = 0;
-  for (int row = 0; row < picture.rows; ++row) {
-    for (int column = 0; column < picture.cols; ++column) {
-      if (there.at<std::uint8_t>(row, column) == 0) continue;
-      const double middle = 0.5 * (xx(row, column) + yy(row, column));
-      const double half_spread = std::hypot(0.5 * (xx(row, column) - yy(row, column)), xy(row, column));
-      both += middle - half_spread > least_across * (middle + half_spread) ? 1 : 0;
-    }
+  cv::remap(smooth, there, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::Mat1f scores;
+  cv::matchTemplate(there, shown, scores, cv::TM_CCOEFF_NORMED, mask);
+  scores.setTo(-1.0f, (scores != scores) | (scores > 1.1f));
+  std::vector<Eigen::Vector2d> out;
+  for (int k = 0; k < places_tried; ++k) {
+    double best = 0.0;
+    cv::Point place;
+    cv::minMaxLoc(scores, nullptr, &best, nullptr, &place);
+    if (best < least_alike) break;
+    out.emplace_back(sample_step_px * (place.x - searched_samples), sample_step_px * (place.y - searched_samples));
+    cv::circle(scores, place, same_place_samples, cv::Scalar(-1.0), cv::FILLED);
   }
-  return both > least_swapped * cv::countNonZero(there);
+  return out;
+}
+
+// Correlation of the part with what the template itself shows `away_px` from it.
+double alike_before(const TemplateSource& source, const TemplateModel& part, const GrayImage& image,
+                    const Eigen::Vector2d& away_px) {
+  cv::Mat1f map_x(1, part.pixels), map_y(1, part.pixels), levels, smooth;
+  for (int k = 0; k < part.pixels; ++k) {
+    map_x(k) = static_cast<float>(source.region.x + part.column[k] + away_px(0));
+    map_y(k) = static_cast<float>(source.region.y + part.row[k] + away_px(1));
+  }
+  mat_view(image).convertTo(smooth, CV_32F);
+  cv::remap(smooth, levels, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  const Eigen::Map<const Eigen::ArrayXf> a(part.value.data(), part.pixels), b(levels.ptr<float>(), part.pixels);
+  const Eigen::ArrayXd da = a.cast<double>() - a.cast<double>().mean(), db = b.cast<double>() - b.cast<double>().mean();
+  return (da * db).sum() / std::sqrt(da.square().sum() * db.square().sum() + 1e-9);
 }
 
 }  // namespace
 
-bool moved_apart(const GrayImage& image, const Region& region, const PixelPoint& point,
-                 const std::vector<std::uint8_t>& usable, const GrayImage& frame, const Registration& found) {
-  const cv::Size samples(region.width / sample_step_px, region.height / sample_step_px);
-  Registration still;
-  still.contrast = 1.0;
-  const cv::Mat1f wide_then = put_back(image, region, point, still, samples);
-  const cv::Mat1f wide_now = put_back(frame, region, point, found, samples);
-  const cv::Mat1f shown = at_shift(wide_then, {0, 0}, samples);
-  cv::Mat1f use(samples);
-  for (int row = 0; row < use.rows; ++row) {
-    for (int column = 0; column < use.cols; ++column) {
-      const std::size_t k = static_cast<std::size_t>(row * sample_step_px) * region.width + column * sample_step_px;
-      use(row, column) = usable[k] != 0 ? 1.0f : 0.0f;
-    }
-  }
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(shown, mean, deviation);
-  const double even_variance = even_part * deviation[0] * deviation[0];
-  const auto likeness = [&](const cv::Mat1f& wide, const cv::Point& shift, double contrast) {
-    const cv::Mat1f there = at_shift(wide, shift, samples);
-    cv::Mat1f weight = use.clone();
-    weight.setTo(0.0f, there >= clipped);
-    const FloatImage told =
-        window_likeness(held(shown), held(there), held(weight), apart_window, contrast, even_variance);
-    return cv::Mat1f(mat_view(told).clone());
+bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage& frame, const Registration& found) {
+  const std::optional<Part> part = part_that_does_not_fit(fine, residuals_of(fine, frame, found));
+  if (!part) return false;
+  const TemplateSource& source = fine.source();
+  const TemplateModel& model = fine.model();
+  TemplateSource of_part = source;
+  of_part.usable = part->pixels;
+  of_part.backdrop.reset();
+  TemplateModel alone = make_template_model(of_part, model.blur_px2, model.blur_px2);
+  find_noise_effects(alone);
+  const Eigen::Vector2d rest_px =
+      found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
+  const auto is_at = [&](const Eigen::Vector2d& away_px) {
+    RegistrationStart start = start_at(rest_px + found.linear * away_px);
+    start.outline_alone = true;
+    start.middle_px = part->middle_px;
+    const FramePatch patch = patch_at(start, source, model, frame);
+    RegistrationSolver solver(alone, patch, nullptr, start);
+    if (!solver.run()) return false;
+    Registration own = solver.fit(alone.pixels);
+    if (own.correlation < part_correlation || own.inlier_share < most_of_part) return false;
+    solver.tell_uncertainty(own);
+    if (own.covariance_px2.diagonal().maxCoeff() > part_known_px * part_known_px) return false;
+    const Eigen::Vector2d apart = own.middle_px - rest_px;
+    if (apart.norm() < apart_px) return false;
+    const Eigen::Matrix2d both = own.covariance_px2 + found.covariance_px2;
+    if (apart.dot(both.ldlt().solve(apart)) < apart_chi_square) return false;
+    return apart.norm() < next_piece_px || alike_before(source, alone, image, apart) < alike;
   };
-  cv::Mat unlike = likeness(wide_now, {0, 0}, found.contrast) < 0.0f;
-  cv::morphologyEx(unlike, unlike, cv::MORPH_OPEN, cv::Mat::ones(3, 3, CV_8U));
-  const int unlike_count = cv::countNonZero(unlike);
-  if (unlike_count < least_part * samples.area()) return false;
-  cv::Mat1f part, scores;
-  unlike.convertTo(part, CV_32F, 1.0 / 255.0);
-  cv::matchTemplate(wide_now, shown, scores, cv::TM_CCOEFF_NORMED, part);
-  scores.setTo(-1.0f, (scores != scores) | (scores > 1.1f));
-  double best = 0.0;
-  cv::Point place;
-  cv::minMaxLoc(scores, nullptr, &best, nullptr, &place);
-  const cv::Point shift(place.x - searched_samples, place.y - searched_samples);
-  if (best < least_alike || (shift.x == 0 && shift.y == 0)) return false;
-  // A bar behind a cover is like itself further along: what was there before has not come there.
-  const cv::Mat come =
-      (likeness(wide_now, shift, found.contrast) > 0.0f) & (likeness(wide_then, shift, 1.0) < 0.0f) & unlike;
-  return cv::countNonZero(come) > least_found * unlike_count && tells_both_ways(shown, come);
+  if (is_at(Eigen::Vector2d::Zero())) return true;
+  const std::vector<Eigen::Vector2d> places = places_of(source, *part, frame, found);
+  return std::any_of(places.begin(), places.end(), is_at);
 }
 
 }  // namespace zerodrift::vision

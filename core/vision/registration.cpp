@@ -51,6 +51,7 @@ constexpr double outline_bias = 6.0;        // one frame in twenty without need:
 constexpr double outline_in_part = 0.75;    // of the gradient energy: less of it is no better than the whole
 constexpr double drawn_middle_px = 5.0;     // a point further from the middle was named on purpose
 constexpr double all_but_chips = 0.9;       // of a rim's pixels
+constexpr double parts_apart = 25.0;        // chi-square of two numbers
 constexpr double all_of_it = 0.98;          // of the pixels
 constexpr double turn_step_px = 0.8;        // at the region's edge: a glance follows thin lines half as far
 constexpr double least_turn_step_rad = 0.004;
@@ -345,9 +346,19 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   Registration out = by_levels(patches, std::move(start), with_residual_map);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   out.growth = 0.5 * out.linear.trace() - 1.0;
-  if (!out.light_changed && out.structure < reflected_structure) return out;
+  const bool by_rim = out.light_changed || out.structure >= reflected_structure;
+  // What does not fit may be the ball itself, and what fits what stands still around it.
+  if (!by_rim && out.inlier_share + out.saturated_share > all_of_it) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
   const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.blur_px2);
+  if (!by_rim) {
+    if (rim && rim->fitting_share > all_but_chips) {
+      const Eigen::Vector2d variance = (rim->covariance_px2 + out.covariance_px2).diagonal();
+      const Eigen::Vector2d apart = rim->moved_px - out.middle_px;
+      out.parts_apart = (apart.array().square() / variance.array()).sum() > parts_apart;
+    }
+    return out;
+  }
   out.converged = rim.has_value();
   if (!rim) return out;
   out.growth = rim->growth;
@@ -415,6 +426,7 @@ Registration Registrar::by_levels(PatchOfFrame& patches, RegistrationStart start
     outline.covariance_px2.diagonal().array() += ((whole.linear - outline.linear) * lever).array().square();
   }
   outline.light_changed = whole.light_changed;
+  outline.by_outline = true;
   return outline;
 }
 

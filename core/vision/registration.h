@@ -30,7 +30,9 @@ struct Registration {
   double informed_share = 0.0;                                    // of the gradient energy
   double rim_share = 1.0;                                         // the same in the outermost eighths of the region
   bool light_changed = false;                                     // across the target, since the template
+  bool by_outline = false;                                        // what it shows within was left out
   bool by_rim = false;                                            // of a ball: all that it shows within was left out
+  bool parts_apart = false;                                       // the rim of a ball is elsewhere than what fits
   double growth = 0.0;                                            // of a ball, as a share of its size
   double printed_otherwise = 0.0;  // of what does not fit: shows the target's other tones
   double seen_share = 0.0;         // of the pixels that lie in the frame

@@ -362,6 +362,12 @@ bool RegistrationSolver::run() {
   return (m_shift - start).norm() < reach_px;
 }
 
+bool RegistrationSolver::compare() {
+  for (int k = 0; k < m_model.pixels; ++k) fill_row(k);
+  m_all_pixels = true;
+  return start_light(m_model.pixels);
+}
+
 void RegistrationSolver::hand_over(RegistrationStart& start) const {
   start.shift_px = m_shift;
   start.linear = m_linear;

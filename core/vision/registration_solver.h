@@ -50,6 +50,8 @@ class RegistrationSolver {
   bool was_partly_unlit() const { return m_was_partly_unlit; }
   /// On the first quarter of the pixels, which is spread evenly over the region.
   bool glance();
+  /// Compares all pixels where the start puts them, with the light that suits most of them; false as run.
+  bool compare();
   /// What was found on the `count` pixels used, without its uncertainty.
   Registration fit(int count) const;
   /// After run. The noise's effects on the model must be known.

@@ -179,7 +179,8 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
 
 Location Target::locate(const GrayImage& frame) const {
   Registration found;
-  Location out = search(frame, nullptr, &found);
+  std::vector<float> residual_map;
+  Location out = search(frame, &residual_map, &found);
   if (!out.ok) {
     const Eigen::Vector2d moved_px(out.point.x_px - m_impl->point.x_px, out.point.y_px - m_impl->point.y_px);
     out.refusal = told_by_the_picture(out.refusal, frame, m_impl->image, m_impl->region, moved_px);
@@ -198,10 +199,9 @@ Location Target::locate(const GrayImage& frame) const {
     if (seen == Disc::Seen::elsewhere) return refuse(Refusal::moved_apart);
     if (seen == Disc::Seen::of_another_size) return refuse(Refusal::wrong_target);
   }
-  // What stands behind it is known, or the pattern is its own rival a period further.
-  if (m_impl->backdrop || m_impl->repeating.repeats()) return out;
-  if (found.inlier_share + found.saturated_share > nothing_hidden) return out;
-  if (moved_apart(m_impl->image, m_impl->region, m_impl->point, m_impl->mask, frame, found)) {
+  found.residual_map = std::move(residual_map);
+  // What a ball shows within its rim is a reflection; where the rim itself is was asked.
+  if (!m_impl->fine.rim() && moved_apart(m_impl->fine, m_impl->image, frame, found)) {
     return refuse(Refusal::moved_apart);
   }
   return out;

@@ -139,6 +139,16 @@ TEST(Disc, ThatMovesWithinWhatStandsIsNotTakenForIt) {
   }
 }
 
+TEST(Disc, ThatMovesByLittleWithinARingThatStandsIsNotTakenForIt) {
+  const Print ring{named_x, named_y, 62.0, 45.0};
+  const Target target = target_of(printed({{named_x, named_y, 28.0}, ring}, 1), {250, 171, 140, 140});
+  for (unsigned k = 0; k < 6; ++k) {
+    const double dx = 0.7 * std::cos(2.1 * k), dy = 0.6 * std::sin(1.7 * k + 0.3);
+    const Location at = target.locate(printed({{named_x + dx, named_y + dy, 28.0}, ring}, 40 + k));
+    EXPECT_FALSE(at.ok && std::hypot(at.x_px - dx, at.y_px - dy) > 0.1) << k;
+  }
+}
+
 TEST(Disc, IsNotTakenForItsTwinBesideTheRegion) {
   const Print twin{named_x + 85.0, named_y, 30.0};
   const Target target = target_of(printed({{named_x, named_y, 30.0}, twin}, 1), {276, 197, 90, 90});
