@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/memory.h"
 #include "core/diagnosis/apart.h"
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/checked_runs.h"
@@ -443,6 +444,7 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
                            const TaskContext& context) {
   if (given.empty())
     return fail(ErrorCode::bad_argument, {{"what", "recordings"}, {"found", "none"}, {"expected", "at least one"}});
+  keep_freed_memory();
   ZD_TRY(const CheckedRuns runs, checked_runs(machine, given));
   const bool apart = falls_apart(machine);
   Result<Diagnosis> result = apart ? diagnose_apart(machine, runs.recordings, options, context)
