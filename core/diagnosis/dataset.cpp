@@ -247,14 +247,17 @@ void whiten_columns(const Dataset& data, const physics::Prediction& prediction, 
   std::vector<double> mean(count);
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
     const MeasuredChannel& channel = data.channels[c];
-    if (channel.samples == 0) continue;
     std::fill(mean.begin(), mean.end(), 0.0);
     for (std::size_t k = 0; k < data.rows(); ++k) {
-      const Gain& g = channel.gains[k];
-      for (std::size_t p = 0; p < count; ++p) mean[p] *= g.fade;
-      if (!g.present) continue;
-      const double* by = prediction.channels[c].derivatives.data() + k * count;
       double* out = jacobian.row(static_cast<Eigen::Index>(c * data.rows() + k)).data();
+      const bool measured = channel.samples > 0;
+      for (std::size_t p = 0; measured && p < count; ++p) mean[p] *= channel.gains[k].fade;
+      if (!measured || !channel.gains[k].present) {
+        for (const int target : target_columns) out[target] = 0.0;
+        continue;
+      }
+      const Gain& g = channel.gains[k];
+      const double* by = prediction.channels[c].derivatives.data() + k * count;
       for (std::size_t p = 0; p < count; ++p) {
         const double innovation = by[p] - mean[p];
         out[target_columns[p]] = innovation * g.inverse * slopes[p];

@@ -84,9 +84,10 @@ Dataset with_discrepancy(Dataset data, const std::vector<Discrepancy>& channels)
 /// move the nominal prediction.
 void set_timing_noise(Dataset& data, const physics::Network& network, const physics::InputSet& inputs);
 
-/// Whitens measured - predicted and, if wanted, the prediction's derivatives (times `slopes`) as columns starting at
-/// `first_column` of `jacobian`. Row = channel * rows + sample. Returns the log determinant sum(ln S).
+/// Whitens measured - predicted. Row = channel * rows + sample, 0 where nothing was measured. Returns the log
+/// determinant sum(ln S).
 double whiten(const Dataset& data, const physics::Prediction& prediction, Eigen::VectorXd* residual);
+/// The prediction's derivatives, times `slopes`, into these columns of a matrix that has its rows already.
 void whiten_columns(const Dataset& data, const physics::Prediction& prediction, const std::vector<double>& slopes,
                     RowMatrix& jacobian, const std::vector<int>& target_columns);
 

@@ -128,9 +128,9 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
     history.columns = blocks;
     history.rows = data.rows();
     history.channels.resize(data.channels.size());
-    for (auto& channel : history.channels) channel.derivatives.assign(data.rows() * blocks, 0.0);
+    for (auto& channel : history.channels) channel.derivatives.resize(data.rows() * blocks);
     for (std::size_t b = 0; b < blocks; ++b) put_column(data, first, whole, place, b, shift, history);
-    RowMatrix columns = RowMatrix::Zero(nominal.residual().size(), nb);
+    RowMatrix columns(nominal.residual().size(), nb);
     std::vector<int> targets(blocks);
     std::iota(targets.begin(), targets.end(), 0);
     whiten_columns(data, history, std::vector<double>(blocks, 1.0), columns, targets);

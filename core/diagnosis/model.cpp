@@ -42,7 +42,6 @@ Model::Model(physics::Machine machine, std::shared_ptr<const Dataset> data, bool
     }
     m_z[i] = std::clamp(m_z[i], m_low[i], m_high[i]);
   }
-  m_jacobian.setZero(static_cast<Index>(m_data->stacked()), n);
   m_gram.setZero(n, n);
   m_stale.assign(m_free.size(), true);
   for (const auto& spec : m_machine.effects)
@@ -70,17 +69,24 @@ void Model::start_from(const Model& parent, bool columns) {
       m_z[static_cast<Index>(i)] =
           std::clamp(parent.m_z[static_cast<Index>(k)], m_low[static_cast<Index>(i)], m_high[static_cast<Index>(i)]);
       if (columns && parent.m_have_columns) {
-        m_jacobian.col(static_cast<Index>(i)) = parent.m_jacobian.col(static_cast<Index>(k));
         m_stale[i] = parent.m_stale[k];
         taken.emplace_back(i, k);
       }
       break;
     }
   }
+  m_borrowed = m_have_columns = columns && parent.m_have_columns;
+  if (!m_have_columns) return;
+  make_room_for_columns();
   for (const auto& [i, k] : taken) {
+    m_jacobian.col(i) = parent.m_jacobian.col(k);
     for (const auto& [j, l] : taken) m_gram(i, j) = parent.m_gram(k, l);
   }
-  m_borrowed = m_have_columns = columns && parent.m_have_columns;
+}
+
+/// Most models are simulated only: the largest thing they may have is not there before the first column is.
+void Model::make_room_for_columns() {
+  if (m_jacobian.size() == 0) m_jacobian.setZero(static_cast<Index>(m_data->stacked()), m_z.size());
 }
 
 void Model::set_z(std::size_t i, double z) {
@@ -160,6 +166,7 @@ physics::Prediction Model::predict_at(const Eigen::VectorXd& z, const std::vecto
 
 void Model::take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns) {
   if (unknowns.empty()) return;
+  make_room_for_columns();
   const std::vector<double> values = values_at(m_z);
   std::vector<double> slopes;
   for (const int i : unknowns) {

@@ -74,7 +74,7 @@ physics::Prediction predicted(const physics::Network& network, const physics::In
     physics::PredictedChannel all{first.channel, first.temperature, std::move(first.values), {}};
     all.derivatives.resize(whole.rows * columns);
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::vector<double>& from = predictions[part].channels[c].derivatives;
+      const UnfilledNumbers& from = predictions[part].channels[c].derivatives;
       const std::size_t width = predictions[part].columns;
       for (std::size_t k = 0; k < whole.rows; ++k) {
         std::copy_n(from.data() + k * width, width, all.derivatives.data() + k * columns + first_of(part));

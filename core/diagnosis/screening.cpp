@@ -205,7 +205,7 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
   const Columns columns = amplitude_columns(wide.network(), first_effect, group.size());
   physics::Prediction prediction = predicted(wide.network(), wide.inputs(), wide.values(), columns.parameters);
   take_chords_of_lags(wide.network(), group, columns, wide.inputs().time_s, prediction);
-  RowMatrix s = RowMatrix::Zero(base.residual().size(), static_cast<Index>(columns.parameters.size()));
+  RowMatrix s(base.residual().size(), static_cast<Index>(columns.parameters.size()));
   std::vector<int> targets(columns.parameters.size());
   for (std::size_t i = 0; i < targets.size(); ++i) targets[i] = static_cast<int>(i);
   whiten_columns(base.data(), prediction, columns.slopes, s, targets);

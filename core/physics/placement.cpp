@@ -161,7 +161,7 @@ Result<Placement> place_sensor(const Machine& machine, const recording::Recordin
     error = seen->values;
     placement.measured = true;
   } else {
-    for (const auto& channel : observe(network, set, values, {}, run).channels) {
+    for (const auto& channel : observe(network, set, values, run).channels) {
       if (channel.channel == options.error) error = channel.values;
     }
   }

@@ -21,7 +21,7 @@ LagStep lag_step(double dt_s, double tau_s) {
 }
 
 /// Filters `columns` series side by side in place.
-void lag_columns(std::vector<double>& x, std::size_t columns, const std::vector<double>& time_s, double tau_s) {
+void lag_columns(UnfilledNumbers& x, std::size_t columns, const std::vector<double>& time_s, double tau_s) {
   if (tau_s < 1e-9 || columns == 0 || time_s.empty()) return;
   std::vector<double> before(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(columns));
   std::vector<double> y = before;
@@ -38,9 +38,17 @@ void lag_columns(std::vector<double>& x, std::size_t columns, const std::vector<
 
 class Observer {
  public:
+  /// `parameters`: the columns that are wanted. `moving`: where among them each column of the trajectory belongs, the
+  /// others move no temperature.
   Observer(const Network& network, const InputSet& inputs, const std::vector<double>& values,
-           const std::vector<int>& parameters, const Trajectory& trajectory)
-      : m_net(network), m_in(inputs), m_values(values), m_run(trajectory), m_column(network.parameters.size(), -1) {
+           const std::vector<int>& parameters, const Trajectory& trajectory, const std::vector<std::size_t>& moving)
+      : m_net(network),
+        m_in(inputs),
+        m_values(values),
+        m_run(trajectory),
+        m_columns(parameters.size()),
+        m_moving(moving),
+        m_column(network.parameters.size(), -1) {
     for (std::size_t c = 0; c < parameters.size(); ++c) m_column[parameters[c]] = static_cast<int>(c);
   }
 
@@ -49,7 +57,7 @@ class Observer {
     out.channel = seen.channel;
     out.temperature = seen.temperature;
     out.values.assign(m_run.rows, 0.0);
-    out.derivatives.assign(m_run.rows * m_run.columns, 0.0);
+    out.derivatives.assign(m_run.rows * m_columns, 0.0);
     if (seen.probe >= 0) take_probe(seen, out);
     for (const auto& step : seen.steps) add_step(step, out);
     if (seen.lag_s >= 0) apply_lag(m_values[seen.lag_s], column(seen.lag_s), out);
@@ -68,8 +76,19 @@ class Observer {
 
   void add_column(PredictedChannel& out, int at, double factor, const std::vector<double>& series) const {
     if (at < 0) return;
-    for (std::size_t k = 0; k < rows(); ++k) out.derivatives[k * m_run.columns + at] += factor * series[k];
+    for (std::size_t k = 0; k < rows(); ++k) out.derivatives[k * m_columns + at] += factor * series[k];
   }
+
+  /// Adds a probe's derivatives, or what became of them ([row * the trajectory's columns + column]).
+  void add_moving(PredictedChannel& out, double factor, const double* by) const {
+    const std::size_t count = m_moving.size();
+    for (std::size_t k = 0; k < rows(); ++k) {
+      double* row = out.derivatives.data() + k * m_columns;
+      for (std::size_t c = 0; c < count; ++c) row[m_moving[c]] += factor * by[k * count + c];
+    }
+  }
+
+  const double* by_probe(int probe) const { return m_run.derivatives.data() + probe * rows() * m_run.columns; }
 
   void take_probe(const Observation& seen, PredictedChannel& out) const {
     const std::size_t probes = m_net.probes.size();
@@ -86,11 +105,9 @@ class Observer {
       }
       out.values[k] = scale * raw[k];
     }
-    const double* by = m_run.derivatives.data() + seen.probe * rows() * m_run.columns;
-    for (std::size_t i = 0; i < out.derivatives.size(); ++i) out.derivatives[i] = scale * (1.0 - share) * by[i];
+    add_moving(out, scale * (1.0 - share), by_probe(seen.probe));
     if (mixed) {
-      const double* by_inner = m_run.derivatives.data() + seen.inner_probe * rows() * m_run.columns;
-      for (std::size_t i = 0; i < out.derivatives.size(); ++i) out.derivatives[i] += scale * share * by_inner[i];
+      add_moving(out, scale * share, by_probe(seen.inner_probe));
       add_column(out, column(seen.inner_share), scale, inner);
     }
     if (seen.scale >= 0) add_column(out, column(seen.scale), 1.0, raw);
@@ -108,10 +125,7 @@ class Observer {
       difference[k] = m_run.probes[k * probes + step.probe];
       out.values[k] += strength.value * difference[k];
     }
-    const double* by = m_run.derivatives.data() + step.probe * rows() * m_run.columns;
-    for (std::size_t i = 0; strength.value != 0.0 && i < out.derivatives.size(); ++i) {
-      out.derivatives[i] += strength.value * by[i];
-    }
+    if (strength.value != 0.0) add_moving(out, strength.value, by_probe(step.probe));
     for (std::size_t i = 0; i < step.parameters.size(); ++i) {
       add_column(out, column(step.parameters[i]), strength.by_parameter[i], difference);
     }
@@ -120,7 +134,7 @@ class Observer {
   void apply_lag(double tau_s, int at, PredictedChannel& out) const {
     std::vector<double> by_tau;
     out.values = lagged(out.values, m_in.time_s, tau_s, at >= 0 ? &by_tau : nullptr);
-    lag_columns(out.derivatives, m_run.columns, m_in.time_s, tau_s);
+    lag_columns(out.derivatives, m_columns, m_in.time_s, tau_s);
     if (at >= 0) add_column(out, at, 1.0, by_tau);
   }
 
@@ -137,12 +151,11 @@ class Observer {
 
   void add_structure(const StructureTerm& term, PredictedChannel& out) const {
     std::vector<double> driver(rows());
-    std::vector<double> by;
+    UnfilledNumbers by;
     if (term.probe >= 0) {
       const std::size_t probes = m_net.probes.size();
       for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_run.probes[k * probes + term.probe] - term.probe_reference;
-      const auto from = m_run.derivatives.begin() + static_cast<std::ptrdiff_t>(term.probe * rows() * m_run.columns);
-      by.assign(from, from + static_cast<std::ptrdiff_t>(rows() * m_run.columns));
+      by.assign(by_probe(term.probe), by_probe(term.probe + 1));
     } else {
       for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_in.signals[k][term.signal];
     }
@@ -179,17 +192,20 @@ class Observer {
     if (difference) add_column(out, column(term.second_lag), -gain, by_second);
     if (by.empty() || gain == 0.0) return;
     lag_columns(by, m_run.columns, m_in.time_s, tau_s);
-    std::vector<double> slow_by = by;
-    if (difference) lag_columns(slow_by, m_run.columns, m_in.time_s, second_s);
-    for (std::size_t i = 0; i < by.size(); ++i) {
-      out.derivatives[i] += gain * (difference ? by[i] - slow_by[i] : by[i]);
+    if (difference) {
+      UnfilledNumbers slow_by = by;
+      lag_columns(slow_by, m_run.columns, m_in.time_s, second_s);
+      for (std::size_t i = 0; i < by.size(); ++i) by[i] -= slow_by[i];
     }
+    add_moving(out, gain, by.data());
   }
 
   const Network& m_net;
   const InputSet& m_in;
   const std::vector<double>& m_values;
   const Trajectory& m_run;
+  std::size_t m_columns;
+  const std::vector<std::size_t>& m_moving;
   std::vector<int> m_column;
 };
 
@@ -209,14 +225,20 @@ std::vector<double> lagged(const std::vector<double>& series, const std::vector<
   return y;
 }
 
-Prediction observe(const Network& network, const InputSet& inputs, const std::vector<double>& values,
-                   const std::vector<int>& parameters, const Trajectory& trajectory) {
+static Prediction observe(const Network& network, const InputSet& inputs, const std::vector<double>& values,
+                          const std::vector<int>& parameters, const Trajectory& trajectory,
+                          const std::vector<std::size_t>& moving) {
   Prediction prediction;
   prediction.rows = trajectory.rows;
-  prediction.columns = trajectory.columns;
-  Observer observer(network, inputs, values, parameters, trajectory);
+  prediction.columns = parameters.size();
+  Observer observer(network, inputs, values, parameters, trajectory, moving);
   for (const auto& seen : network.observations) prediction.channels.push_back(observer.channel(seen));
   return prediction;
+}
+
+Prediction observe(const Network& network, const InputSet& inputs, const std::vector<double>& values,
+                   const Trajectory& trajectory) {
+  return observe(network, inputs, values, {}, trajectory, {});
 }
 
 /// Parameters that move node temperatures; offsets, lags, gains and structure terms act on the readings alone.
@@ -238,18 +260,6 @@ static std::vector<bool> thermal_parameters(const Network& network) {
   return thermal;
 }
 
-/// The trajectory with a column for every parameter asked for, those that move no temperature being 0.
-static void widen(Trajectory& run, const std::vector<std::size_t>& target, std::size_t columns) {
-  const std::size_t narrow = run.columns;
-  std::vector<double> wide(narrow == 0 ? 0 : run.derivatives.size() / narrow * columns, 0.0);
-  if (narrow == 0) wide.assign(run.probes.size() * columns, 0.0);
-  for (std::size_t row = 0; narrow > 0 && row < run.derivatives.size() / narrow; ++row) {
-    for (std::size_t c = 0; c < narrow; ++c) wide[row * columns + target[c]] = run.derivatives[row * narrow + c];
-  }
-  run.derivatives = std::move(wide);
-  run.columns = columns;
-}
-
 Prediction predict(const Network& network, const InputSet& inputs, const std::vector<double>& values,
                    const std::vector<int>& parameters, const SimulateOptions& options) {
   const std::vector<bool> thermal = thermal_parameters(network);
@@ -260,9 +270,8 @@ Prediction predict(const Network& network, const InputSet& inputs, const std::ve
     moving.push_back(parameters[c]);
     target.push_back(c);
   }
-  Trajectory run = run_network(network, inputs, values, moving, options);
-  if (moving.size() < parameters.size()) widen(run, target, parameters.size());
-  return observe(network, inputs, values, parameters, run);
+  const Trajectory run = run_network(network, inputs, values, moving, options);
+  return observe(network, inputs, values, parameters, run, target);
 }
 
 }  // namespace zerodrift::physics

@@ -13,7 +13,7 @@ struct PredictedChannel {
   std::string channel;
   bool temperature = true;
   std::vector<double> values;
-  std::vector<double> derivatives;  // [row * columns + column], by parameter value
+  UnfilledNumbers derivatives;  // [row * columns + column], by parameter value
 };
 
 struct Prediction {
@@ -24,9 +24,9 @@ struct Prediction {
 
 Prediction predict(const Network& network, const InputSet& inputs, const std::vector<double>& values,
                    const std::vector<int>& parameters = {}, const SimulateOptions& options = {});
-/// The same from a trajectory already simulated (its columns are `parameters`).
+/// The same from a trajectory already simulated, without derivatives.
 Prediction observe(const Network& network, const InputSet& inputs, const std::vector<double>& values,
-                   const std::vector<int>& parameters, const Trajectory& trajectory);
+                   const Trajectory& trajectory);
 
 /// First-order lag of a series that is linear between samples (exact first-order hold), steady at the start.
 /// by_tau: its derivative by tau, when wanted.

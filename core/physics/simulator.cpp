@@ -118,7 +118,7 @@ Trajectory Stepper::run() {
   m_out.rows = rows;
   m_out.columns = m_p;
   m_out.probes.assign(rows * m_net.probes.size(), 0.0);
-  m_out.derivatives.assign(rows * m_net.probes.size() * m_p, 0.0);
+  m_out.derivatives.resize(rows * m_net.probes.size() * m_p);  // record() writes every row
   if (m_options.keep_field) m_out.field_C.assign(rows * m_n, 0.0);
   if (rows > 0) record(0);
   for (std::size_t k = 0; k + 1 < rows; ++k) {

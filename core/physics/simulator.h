@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "core/base/unfilled.h"
 #include "core/physics/inputs.h"
 #include "core/physics/network.h"
 
@@ -20,10 +21,10 @@ struct SimulateOptions {
 
 struct Trajectory {
   std::size_t rows = 0;
-  std::size_t columns = 0;          // derivatives, in the order of the parameters asked for
-  std::vector<double> probes;       // [row * probe count + probe]
-  std::vector<double> derivatives;  // [(probe * rows + row) * columns + column], by parameter value
-  std::vector<double> field_C;      // [row * nodes + node]
+  std::size_t columns = 0;      // derivatives, in the order of the parameters asked for
+  std::vector<double> probes;   // [row * probe count + probe]
+  UnfilledNumbers derivatives;  // [(probe * rows + row) * columns + column], by parameter value
+  std::vector<double> field_C;  // [row * nodes + node]
   double stored_J = 0.0;
   double supplied_J = 0.0;  // sources less what films took away
 };
