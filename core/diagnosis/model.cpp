@@ -60,6 +60,7 @@ std::vector<double> Model::values_at(const Eigen::VectorXd& z) const {
 }
 
 void Model::start_from(const Model& parent, bool columns) {
+  m_simulated = {};
   std::vector<bool> used(parent.unknowns(), false);
   std::vector<std::pair<Index, Index>> taken;  // columns: mine, the parent's
   for (std::size_t i = 0; i < unknowns(); ++i) {
@@ -92,6 +93,7 @@ void Model::make_room_for_columns() {
 void Model::set_z(std::size_t i, double z) {
   const Index at = static_cast<Index>(i);
   m_z[at] = std::clamp(z, m_low[at], m_high[at]);
+  m_simulated = {};
 }
 
 void Model::learn_from(const Model& other, Sensors sensors) {
@@ -129,6 +131,7 @@ void Model::learn_from(const Model& other, Sensors sensors) {
   }
   // In the place of the effects' own, which the other recording has paid: the prior's density in more than one unknown.
   m_log_prior = 0.5 * Eigen::LDLT<Eigen::MatrixXd>(inverse).vectorD().array().max(1e-300).log().sum();
+  m_simulated = {};
   m_ready = false;
 }
 
@@ -156,6 +159,15 @@ std::vector<int> Model::effect_unknowns() const {
     if (effect >= 0 && m_machine.effects[effect].candidate) list.push_back(static_cast<int>(i));
   }
   return list;
+}
+
+physics::Prediction Model::prediction() const {
+  if (m_simulated.channels.empty()) return physics::predict(m_network, m_inputs, values());
+  physics::Prediction readings{m_simulated.rows, 0, {}};
+  for (const auto& channel : m_simulated.channels) {
+    readings.channels.push_back({channel.channel, channel.temperature, channel.values, {}});
+  }
+  return readings;
 }
 
 physics::Prediction Model::predict_at(const Eigen::VectorXd& z, const std::vector<int>& unknowns) const {

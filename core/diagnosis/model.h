@@ -61,8 +61,8 @@ class Model {
   double log_evidence_total() const;  // with the noise's own determinant: comparable between noise levels
   const Eigen::VectorXd& residual() const { return m_residual; }
   const RowMatrix& jacobian() const { return m_jacobian; }
-  Eigen::MatrixXd hessian() const;  // J'J and the prior's: I, or what was learned
-  physics::Prediction prediction() const { return physics::predict(m_network, m_inputs, values()); }
+  Eigen::MatrixXd hessian() const;         // J'J and the prior's: I, or what was learned
+  physics::Prediction prediction() const;  // at z
   /// The same model on another recording of the machine; per-recording unknowns at their means.
   std::vector<std::string> bounds_reached() const;
   double gain = 0.0;       // of the score test that suggested it
@@ -90,7 +90,7 @@ class Model {
   RowMatrix m_jacobian;
   mutable Eigen::MatrixXd m_gram;     // J'J, but for
   mutable std::vector<bool> m_stale;  // columns that changed since it was last asked for
-  physics::Prediction m_simulated;    // at m_z, with every unknown's column; empty until all were simulated
+  physics::Prediction m_simulated;    // at m_z, with every unknown's column; empty: not simulated
   bool m_borrowed = false;            // some columns come from the parent
   bool m_have_columns = false;
   bool m_ready = false;  // residual and columns are there before the first step

@@ -88,7 +88,9 @@ class Observer {
     }
   }
 
-  const double* by_probe(int probe) const { return m_run.derivatives.data() + probe * rows() * m_run.columns; }
+  const double* by_probe(int probe) const {
+    return m_run.derivatives.data() + m_run.derived[probe] * rows() * m_run.columns;
+  }
 
   void take_probe(const Observation& seen, PredictedChannel& out) const {
     const std::size_t probes = m_net.probes.size();
@@ -151,11 +153,9 @@ class Observer {
 
   void add_structure(const StructureTerm& term, PredictedChannel& out) const {
     std::vector<double> driver(rows());
-    UnfilledNumbers by;
     if (term.probe >= 0) {
       const std::size_t probes = m_net.probes.size();
       for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_run.probes[k * probes + term.probe] - term.probe_reference;
-      by.assign(by_probe(term.probe), by_probe(term.probe + 1));
     } else {
       for (std::size_t k = 0; k < rows(); ++k) driver[k] = m_in.signals[k][term.signal];
     }
@@ -190,7 +190,9 @@ class Observer {
     if (term.lag >= 0) add_column(out, column(term.lag), gain, shape_by_tau);
     if (!fading.empty()) add_column(out, column(term.initial), gain, fading);
     if (difference) add_column(out, column(term.second_lag), -gain, by_second);
-    if (by.empty() || gain == 0.0) return;
+    if (term.probe < 0 || gain == 0.0) return;
+    const double* from = by_probe(term.probe);
+    UnfilledNumbers by(from, from + rows() * m_run.columns);
     lag_columns(by, m_run.columns, m_in.time_s, tau_s);
     if (difference) {
       UnfilledNumbers slow_by = by;
@@ -260,8 +262,26 @@ static std::vector<bool> thermal_parameters(const Network& network) {
   return thermal;
 }
 
+/// What only drives a structure that does not move is not differentiated: of the many forms that a screening looks
+/// through, each with a driver of its own, that is all.
+static std::vector<bool> drivers_of_nothing(const Network& network, const std::vector<double>& values) {
+  std::vector<bool> unread(network.probes.size(), true);
+  const auto read = [&](int probe) {
+    if (probe >= 0) unread[static_cast<std::size_t>(probe)] = false;
+  };
+  for (const auto& seen : network.observations) {
+    read(seen.probe);
+    read(seen.inner_probe);
+    for (const auto& step : seen.steps) read(step.probe);
+    for (const auto& term : seen.structure) {
+      if (values[term.gain] != 0.0) read(term.probe);
+    }
+  }
+  return unread;
+}
+
 Prediction predict(const Network& network, const InputSet& inputs, const std::vector<double>& values,
-                   const std::vector<int>& parameters, const SimulateOptions& options) {
+                   const std::vector<int>& parameters, SimulateOptions options) {
   const std::vector<bool> thermal = thermal_parameters(network);
   std::vector<int> moving;
   std::vector<std::size_t> target;
@@ -270,6 +290,7 @@ Prediction predict(const Network& network, const InputSet& inputs, const std::ve
     moving.push_back(parameters[c]);
     target.push_back(c);
   }
+  options.values_only = drivers_of_nothing(network, values);
   const Trajectory run = run_network(network, inputs, values, moving, options);
   return observe(network, inputs, values, parameters, run, target);
 }

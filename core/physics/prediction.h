@@ -23,7 +23,7 @@ struct Prediction {
 };
 
 Prediction predict(const Network& network, const InputSet& inputs, const std::vector<double>& values,
-                   const std::vector<int>& parameters = {}, const SimulateOptions& options = {});
+                   const std::vector<int>& parameters = {}, SimulateOptions options = {});
 /// The same from a trajectory already simulated, without derivatives.
 Prediction observe(const Network& network, const InputSet& inputs, const std::vector<double>& values,
                    const Trajectory& trajectory);

@@ -72,7 +72,8 @@ void Stepper::record(std::size_t row) {
     double value = 0.0;
     for (const auto& [node, weight] : m_net.probes[k]) value += weight * m_t[node];
     m_out.probes[row * count + k] = value;
-    if (m_p > 0) m_tangent.observe(m_net.probes[k], m_out.derivatives.data() + (k * m_out.rows + row) * m_p);
+    if (m_p == 0 || m_out.derived[k] < 0) continue;
+    m_tangent.observe(m_net.probes[k], m_out.derivatives.data() + (m_out.derived[k] * m_out.rows + row) * m_p);
   }
   if (m_options.keep_field)
     std::copy(m_t.begin(), m_t.end(), m_out.field_C.begin() + static_cast<std::ptrdiff_t>(row * m_n));
@@ -118,7 +119,11 @@ Trajectory Stepper::run() {
   m_out.rows = rows;
   m_out.columns = m_p;
   m_out.probes.assign(rows * m_net.probes.size(), 0.0);
-  m_out.derivatives.resize(rows * m_net.probes.size() * m_p);  // record() writes every row
+  int derived = 0;
+  for (std::size_t k = 0; k < m_net.probes.size(); ++k) {
+    m_out.derived.push_back(m_options.values_only.empty() || !m_options.values_only[k] ? derived++ : -1);
+  }
+  m_out.derivatives.resize(rows * static_cast<std::size_t>(derived) * m_p);  // record() writes every row
   if (m_options.keep_field) m_out.field_C.assign(rows * m_n, 0.0);
   if (rows > 0) record(0);
   for (std::size_t k = 0; k + 1 < rows; ++k) {

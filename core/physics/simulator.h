@@ -14,16 +14,18 @@
 namespace zerodrift::physics {
 
 struct SimulateOptions {
-  double longest_step_s = 31.0;  // twice that where no input has stepped for a while
-  bool keep_field = false;       // node temperatures at every sample
-  bool keep_balance = false;     // stored and supplied heat
+  double longest_step_s = 31.0;     // twice that where no input has stepped for a while
+  bool keep_field = false;          // node temperatures at every sample
+  bool keep_balance = false;        // stored and supplied heat
+  std::vector<bool> values_only{};  // probes whose derivatives nobody asks for; empty: none
 };
 
 struct Trajectory {
   std::size_t rows = 0;
   std::size_t columns = 0;      // derivatives, in the order of the parameters asked for
   std::vector<double> probes;   // [row * probe count + probe]
-  UnfilledNumbers derivatives;  // [(probe * rows + row) * columns + column], by parameter value
+  UnfilledNumbers derivatives;  // [(place * rows + row) * columns + column], by parameter value
+  std::vector<int> derived;     // place of each probe among the derivatives, -1: values only
   std::vector<double> field_C;  // [row * nodes + node]
   double stored_J = 0.0;
   double supplied_J = 0.0;  // sources less what films took away

@@ -220,7 +220,8 @@ void Skyline::solve(double* given) {
   for (int i = 0; i < n && x != given; ++i) given[m_order[i]] = x[i];
 }
 
-/// The two rows that the next one needs stay in registers. Everything is written out here: what is called would be
+/// The two rows that the next one of its half needs stay in registers, and the halves take turns, so that neither waits
+/// for itself alone. Everything is written out here: what is called would be
 /// compiled for the narrow registers.
 ZERODRIFT_WIDE void Skyline::solve_lanes_of_band(double* x) const {
   const std::size_t n = m_first.size();
@@ -230,7 +231,17 @@ ZERODRIFT_WIDE void Skyline::solve_lanes_of_band(double* x) const {
     return reinterpret_cast<Four*>(x + (order == nullptr ? i : static_cast<std::size_t>(order[i])) * lanes);
   };
   Four last_a{}, last_b{}, before_a{}, before_b{};
-  for (std::size_t i = 0; i < m; ++i) {
+  Four last_up_a{}, last_up_b{}, before_up_a{}, before_up_b{};
+  for (std::size_t i = 0, k = n - 1; k >= m + 2; ++i, --k) {
+    Four* low = at(k);
+    const double near_up = m_near_up[k], far_up = m_far_up[k];
+    const Four up_a = low[0] - far_up * before_up_a - near_up * last_up_a;
+    const Four up_b = low[1] - far_up * before_up_b - near_up * last_up_b;
+    before_up_a = last_up_a;
+    before_up_b = last_up_b;
+    low[0] = last_up_a = up_a;
+    low[1] = last_up_b = up_b;
+    if (i >= m) break;
     Four* own = at(i);
     const double near = m_near[i], far = m_far[i];
     const Four now_a = own[0] - far * before_a - near * last_a;
@@ -246,44 +257,28 @@ ZERODRIFT_WIDE void Skyline::solve_lanes_of_band(double* x) const {
   Four one_b = middle_one[1] - m_far[m] * before_b - m_near[m] * last_b;
   Four two_a = middle_two[0] - m_far[m + 1] * last_a;
   Four two_b = middle_two[1] - m_far[m + 1] * last_b;
-  last_a = last_b = before_a = before_b = Four{};
-  for (std::size_t k = n; k-- > m + 2;) {
-    Four* own = at(k);
-    const double near = m_near_up[k], far = m_far_up[k];
-    const Four now_a = own[0] - far * before_a - near * last_a;
-    const Four now_b = own[1] - far * before_b - near * last_b;
-    before_a = last_a;
-    before_b = last_b;
-    own[0] = last_a = now_a;
-    own[1] = last_b = now_b;
-  }
-  one_a -= m_far_up[m] * last_a;
-  one_b -= m_far_up[m] * last_b;
-  two_a -= m_near_up[m + 1] * last_a + m_far_up[m + 1] * before_a;
-  two_b -= m_near_up[m + 1] * last_b + m_far_up[m + 1] * before_b;
+  one_a -= m_far_up[m] * last_up_a;
+  one_b -= m_far_up[m] * last_up_b;
+  two_a -= m_near_up[m + 1] * last_up_a + m_far_up[m + 1] * before_up_a;
+  two_b -= m_near_up[m + 1] * last_up_b + m_far_up[m + 1] * before_up_b;
   const Four first_a = m_middle[0] * one_a + m_middle[1] * two_a, second_a = m_middle[1] * one_a + m_middle[2] * two_a;
   const Four first_b = m_middle[0] * one_b + m_middle[1] * two_b, second_b = m_middle[1] * one_b + m_middle[2] * two_b;
-  middle_one[0] = last_a = first_a;
-  middle_one[1] = last_b = first_b;
-  middle_two[0] = before_a = second_a;
-  middle_two[1] = before_b = second_b;
-  for (std::size_t i = m; i-- > 0;) {
-    Four* own = at(i);
+  middle_one[0] = last_a = before_up_a = first_a;
+  middle_one[1] = last_b = before_up_b = first_b;
+  middle_two[0] = before_a = last_up_a = second_a;
+  middle_two[1] = before_b = last_up_b = second_b;
+  for (std::size_t i = m, k = m + 2; k < n; ++k) {
+    Four* low = at(k);
+    const double inverse_up = m_inverse[k], near_up = m_near_up[k - 1], far_up = m_far_up[k - 2];
+    const Four up_a = low[0] * inverse_up - far_up * before_up_a - near_up * last_up_a;
+    const Four up_b = low[1] * inverse_up - far_up * before_up_b - near_up * last_up_b;
+    before_up_a = last_up_a;
+    before_up_b = last_up_b;
+    low[0] = last_up_a = up_a;
+    low[1] = last_up_b = up_b;
+    if (i == 0) continue;
+    Four* own = at(--i);
     const double inverse = m_inverse[i], near = m_near[i + 1], far = m_far[i + 2];
-    const Four now_a = own[0] * inverse - far * before_a - near * last_a;
-    const Four now_b = own[1] * inverse - far * before_b - near * last_b;
-    before_a = last_a;
-    before_b = last_b;
-    own[0] = last_a = now_a;
-    own[1] = last_b = now_b;
-  }
-  last_a = second_a;
-  last_b = second_b;
-  before_a = first_a;
-  before_b = first_b;
-  for (std::size_t k = m + 2; k < n; ++k) {
-    Four* own = at(k);
-    const double inverse = m_inverse[k], near = m_near_up[k - 1], far = m_far_up[k - 2];
     const Four now_a = own[0] * inverse - far * before_a - near * last_a;
     const Four now_b = own[1] * inverse - far * before_b - near * last_b;
     before_a = last_a;

@@ -9,7 +9,6 @@ Tangent::Tangent(const Network& network, const Assembly& assembly, const std::ve
   if (columns == 0) return;
   m_blocks.resize((columns + lanes - 1) / lanes);
   m_s.assign(m_blocks.size() * m_n * lanes, 0.0);
-  m_r.assign(m_n * lanes, 0.0);
   m_units.resize(network.terms.size());
   for (std::size_t i = 0; i < m_units.size(); ++i) {
     const Term& term = network.terms[i];
@@ -37,7 +36,7 @@ Tangent::Tangent(const Network& network, const Assembly& assembly, const std::ve
     double* s = of_block(m_s, at / lanes);
     for (const auto& [node, weight] : part.nodes) s[static_cast<std::size_t>(node) * lanes + at % lanes] += weight;
   }
-  m_before = m_s;
+  m_before = m_r = m_s;
 }
 
 void Tangent::prepare_unit(std::size_t term) {
@@ -97,12 +96,21 @@ void Tangent::evaluate_unit(std::size_t term, const StepTaken& step) {
     }
     return;
   }
-  const bool film = of.kind == TermKind::film;
-  const double towards_C = film ? m_assembly.environment_C(of.environment) : 1.0;
-  for (std::size_t w = 0; w < unit.nodes.size(); ++w) {
-    const int node = unit.nodes[w];
-    unit.first[w] = now.weights[w] * (2.0 * towards_C - (film ? step.before_C[node] + step.star_C[node] : 0.0));
-    unit.second[w] = now.weights[w] * (towards_C - (film ? step.after_C[node] : 0.0));
+  const std::size_t count = unit.nodes.size();
+  if (of.kind == TermKind::source) {
+    for (std::size_t w = 0; w < count; ++w) {
+      unit.first[w] = now.weights[w] * 2.0;
+      unit.second[w] = now.weights[w];
+    }
+    return;
+  }
+  const double towards_C = m_assembly.environment_C(of.environment);
+  const double* before_C = step.before_C + of.first_node;
+  const double* star_C = step.star_C + of.first_node;
+  const double* after_C = step.after_C + of.first_node;
+  for (std::size_t w = 0; w < count; ++w) {
+    unit.first[w] = now.weights[w] * (2.0 * towards_C - (before_C[w] + star_C[w]));
+    unit.second[w] = now.weights[w] * (towards_C - after_C[w]);
   }
 }
 
@@ -112,7 +120,7 @@ void Tangent::force(std::size_t block, const StepTaken& step, bool first_stage) 
   for (const Push& push : own.pushes) {
     const TermNow& now = m_assembly.now(push.term);
     const Unit& unit = m_units[push.term];
-    double* r = m_r.data() + push.lane;
+    double* r = of_block(m_r, block) + push.lane;
     if (push.slot == Slot::place) {
       const double factor = step.alpha * now.strength.value;
       if (factor == 0.0) continue;
@@ -142,7 +150,7 @@ void Tangent::force(std::size_t block, const StepTaken& step, bool first_stage) 
     const double change = first_stage
                               ? step.star_C[i] - step.before_C[i]
                               : step.after_C[i] - tr_bdf2::c_star * step.star_C[i] + tr_bdf2::c_old * step.before_C[i];
-    m_r[i * lanes + one.lane] -= m_net.volume[i] * change;
+    of_block(m_r, block)[i * lanes + one.lane] -= m_net.volume[i] * change;
   }
 }
 
@@ -162,7 +170,7 @@ void Tangent::force_by_driver(std::size_t block, std::size_t term, const StepTak
   const Unit& unit = m_units[term];
   const std::vector<double>& amount = first_stage ? unit.first : unit.second;
   for (std::size_t w = 0; w < amount.size(); ++w) {
-    double* r = m_r.data() + static_cast<std::size_t>(unit.nodes[w]) * lanes;
+    double* r = of_block(m_r, block) + static_cast<std::size_t>(unit.nodes[w]) * lanes;
     for (std::size_t c = 0; c < lanes; ++c) r[c] += amount[w] * moved[c];
   }
 }
@@ -178,23 +186,23 @@ void Tangent::force_by_surroundings(std::size_t block, std::size_t term, const S
     const double direct = step.alpha * sources * now.strength.value * by;
     const double by_law = step.alpha * now.strength.by_environment * by;
     for (std::size_t w = 0; w < amount.size(); ++w) {
-      m_r[static_cast<std::size_t>(unit.nodes[w]) * lanes + at % lanes] += direct * now.weights[w] + by_law * amount[w];
+      of_block(m_r, block)[static_cast<std::size_t>(unit.nodes[w]) * lanes + at % lanes] +=
+          direct * now.weights[w] + by_law * amount[w];
     }
   }
 }
 
 ZERODRIFT_WIDE void Tangent::advance_block(std::size_t block, const StepTaken& step) {
   const double* capacity = m_assembly.capacity().data();
-  Four* s = reinterpret_cast<Four*>(of_block(m_s, block));
-  Four* before = reinterpret_cast<Four*>(of_block(m_before, block));
-  Four* r = reinterpret_cast<Four*>(m_r.data());
+  const Four* s = reinterpret_cast<const Four*>(of_block(m_s, block));
+  Four* r = reinterpret_cast<Four*>(of_block(m_r, block));
   for (std::size_t i = 0; i < m_n; ++i) {
     const double twice = 2.0 * capacity[i];
     r[2 * i] = twice * s[2 * i];
     r[2 * i + 1] = twice * s[2 * i + 1];
   }
   force(block, step, true);
-  m_assembly.matrix().solve_lanes(m_r.data());
+  m_assembly.matrix().solve_lanes(of_block(m_r, block));
   for (std::size_t i = 0; i < m_n; ++i) {
     const double a = tr_bdf2::c_star * capacity[i];
     const double b = (tr_bdf2::c_star + tr_bdf2::c_old) * capacity[i];  // the stage is r - s
@@ -202,11 +210,7 @@ ZERODRIFT_WIDE void Tangent::advance_block(std::size_t block, const StepTaken& s
     r[2 * i + 1] = a * r[2 * i + 1] - b * s[2 * i + 1];
   }
   force(block, step, false);
-  m_assembly.matrix().solve_lanes(m_r.data());
-  for (std::size_t k = 0; k < 2 * m_n; ++k) {
-    before[k] = s[k];
-    s[k] = r[k];
-  }
+  m_assembly.matrix().solve_lanes(of_block(m_r, block));
 }
 
 void Tangent::advance(const StepTaken& step) {
@@ -214,23 +218,26 @@ void Tangent::advance(const StepTaken& step) {
     if (m_units[i].used) evaluate_unit(i, step);
   }
   for (std::size_t b = 0; b < m_blocks.size(); ++b) advance_block(b, step);
+  std::swap(m_before, m_s);
+  std::swap(m_s, m_r);
 }
 
+/// Two blocks at once: a sum waits for itself at every node, two of them wait together.
 ZERODRIFT_WIDE void Tangent::observe(const Probe& probe, double* by) const {
-  for (std::size_t b = 0; b < m_blocks.size(); ++b) {
-    const Four* s = reinterpret_cast<const Four*>(m_s.data() + b * m_n * lanes);
-    Four sum_a{}, sum_b{};
+  const std::size_t blocks = m_blocks.size();
+  for (std::size_t b = 0; b < blocks; b += 2) {
+    const std::size_t other = std::min(b + 1, blocks - 1);
+    const Four* one = reinterpret_cast<const Four*>(of_block(m_s, b));
+    const Four* two = reinterpret_cast<const Four*>(of_block(m_s, other));
+    Four sum[4] = {};
     for (const auto& [node, weight] : probe) {
-      const Four* at = s + 2 * static_cast<std::ptrdiff_t>(node);
-      sum_a += weight * at[0];
-      sum_b += weight * at[1];
+      const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(node);
+      sum[0] += weight * one[at];
+      sum[1] += weight * one[at + 1];
+      sum[2] += weight * two[at];
+      sum[3] += weight * two[at + 1];
     }
-    double sum[lanes];
-    for (std::size_t c = 0; c < lanes / 2; ++c) {
-      sum[c] = sum_a[c];
-      sum[c + lanes / 2] = sum_b[c];
-    }
-    std::copy_n(sum, std::min(lanes, m_columns - b * lanes), by + b * lanes);
+    std::copy_n(reinterpret_cast<const double*>(sum), std::min(2 * lanes, m_columns - b * lanes), by + b * lanes);
   }
 }
 

@@ -72,6 +72,9 @@ class Tangent {
   void force_by_driver(std::size_t block, std::size_t term, const StepTaken& step, bool first_stage);
   void force_by_surroundings(std::size_t block, std::size_t term, const StepTaken& step, bool first_stage);
   double* of_block(std::vector<double>& all, std::size_t block) const { return all.data() + block * m_n * lanes; }
+  const double* of_block(const std::vector<double>& all, std::size_t block) const {
+    return all.data() + block * m_n * lanes;
+  }
 
   const Network& m_net;
   const Assembly& m_assembly;
@@ -81,8 +84,8 @@ class Tangent {
   std::vector<Block> m_blocks;
   std::vector<std::size_t> m_driven;      // terms that follow temperatures
   std::vector<std::size_t> m_surrounded;  // terms towards a surrounding that is differentiated
-  std::vector<double> m_s, m_before;      // [(block * nodes + node) * lanes + lane]
-  std::vector<double> m_r;                // of the block at work
+  // Derivatives now, a step before and in the making: [(block * nodes + node) * lanes + lane]
+  std::vector<double> m_s, m_before, m_r;
 };
 
 }  // namespace zerodrift::physics
