@@ -72,20 +72,17 @@ bool within_tolerance(const Model& model) {
 
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others) {
   if (models.empty()) return;
-  const double reference = elsewhere(without, others).evidence;
-  std::vector<double> left(models.size());
-  in_parallel(models.size(), [&](std::size_t i) {
-    const Elsewhere there = elsewhere(*models[i], others);
-    models[i]->elsewhere = there.evidence - reference;
-    left[i] = there.left;
+  // The last is the one that the others are measured by.
+  std::vector<Elsewhere> there(models.size() + 1);
+  in_parallel(there.size(), [&](std::size_t i) {
+    there[i] = elsewhere(i < models.size() ? *models[i] : without, others);
+    there[i].fits.clear();
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    if (left[i] <= least_evident) {
-      models[kept++] = models[i];
-    } else {
-      models[i]->elsewhere = 0.0;
-    }
+    const bool fits = there[i].left <= least_evident;
+    models[i]->elsewhere = fits ? there[i].evidence - there.back().evidence : 0.0;
+    if (fits) models[kept++] = models[i];
   }
   models.resize(kept);
 }

@@ -78,16 +78,11 @@ void Model::start_from(const Model& parent, bool columns) {
   }
   m_borrowed = m_have_columns = columns && parent.m_have_columns;
   if (!m_have_columns) return;
-  make_room_for_columns();
+  m_jacobian.setZero(static_cast<Index>(m_data->stacked()), m_z.size());
   for (const auto& [i, k] : taken) {
     m_jacobian.col(i) = parent.m_jacobian.col(k);
     for (const auto& [j, l] : taken) m_gram(i, j) = parent.m_gram(k, l);
   }
-}
-
-/// Most models are simulated only: the largest thing they may have is not there before the first column is.
-void Model::make_room_for_columns() {
-  if (m_jacobian.size() == 0) m_jacobian.setZero(static_cast<Index>(m_data->stacked()), m_z.size());
 }
 
 void Model::set_z(std::size_t i, double z) {
@@ -178,7 +173,11 @@ physics::Prediction Model::predict_at(const Eigen::VectorXd& z, const std::vecto
 
 void Model::take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns) {
   if (unknowns.empty()) return;
-  make_room_for_columns();
+  // Most models are only simulated: the largest thing that they may have is not there before its first column is.
+  if (m_jacobian.size() == 0) {
+    m_jacobian.resize(static_cast<Index>(m_data->stacked()), m_z.size());
+    if (unknowns.size() < m_free.size()) m_jacobian.setZero();
+  }
   const std::vector<double> values = values_at(m_z);
   std::vector<double> slopes;
   for (const int i : unknowns) {

@@ -71,7 +71,6 @@ class Model {
  private:
   /// The prediction at z with its derivatives by some unknowns.
   physics::Prediction predict_at(const Eigen::VectorXd& z, const std::vector<int>& unknowns) const;
-  void make_room_for_columns();
   /// Takes the derivatives of a prediction at m_z over into the Jacobian.
   void take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns);
   void refresh(const std::vector<int>& unknowns);

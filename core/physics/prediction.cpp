@@ -1,5 +1,6 @@
 #include "core/physics/prediction.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -57,8 +58,12 @@ class Observer {
     out.channel = seen.channel;
     out.temperature = seen.temperature;
     out.values.assign(m_run.rows, 0.0);
-    out.derivatives.assign(m_run.rows * m_columns, 0.0);
-    if (seen.probe >= 0) take_probe(seen, out);
+    out.derivatives.resize(m_run.rows * m_columns);
+    if (seen.probe >= 0) {
+      take_probe(seen, out);
+    } else {
+      std::fill(out.derivatives.begin(), out.derivatives.end(), 0.0);
+    }
     for (const auto& step : seen.steps) add_step(step, out);
     if (seen.lag_s >= 0) apply_lag(m_values[seen.lag_s], column(seen.lag_s), out);
     if (seen.gain >= 0) apply_gain(seen, out);
@@ -79,13 +84,14 @@ class Observer {
     for (std::size_t k = 0; k < rows(); ++k) out.derivatives[k * m_columns + at] += factor * series[k];
   }
 
-  /// Adds a probe's derivatives, or what became of them ([row * the trajectory's columns + column]).
-  void add_moving(PredictedChannel& out, double factor, const double* by) const {
+  /// Adds a probe's derivatives, or what became of them ([row * the trajectory's columns + column]), to a row.
+  void add_moving(PredictedChannel& out, double factor, const double* by, std::size_t k) const {
     const std::size_t count = m_moving.size();
-    for (std::size_t k = 0; k < rows(); ++k) {
-      double* row = out.derivatives.data() + k * m_columns;
-      for (std::size_t c = 0; c < count; ++c) row[m_moving[c]] += factor * by[k * count + c];
-    }
+    double* row = out.derivatives.data() + k * m_columns;
+    for (std::size_t c = 0; c < count; ++c) row[m_moving[c]] += factor * by[k * count + c];
+  }
+  void add_moving(PredictedChannel& out, double factor, const double* by) const {
+    for (std::size_t k = 0; k < rows(); ++k) add_moving(out, factor, by, k);
   }
 
   const double* by_probe(int probe) const {
@@ -107,7 +113,12 @@ class Observer {
       }
       out.values[k] = scale * raw[k];
     }
-    add_moving(out, scale * (1.0 - share), by_probe(seen.probe));
+    // Row by row, so that it is filled with zeros where it is at once written.
+    const double* by = by_probe(seen.probe);
+    for (std::size_t k = 0; k < rows(); ++k) {
+      std::fill_n(out.derivatives.data() + k * m_columns, m_columns, 0.0);
+      add_moving(out, scale * (1.0 - share), by, k);
+    }
     if (mixed) {
       add_moving(out, scale * share, by_probe(seen.inner_probe));
       add_column(out, column(seen.inner_share), scale, inner);

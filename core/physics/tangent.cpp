@@ -237,7 +237,14 @@ ZERODRIFT_WIDE void Tangent::observe(const Probe& probe, double* by) const {
       sum[2] += weight * two[at];
       sum[3] += weight * two[at + 1];
     }
-    std::copy_n(reinterpret_cast<const double*>(sum), std::min(2 * lanes, m_columns - b * lanes), by + b * lanes);
+    double* to = by + b * lanes;
+    const std::size_t left = m_columns - b * lanes;
+    if (left >= 2 * lanes) {
+      Four* out = reinterpret_cast<Four*>(to);
+      for (std::size_t i = 0; i < 4; ++i) out[i] = sum[i];
+    } else {
+      for (std::size_t c = 0; c < left; ++c) to[c] = sum[c / 4][c % 4];
+    }
   }
 }
 
