@@ -166,45 +166,46 @@ void Skyline::factor_band() {
 ZERODRIFT_WIDE void Skyline::solve_band(double* x) const {
   const std::size_t n = m_first.size();
   const std::size_t m = middle();
+  const int* order = m_order.empty() ? nullptr : m_order.data();
+  const auto at = [&](std::size_t i) -> double& {
+    return x[order == nullptr ? i : static_cast<std::size_t>(order[i])];
+  };
   double before = 0.0, last = 0.0, before_up = 0.0, last_up = 0.0;
   for (std::size_t i = 0, k = n - 1; k >= m + 2; ++i, --k) {
-    const double up = x[k] - m_far_up[k] * before_up - m_near_up[k] * last_up;
+    const double up = at(k) - m_far_up[k] * before_up - m_near_up[k] * last_up;
     before_up = last_up;
-    last_up = x[k] = up;
+    last_up = at(k) = up;
     if (i >= m) break;
-    const double now = x[i] - m_far[i] * before - m_near[i] * last;
+    const double now = at(i) - m_far[i] * before - m_near[i] * last;
     before = last;
-    last = x[i] = now;
+    last = at(i) = now;
   }
-  const double one = x[m] - m_far[m] * before - m_near[m] * last - m_far_up[m] * last_up;
-  const double two = x[m + 1] - m_far[m + 1] * last - m_near_up[m + 1] * last_up - m_far_up[m + 1] * before_up;
-  double next = x[m] = m_middle[0] * one + m_middle[1] * two;
-  double next_up = x[m + 1] = m_middle[1] * one + m_middle[2] * two;
+  const double one = at(m) - m_far[m] * before - m_near[m] * last - m_far_up[m] * last_up;
+  const double two = at(m + 1) - m_far[m + 1] * last - m_near_up[m + 1] * last_up - m_far_up[m + 1] * before_up;
+  double next = at(m) = m_middle[0] * one + m_middle[1] * two;
+  double next_up = at(m + 1) = m_middle[1] * one + m_middle[2] * two;
   double after = next_up, after_up = next;
+  // The nearest row comes last: it is the one that is waited for.
   for (std::size_t i = m, k = m + 2; k < n; ++k) {
-    const double up = x[k] * m_inverse[k] - m_near_up[k - 1] * next_up - m_far_up[k - 2] * after_up;
+    const double up = at(k) * m_inverse[k] - m_far_up[k - 2] * after_up - m_near_up[k - 1] * next_up;
     after_up = next_up;
-    next_up = x[k] = up;
+    next_up = at(k) = up;
     if (i == 0) continue;
     --i;
-    const double now = x[i] * m_inverse[i] - m_near[i + 1] * next - m_far[i + 2] * after;
+    const double now = at(i) * m_inverse[i] - m_far[i + 2] * after - m_near[i + 1] * next;
     after = next;
-    next = x[i] = now;
+    next = at(i) = now;
   }
 }
 
 void Skyline::solve(double* given) {
   const int n = static_cast<int>(m_first.size());
   if (m_chain) return solve_chain(given);
+  if (m_band) return solve_band(given);
   double* x = given;
   if (!m_order.empty()) {
     x = m_sorted.data();
     for (int i = 0; i < n; ++i) x[i] = given[m_order[i]];
-  }
-  if (m_band) {
-    solve_band(x);
-    for (int i = 0; i < n && x != given; ++i) given[m_order[i]] = x[i];
-    return;
   }
   for (int i = 0; i < n; ++i) {
     const double* row = m_below.data() + m_start[i];
