@@ -262,10 +262,9 @@ void Diagnoser::judge() {
 
 void Diagnoser::decide() {
   judge();
-  if (m_out.excess_after > least_evident || names_a_sensor() || !m_far.empty()) {
-    m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits, m_context);
-  }
-  if (!m_misplaced) m_misplaced = a_little_misplaced(*m_selection.base, *m_selection.best, m_default_data);
+  const bool anywhere = m_out.excess_after > least_evident || names_a_sensor() || !m_far.empty();
+  m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
+                                 anywhere ? Reach::anywhere : Reach::aside, m_context);
   if (!m_misplaced && correct_description()) judge();
   const auto beyond_belief = [this] {
     return is_beyond_belief(m_far) || (m_corrected && is_beyond_belief({*m_corrected}));

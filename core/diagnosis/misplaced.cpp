@@ -275,12 +275,14 @@ bool leaves_little(const Model& fit) {
 /// Which trial beats the description, and by how much it must.
 class Contest {
  public:
-  Contest(const Model& base, const Model& best, std::shared_ptr<const Dataset> data)
-      : m_data(std::move(data)),
-        m_base(refitted(base.machine(), base, m_data)),
-        m_described(refitted(best.machine(), best, m_data)),
-        // The machine may lack something besides, but what a wrong place looks like is often named as a sensor's fault.
-        m_sound(refitted(without_sensor_faults(best.machine()), best, m_data)) {}
+  Contest(const Model& base, const Model& best, std::shared_ptr<const Dataset> data) : m_data(std::move(data)) {
+    in_parallel(3, [&](std::size_t i) {
+      if (i == 0) m_base = refitted(base.machine(), base, m_data);
+      if (i == 1) m_described = refitted(best.machine(), best, m_data);
+      // The machine may lack something besides, but what a wrong place looks like is often named as a sensor's fault.
+      if (i == 2) m_sound = refitted(without_sensor_faults(best.machine()), best, m_data);
+    });
+  }
 
   bool wins(const Trial& trial) const {
     return trial.fit->log_evidence() > m_described->log_evidence() + clearly(trial) && leaves_little(*trial.fit);
@@ -351,21 +353,12 @@ std::vector<Trial> leaders(const std::vector<Trial>& one, const std::vector<Tria
   return list;
 }
 
-}  // namespace
-
-std::string note_of(const Misplaced& found) {
-  if (!found.all_in.empty()) return "places_in:" + found.all_in;
-  return found.exchanged_with.empty() ? "misplaced:" + found.channel
-                                      : "exchanged:" + found.channel + ":" + found.exchanged_with;
-}
-
-std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
-                                          const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
-                                          SelectionOptions limits, const TaskContext& context) {
-  const Contest contest(base, best, data);
-  const std::vector<physics::Sensor> all = missed_most(base);
+/// Beside what `best` names of the machine, or what is found missing with the sensor there.
+std::optional<Misplaced> anywhere(const Contest& contest, const Model& base, const Model& best,
+                                  const physics::RunFacts& facts, SelectionOptions limits, const TaskContext& context) {
   std::vector<Trial> trials;
   for (const physics::Sensor& sensor : suspects(base, best, contest.sound())) add_places(trials, base, sensor);
+  const std::vector<physics::Sensor> all = missed_most(base);
   add_exchanges(trials, base, all);
   add_units(trials, base, all);
   const std::vector<Trial> alone = contest.tried_alone(trials);
@@ -380,24 +373,49 @@ std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
   // What else is missing was sought with the sensor where it is not.
   limits.others.clear();
   for (Trial& one : leading) {
-    const auto selected = select_effects(without_candidates(one.fit->machine()), data, facts, limits, context);
+    const auto selected =
+        select_effects(without_candidates(one.fit->machine()), contest.data(), facts, limits, context);
     if (!selected) return std::nullopt;
-    one.fit = refitted(selected->best->machine(), *selected->best, data);
+    one.fit = refitted(selected->best->machine(), *selected->best, contest.data());
     if (likelier(one, found)) found = one;
   }
   contest.narrow(found);
   return contest.wins(found) ? std::optional(found.what) : std::nullopt;
 }
 
-std::optional<Misplaced> a_little_misplaced(const Model& base, const Model& best,
-                                            const std::shared_ptr<const Dataset>& data) {
+/// Places beside those described, and the machine without what they pass for.
+struct Suspicion {
+  std::vector<Trial> trials;
+  physics::Machine without;
+};
+
+std::vector<Suspicion> aside_of_what_is_named(const Model& base, const Model& best) {
   const std::vector<physics::Sensor> all = missed_most(base);
-  const std::array<std::pair<std::vector<Trial>, physics::Machine>, 2> suspicions{
-      std::pair{aside_of_joints(best, all), without_joints(best.machine())},
-      std::pair{aside_of_faults(best, all), without_sensor_faults(best.machine())}};
-  for (const auto& [trials, without] : suspicions) {
-    if (trials.empty()) continue;
-    const Contest contest(base, best, data);
+  std::vector<Suspicion> list;
+  list.push_back({aside_of_joints(best, all), without_joints(best.machine())});
+  list.push_back({aside_of_faults(best, all), without_sensor_faults(best.machine())});
+  std::erase_if(list, [](const Suspicion& one) { return one.trials.empty(); });
+  return list;
+}
+
+}  // namespace
+
+std::string note_of(const Misplaced& found) {
+  if (!found.all_in.empty()) return "places_in:" + found.all_in;
+  return found.exchanged_with.empty() ? "misplaced:" + found.channel
+                                      : "exchanged:" + found.channel + ":" + found.exchanged_with;
+}
+
+std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
+                                          const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
+                                          const SelectionOptions& limits, Reach reach, const TaskContext& context) {
+  const std::vector<Suspicion> aside = aside_of_what_is_named(base, best);
+  if (reach == Reach::aside && aside.empty()) return std::nullopt;
+  const Contest contest(base, best, data);
+  if (reach == Reach::anywhere) {
+    if (auto found = anywhere(contest, base, best, facts, limits, context)) return found;
+  }
+  for (const auto& [trials, without] : aside) {
     const std::vector<Trial> tried = contest.tried_beside(*refitted(without, best, data), trials);
     if (tried.empty()) continue;
     Trial found = tried.front();

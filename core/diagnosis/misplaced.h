@@ -20,16 +20,17 @@ struct Misplaced {
 /// "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT".
 std::string note_of(const Misplaced& found);
 
+enum class Reach {
+  aside,    // some per cent of the length to either side of where they are described: the sensors next to a joint that
+            // is named, and those that are named as late or of another gain
+  anywhere  // and before that every place where a sensor might be
+};
+
 /// The sensor whose place, changed, explains the recording far better than `best` does, beside what `best` names of
 /// the machine or what is found missing with the sensor there; nothing where no place does, or where much is
 /// left even so. `data`: with default widths.
 std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
                                           const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
-                                          SelectionOptions limits, const TaskContext& context);
-
-/// The same some per cent of the length to either side of where they are described: the sensors next to a joint that
-/// `best` names, and those that it names as late or of another gain.
-std::optional<Misplaced> a_little_misplaced(const Model& base, const Model& best,
-                                            const std::shared_ptr<const Dataset>& data);
+                                          const SelectionOptions& limits, Reach reach, const TaskContext& context);
 
 }  // namespace zerodrift::diagnosis

@@ -312,6 +312,7 @@ void Model::fit(const FitOptions& options) {
   const bool refreshed = options.final_refresh && !stopped();
   if (stale != 0 && refreshed) refresh(all);
   m_borrowed = stale != 0 && !refreshed;
+  log_evidence();  // here, where fits run side by side, and not one by one where they are compared
 }
 
 double Model::log_evidence() const {

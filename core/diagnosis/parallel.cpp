@@ -61,27 +61,28 @@ physics::Prediction predicted(const physics::Network& network, const physics::In
   const std::size_t others = s_busy - (t_counted ? 1 : 0);
   const std::size_t parts = std::min(blocks, threads_there() - std::min(threads_there() - 1, others));
   if (parts < 2) return physics::predict(network, inputs, values, parameters);
-  const auto first_of = [&](std::size_t part) { return std::min(columns, part * blocks / parts * block); };
+  // Dealt one by one: the columns that move temperatures, which alone take time, often stand together.
   std::vector<physics::Prediction> predictions(parts);
   on_threads(parts, parts, [&](std::size_t part) {
-    const std::vector<int> own(parameters.begin() + static_cast<std::ptrdiff_t>(first_of(part)),
-                               parameters.begin() + static_cast<std::ptrdiff_t>(first_of(part + 1)));
+    std::vector<int> own;
+    for (std::size_t c = part; c < columns; c += parts) own.push_back(parameters[c]);
     predictions[part] = physics::predict(network, inputs, values, own);
   });
   physics::Prediction whole{predictions.front().rows, columns, {}};
-  for (std::size_t c = 0; c < predictions.front().channels.size(); ++c) {
+  whole.channels.resize(predictions.front().channels.size());
+  on_threads(parts, whole.channels.size(), [&](std::size_t c) {
     physics::PredictedChannel& first = predictions.front().channels[c];
     physics::PredictedChannel all{first.channel, first.temperature, std::move(first.values), {}};
     all.derivatives.resize(whole.rows * columns);
     for (std::size_t part = 0; part < parts; ++part) {
-      const UnfilledNumbers& from = predictions[part].channels[c].derivatives;
-      const std::size_t width = predictions[part].columns;
+      const double* from = predictions[part].channels[c].derivatives.data();
       for (std::size_t k = 0; k < whole.rows; ++k) {
-        std::copy_n(from.data() + k * width, width, all.derivatives.data() + k * columns + first_of(part));
+        double* row = all.derivatives.data() + k * columns;
+        for (std::size_t at = part; at < columns; at += parts) row[at] = *from++;
       }
     }
-    whole.channels.push_back(std::move(all));
-  }
+    whole.channels[c] = std::move(all);
+  });
   return whole;
 }
 
