@@ -24,8 +24,8 @@ constexpr double most_of_part = 0.7;    // of its pixels: it hides and uncovers 
 constexpr double part_known_px = 0.03;  // along a cover's edge nearly anything fits somewhere, not so well
 constexpr double apart_px = 0.1;
 constexpr double apart_chi_square = 36.0;
-constexpr double next_piece_px = 3.0;  // further away a pattern that repeats is like itself
-constexpr double alike = 0.8;          // correlation
+constexpr double next_piece_px = 3.0;              // further away a pattern that repeats is like itself
+constexpr double alike = 0.95, alike_share = 0.5;  // correlation, and of its pixels
 
 struct Part {
   std::vector<std::uint8_t> pixels;                     // of the region, 1 each
@@ -131,21 +131,6 @@ std::vector<Eigen::Vector2d> places_of(const TemplateSource& source, const Part&
   return out;
 }
 
-// Correlation of the part with what the template itself shows `away_px` from it.
-double alike_before(const TemplateSource& source, const TemplateModel& part, const GrayImage& image,
-                    const Eigen::Vector2d& away_px) {
-  cv::Mat1f map_x(1, part.pixels), map_y(1, part.pixels), levels, smooth;
-  for (int k = 0; k < part.pixels; ++k) {
-    map_x(k) = static_cast<float>(source.region.x + part.column[k] + away_px(0));
-    map_y(k) = static_cast<float>(source.region.y + part.row[k] + away_px(1));
-  }
-  mat_view(image).convertTo(smooth, CV_32F);
-  cv::remap(smooth, levels, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  const Eigen::Map<const Eigen::ArrayXf> a(part.value.data(), part.pixels), b(levels.ptr<float>(), part.pixels);
-  const Eigen::ArrayXd da = a.cast<double>() - a.cast<double>().mean(), db = b.cast<double>() - b.cast<double>().mean();
-  return (da * db).sum() / std::sqrt(da.square().sum() * db.square().sum() + 1e-9);
-}
-
 }  // namespace
 
 bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage& frame, const Registration& found) {
@@ -160,22 +145,30 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
   find_noise_effects(alone);
   const Eigen::Vector2d rest_px =
       found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
+  const auto seen_in = [&](const GrayImage& picture, RegistrationStart start) {
+    start.middle_px = part->middle_px;
+    const FramePatch patch = patch_at(start, source, model, picture);
+    RegistrationSolver solver(alone, patch, nullptr, start);
+    if (!solver.run()) return Registration{};
+    Registration out = solver.fit(alone.pixels);
+    solver.tell_uncertainty(out);
+    return out;
+  };
   const auto is_at = [&](const Eigen::Vector2d& away_px) {
     RegistrationStart start = start_at(rest_px + found.linear * away_px);
-    start.outline_alone = true;
-    start.middle_px = part->middle_px;
-    const FramePatch patch = patch_at(start, source, model, frame);
-    RegistrationSolver solver(alone, patch, nullptr, start);
-    if (!solver.run()) return false;
-    Registration own = solver.fit(alone.pixels);
+    start.linear = found.linear;
+    const Registration own = seen_in(frame, start);
     if (own.correlation < part_correlation || own.inlier_share < most_of_part) return false;
-    solver.tell_uncertainty(own);
     if (own.covariance_px2.diagonal().maxCoeff() > part_known_px * part_known_px) return false;
     const Eigen::Vector2d apart = own.middle_px - rest_px;
     if (apart.norm() < apart_px) return false;
     const Eigen::Matrix2d both = own.covariance_px2 + found.covariance_px2;
     if (apart.dot(both.ldlt().solve(apart)) < apart_chi_square) return false;
-    return apart.norm() < next_piece_px || alike_before(source, alone, image, apart) < alike;
+    if (apart.norm() < next_piece_px) return true;
+    // Under a cover it may be taken for another piece of a print that repeats, which was there before.
+    const Registration before = seen_in(image, start_at(apart));
+    return before.correlation < alike || before.inlier_share < alike_share ||
+           (before.middle_px - apart).norm() > next_piece_px;
   };
   if (is_at(Eigen::Vector2d::Zero())) return true;
   const std::vector<Eigen::Vector2d> places = places_of(source, *part, frame, found);
