@@ -68,12 +68,9 @@ RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
   return out;
 }
 
-FramePatch patch_at(const RegistrationStart& start, const TemplateSource& source, const TemplateModel& model,
-                    const GrayImage& frame) {
-  const Region at{source.region.x + static_cast<int>(start.whole_px(0)) - patch_margin_px,
-                  source.region.y + static_cast<int>(start.whole_px(1)) - patch_margin_px,
-                  source.region.width + 2 * patch_margin_px, source.region.height + 2 * patch_margin_px};
-  return {frame, at, model.blur_px2};
+FramePatch patch_at(const RegistrationStart& start, const Registrar& fine, const GrayImage& frame) {
+  const Region at = fine.patch_at(static_cast<int>(start.whole_px(0)), static_cast<int>(start.whole_px(1)));
+  return {frame, at, fine.model().blur_px2};
 }
 
 // Of all that the template shows, where an outline alone was followed.
@@ -81,7 +78,7 @@ std::vector<float> residuals_of(const Registrar& fine, const GrayImage& frame, c
   if (!found.by_outline) return found.residual_map;
   RegistrationStart start = start_at(found.displacement_px);
   start.linear = found.linear;
-  const FramePatch patch = patch_at(start, fine.source(), fine.model(), frame);
+  const FramePatch patch = patch_at(start, fine, frame);
   RegistrationSolver solver(fine.model(), patch, nullptr, start);
   if (!solver.compare()) return found.residual_map;
   return solver.residual_map(fine.source().region.width, fine.source().region.height);
@@ -147,7 +144,7 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
       found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
   const auto seen_in = [&](const GrayImage& picture, RegistrationStart start) {
     start.middle_px = part->middle_px;
-    const FramePatch patch = patch_at(start, source, model, picture);
+    const FramePatch patch = patch_at(start, fine, picture);
     RegistrationSolver solver(alone, patch, nullptr, start);
     if (!solver.run()) return Registration{};
     Registration out = solver.fit(alone.pixels);

@@ -76,6 +76,8 @@ class Registrar {
   /// As run, on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
   std::vector<Registration> glances(const GrayImage& frame, const std::vector<std::array<int, 2>>& places) const;
 
+  /// Of a frame, what is looked at to find the region displaced so.
+  Region patch_at(int dx_px, int dy_px) const;
   const TemplateModel& model() const { return m_model; }
   const TemplateSource& source() const { return m_source; }
   /// Empty where the target is no ball, whose rim is told from what it reflects.
@@ -88,7 +90,6 @@ class Registrar {
   Registration solve(const TemplateSource& source, const TemplateModel& usual, const RegistrationStart& first_start,
                      Course& course) const;
   bool outline_tells_more(const Registration& whole) const;
-  Region patch_at(int dx_px, int dy_px) const;
   /// 1 for each pixel of the region around which a frame does not look like the template there.
   std::vector<std::uint8_t> unlike(const GrayImage& frame, int dx_px, int dy_px) const;
   /// The share of saturated pixels; 0 if the first glance found nothing.
