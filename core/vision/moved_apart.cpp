@@ -14,14 +14,21 @@ namespace {
 
 constexpr float misfit_scales = 4.0f;
 constexpr int around_misfit_px = 3;  // the other side of an edge, and what it lies on
-constexpr int least_part_pixels = 400;
-constexpr double least_part_energy = 0.06;                // of the gradients'
-constexpr int sample_step_px = 2, searched_samples = 40;  // each way
-constexpr int places_tried = 3, same_place_samples = 4;
+constexpr int least_misfits = 60;    // pixels
+constexpr int least_part_pixels = 150;
+constexpr int solved_pixels = 500;  // fewer are not solved well: as much again around them
+constexpr int widened_times = 3;
+constexpr double least_part_energy = 0.015;               // of the gradients'
+constexpr int sample_step_px = 3, searched_samples = 27;  // each way
+constexpr int places_tried = 3, same_place_samples = 3;
 constexpr double least_alike = 0.6;  // correlation at the samples
-constexpr double part_correlation = 0.995;
-constexpr double most_of_part = 0.7;    // of its pixels: it hides and uncovers some of what stands
-constexpr double part_known_px = 0.03;  // along a cover's edge nearly anything fits somewhere, not so well
+constexpr double part_correlation = 0.995, glanced_correlation = 0.9;
+constexpr double most_of_part = 0.7;         // of its pixels: it hides and uncovers some of what stands
+constexpr double part_known_px = 0.03;       // along a cover's edge nearly anything fits somewhere, not so well, unless
+constexpr double nearly_all_of_part = 0.95;  // fits, and so near that it was not sought
+constexpr double barely_known_px = 0.045;
+constexpr double least_residual = 1.0;  // grey levels at middle grey
+constexpr double as_well = 1.6;  // times the residual of the rest: what has moved fits there, a cover does so roughly
 constexpr double apart_px = 0.1;
 constexpr double apart_chi_square = 36.0;
 constexpr double next_piece_px = 3.0;              // further away a pattern that repeats is like itself
@@ -29,6 +36,7 @@ constexpr double alike = 0.95, alike_share = 0.5;  // correlation, and of its pi
 
 struct Part {
   std::vector<std::uint8_t> pixels;                     // of the region, 1 each
+  cv::Rect box;                                         // around them
   Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // from the named point
 };
 
@@ -42,21 +50,29 @@ std::optional<Part> part_that_does_not_fit(const Registrar& fine, const std::vec
     const float residual = residual_map[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]];
     misfit(model.row[k], model.column[k]) = std::abs(residual) > misfit_scales ? 1 : 0;  // not if it is not a number
   }
-  cv::dilate(misfit, misfit, cv::Mat::ones(2 * around_misfit_px + 1, 2 * around_misfit_px + 1, CV_8U));
+  if (cv::countNonZero(misfit) < least_misfits) return std::nullopt;
+  const cv::Mat around = cv::Mat::ones(2 * around_misfit_px + 1, 2 * around_misfit_px + 1, CV_8U);
   Part out;
-  out.pixels.assign(misfit.begin(), misfit.end());
-  for (std::size_t k = 0; k < out.pixels.size(); ++k) out.pixels[k] = out.pixels[k] && source.usable[k];
   double all = 0.0, part = 0.0;
   int count = 0;
-  for (int k = 0; k < model.pixels; ++k) {
-    const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
-    all += energy;
-    if (!out.pixels[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]]) continue;
-    part += energy;
-    out.middle_px += energy * Eigen::Vector2d(model.x[k], model.y[k]);
-    ++count;
+  for (int widened = 0; widened < widened_times && count < solved_pixels; ++widened) {
+    cv::dilate(misfit, misfit, around);
+    out.pixels.assign(misfit.begin(), misfit.end());
+    for (std::size_t k = 0; k < out.pixels.size(); ++k) out.pixels[k] = out.pixels[k] && source.usable[k];
+    out.middle_px.setZero();
+    all = part = 0.0;
+    count = 0;
+    for (int k = 0; k < model.pixels; ++k) {
+      const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
+      all += energy;
+      if (!out.pixels[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]]) continue;
+      part += energy;
+      out.middle_px += energy * Eigen::Vector2d(model.x[k], model.y[k]);
+      ++count;
+    }
+    if (count < least_part_pixels || part < least_part_energy * all) return std::nullopt;
   }
-  if (count < least_part_pixels || part < least_part_energy * all) return std::nullopt;
+  out.box = cv::boundingRect(misfit);
   out.middle_px /= part;
   return out;
 }
@@ -68,8 +84,13 @@ RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
   return out;
 }
 
-FramePatch patch_at(const RegistrationStart& start, const Registrar& fine, const GrayImage& frame) {
-  const Region at = fine.patch_at(static_cast<int>(start.whole_px(0)), static_cast<int>(start.whole_px(1)));
+// Around a part of the region.
+FramePatch patch_at(const RegistrationStart& start, const Registrar& fine, const cv::Rect& part,
+                    const GrayImage& frame) {
+  Region at = fine.patch_at(static_cast<int>(start.whole_px(0)), static_cast<int>(start.whole_px(1)));
+  const Region& region = fine.source().region;
+  at.x += part.x, at.y += part.y;
+  at.width += part.width - region.width, at.height += part.height - region.height;
   return {frame, at, fine.model().blur_px2};
 }
 
@@ -78,10 +99,11 @@ std::vector<float> residuals_of(const Registrar& fine, const GrayImage& frame, c
   if (!found.by_outline) return found.residual_map;
   RegistrationStart start = start_at(found.displacement_px);
   start.linear = found.linear;
-  const FramePatch patch = patch_at(start, fine, frame);
+  const Region& region = fine.source().region;
+  const FramePatch patch = patch_at(start, fine, {0, 0, region.width, region.height}, frame);
   RegistrationSolver solver(fine.model(), patch, nullptr, start);
   if (!solver.compare()) return found.residual_map;
-  return solver.residual_map(fine.source().region.width, fine.source().region.height);
+  return solver.residual_map(region.width, region.height);
 }
 
 // Where the part is seen best in the frame, from where the rest is.
@@ -139,15 +161,19 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
   of_part.usable = part->pixels;
   of_part.backdrop.reset();
   TemplateModel alone = make_template_model(of_part, model.blur_px2, model.blur_px2);
-  find_noise_effects(alone);
   const Eigen::Vector2d rest_px =
       found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
   const auto seen_in = [&](const GrayImage& picture, RegistrationStart start) {
     start.middle_px = part->middle_px;
-    const FramePatch patch = patch_at(start, fine, picture);
+    start.outline_alone = true;  // of a few edges size and place are hardly told apart
+    const FramePatch patch = patch_at(start, fine, part->box, picture);
     RegistrationSolver solver(alone, patch, nullptr, start);
-    if (!solver.run()) return Registration{};
+    if (!solver.glance() || solver.fit(alone.pixels / 4).correlation < glanced_correlation || !solver.run()) {
+      return Registration{};
+    }
     Registration out = solver.fit(alone.pixels);
+    if (out.correlation < alike) return out;
+    if (alone.noise_growth_x == 0.0) find_noise_effects(alone);
     solver.tell_uncertainty(out);
     return out;
   };
@@ -156,7 +182,10 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
     start.linear = found.linear;
     const Registration own = seen_in(frame, start);
     if (own.correlation < part_correlation || own.inlier_share < most_of_part) return false;
-    if (own.covariance_px2.diagonal().maxCoeff() > part_known_px * part_known_px) return false;
+    if (own.residual > as_well * std::max(found.residual, least_residual)) return false;
+    const bool all_there = away_px.isZero() && own.inlier_share > nearly_all_of_part;
+    const double known_px = all_there ? barely_known_px : part_known_px;
+    if (own.covariance_px2.diagonal().maxCoeff() > known_px * known_px) return false;
     const Eigen::Vector2d apart = own.middle_px - rest_px;
     if (apart.norm() < apart_px) return false;
     const Eigen::Matrix2d both = own.covariance_px2 + found.covariance_px2;

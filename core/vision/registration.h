@@ -37,9 +37,10 @@ struct Registration {
   double printed_otherwise = 0.0;  // of what does not fit: shows the target's other tones
   double seen_share = 0.0;         // of the pixels that lie in the frame
   double saturated_share = 0.0;
-  double contrast = 0.0;           // gain of the frame over the template
-  double blur_px2 = 0.0;           // largest change of the blur's variance since the template, px^2
-  LensTerm lens;                   // prior and this frame together
+  double contrast = 0.0;  // gain of the frame over the template
+  double blur_px2 = 0.0;  // change of the blur's variance since the template, mean of both axes
+  Eigen::Matrix2d blur_change_px2 = Eigen::Matrix2d::Zero();  // of which this is the covariance
+  LensTerm lens;                                              // prior and this frame together
   double residual = 0.0;           // robust scale of the weighted residual, in standard deviations of shot noise
   double expected_residual = 0.0;  // of the template's own noise, as if the frame had the same
   double structure = 0.0;          // rms of the residual's means over tiles, in units of their noise: 1 is none

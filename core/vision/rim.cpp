@@ -105,8 +105,9 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
     best.reset();
   }
   if (!best) return std::nullopt;
-  return Rim(std::make_shared<const Seen>(
-      Seen{source, best->circle.middle_px - named, *best, Ring(best->circle.radius_px, best->circle.blur_px)}));
+  return Rim(
+      std::make_shared<const Seen>(Seen{source, best->circle.middle_px - named, *best,
+                                        Ring(best->circle.radius_px, best->circle.blur_px, Eigen::Matrix2d::Zero())}));
 }
 
 const Eigen::Vector2d& Rim::middle_px() const {
@@ -118,7 +119,7 @@ RimCircle Rim::circle() const {
 }
 
 std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d& expected_px, double contrast,
-                                  double blur_px2) const {
+                                  const Eigen::Matrix2d& blur_px2) const {
   const TemplateSource& source = m_seen->source;
   const Eigen::Vector2d corner(patch.at.x, patch.at.y);
   const Eigen::Vector2d stood = m_seen->fit.circle.middle_px +
@@ -134,9 +135,16 @@ std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d
   };
   RimCircle start = m_seen->fit.circle;
   start.middle_px = stood + expected_px - corner;
-  start.blur_px = std::sqrt(std::max(start.blur_px * start.blur_px + blur_px2, least_blur_px * least_blur_px));
+  const double wider_px2 = 0.5 * blur_px2.trace();
+  start.blur_px = std::sqrt(std::max(start.blur_px * start.blur_px + wider_px2, least_blur_px * least_blur_px));
+  const Eigen::Matrix2d uneven_px2 = blur_px2 - wider_px2 * Eigen::Matrix2d::Identity();
   const bool alike = std::abs(start.blur_px - m_seen->ring.blur_px) < other_shape * start.blur_px;
-  const std::optional<Fit> found = fit(levels, start, alike ? &m_seen->ring : nullptr, patch.blur_px2);
+  std::optional<Fit> found = fit(levels, start, alike ? &m_seen->ring : nullptr, patch.blur_px2);
+  // What looks like a blur along one direction may be light that has changed, or a lens.
+  if (!uneven_px2.isZero()) {
+    const std::optional<Fit> other = fit(levels, start, nullptr, patch.blur_px2, uneven_px2);
+    if (other && (!found || other->deviation < found->deviation)) found = other;
+  }
   if (!found) return std::nullopt;
   RimPlace out;
   out.moved_px = found->circle.middle_px + corner - stood;

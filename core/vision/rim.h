@@ -33,10 +33,10 @@ class Rim {
   /// The same, with its radius and the blur of its edge.
   RimCircle circle() const;
   /// From where the middle is expected, to a pixel; `contrast` is the frame's gain over the template, `blur_px2` the
-  /// variance by which it is more blurred. Nothing where the
-  /// rim cannot be followed; where it is hidden in part, `fitting_share` says so.
+  /// covariance by which it is more blurred. Nothing where the rim cannot be followed; where it is hidden in part,
+  /// `fitting_share` says so.
   std::optional<RimPlace> find(const FramePatch& patch, const Eigen::Vector2d& expected_px, double contrast,
-                               double blur_px2) const;
+                               const Eigen::Matrix2d& blur_px2) const;
 
  private:
   struct Seen;

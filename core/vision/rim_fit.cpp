@@ -18,6 +18,7 @@ constexpr double pixel_px = 0.5;
 constexpr double largest_step_px = 1.5;
 constexpr double largest_way_px = 4.0;
 constexpr double settled_px = 5e-4;
+constexpr double overshoot = 0.5;  // of the step before
 constexpr int steps = 12;
 constexpr int shapes = 10;            // that are tried, each from what the one before left
 constexpr double same_shape = 0.04;   // px, and of the blur
@@ -58,9 +59,11 @@ Eigen::Matrix2d noise_of_sums(const Ring& ring, const Eigen::Matrix<float, Eigen
 
 }  // namespace
 
-Ring::Ring(double radius, double blur) : radius_px(radius), blur_px(blur) {
-  const double inner = std::max(radius - within_px - within_blurs * blur, 0.0);
-  const double outer = radius + beside_px + beside_blurs * blur;
+Ring::Ring(double radius, double blur, const Eigen::Matrix2d& uneven)
+    : radius_px(radius), blur_px(blur), uneven_px2(uneven) {
+  const double widest = std::sqrt(blur * blur + uneven.norm() / std::numbers::sqrt2);
+  const double inner = std::max(radius - within_px - within_blurs * widest, 0.0);
+  const double outer = radius + beside_px + beside_blurs * widest;
   const int reach = static_cast<int>(std::ceil(outer));
   std::vector<std::array<int, 2>> at;
   for (int row = -reach; row <= reach; ++row) {
@@ -78,14 +81,17 @@ Ring::Ring(double radius, double blur) : radius_px(radius), blur_px(blur) {
   for (int k = 0; k < count; ++k) {
     const double px = at[k][0], py = at[k][1];
     const double r = std::hypot(px, py);
-    const double u = (r - radius) / blur;
     const double c = px / r, s = py / r;
+    const Eigen::Vector2d outwards(c, s);
+    const double least = least_blur_px * least_blur_px;
+    const double across = std::sqrt(std::max(blur * blur + outwards.dot(uneven * outwards), least));
+    const double u = (r - radius) / across;
     x(k) = static_cast<float>(px), y(k) = static_cast<float>(py);
     cosine(k) = static_cast<float>(c), sine(k) = static_cast<float>(s);
     inside(k) = static_cast<float>(0.5 * std::erfc(u / std::numbers::sqrt2));
-    const double bell = std::exp(-0.5 * u * u) / (blur * std::sqrt(2.0 * std::numbers::pi));
+    const double bell = std::exp(-0.5 * u * u) / (across * std::sqrt(2.0 * std::numbers::pi));
     slope(k) = static_cast<float>(bell);
-    widening(k) = static_cast<float>(bell * u);
+    widening(k) = static_cast<float>(bell * u * blur / across);
     const double height = std::sqrt(std::max(1.0 - r * r / (radius * radius), 0.0)) / steepest;
     distance(k) = static_cast<float>(r);
     // At the very rim it has no end, and hardly any pixels.
@@ -160,12 +166,12 @@ Eigen::MatrixXd Ring::project(const Eigen::MatrixXf& rows) const {
 
 // Gauss-Newton on middle, radius and blur with the light eliminated; large errors count as limited ones (Huber, Robust
 // Statistics, 7.8: modified residuals), which leaves the light's normal matrix as it is.
-std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring* first,
-                       const Eigen::Matrix2d& blur_px2) {
+std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring* first, const Eigen::Matrix2d& blur_px2,
+                       const Eigen::Matrix2d& uneven_px2) {
   Fit out;
   out.circle = start;
   std::optional<Ring> own;
-  if (first == nullptr) own.emplace(start.radius_px, start.blur_px);
+  if (first == nullptr) own.emplace(start.radius_px, start.blur_px, uneven_px2);
   Eigen::VectorXf level, error;
   Eigen::Array<bool, Eigen::Dynamic, 1> seen;
   Eigen::Matrix<double, light_terms, 1> light;
@@ -180,6 +186,8 @@ std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring*
     Eigen::Index fitting = 0;
     light.setZero();
     bool lit = false;
+    double share = 1.0;  // of a step that is gone: one that overshoots would go to and fro
+    Eigen::Vector2d last = Eigen::Vector2d::Zero();
     for (int round = 0; round < steps && !settled; ++round) {
       if (!levels(out.circle.middle_px, ring, level, seen)) return std::nullopt;
       const auto errors = [&] {
@@ -226,7 +234,9 @@ std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring*
       step = inverse * ((columns.transpose() * error).cast<double>() - shares.transpose() * told);
       if (!step.allFinite()) return std::nullopt;
       light += ring.solved.solve(told) - shares * step;
-      const Eigen::Vector2d move = step.head<2>() * std::min(1.0, largest_step_px / (step.head<2>().norm() + 1e-12));
+      if (last.dot(step.head<2>()) < -overshoot * last.squaredNorm()) share *= 0.5;
+      last = step.head<2>();
+      const Eigen::Vector2d move = last * std::min(share, largest_step_px / (last.norm() + 1e-12));
       out.circle.middle_px += move;
       if ((out.circle.middle_px - start.middle_px).norm() > largest_way_px) return std::nullopt;
       settled = move.norm() < settled_px;
@@ -238,7 +248,7 @@ std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring*
     out.circle.blur_px = blur;
     if (std::abs(radius - start.radius_px) > largest_way_px) return std::nullopt;
     if (std::abs(radius - ring.radius_px) > same_shape || std::abs(blur - ring.blur_px) > same_shape * blur) {
-      own.emplace(radius, blur);
+      own.emplace(radius, blur, uneven_px2);
       continue;
     }
     if (!settled) return std::nullopt;

@@ -31,6 +31,7 @@ using Shape = Eigen::Matrix<double, shape_terms, 1>;
 // The pixels at both sides of a circle about the origin, and what the light there is made of.
 struct Ring {
   double radius_px, blur_px;
+  Eigen::Matrix2d uneven_px2;  // by which the edge's blur is more in one direction than in the other; no trace
   int count = 0;
   Eigen::VectorXf x, y, cosine, sine, distance;
   Eigen::VectorXf inside, slope, widening;  // share of the ball, and how it changes with radius and with blur
@@ -40,7 +41,7 @@ struct Ring {
   Eigen::LLT<Light> solved;
   Eigen::LLT<Eigen::Matrix<double, simpler_terms, simpler_terms>> simpler;
 
-  Ring(double radius, double blur);
+  Ring(double radius, double blur, const Eigen::Matrix2d& uneven);
 
   // By how much a step from here would go if what is seen within were simpler by one order: no reflection is quite of
   // the form that is fitted, and of its misfit this is the measure.
@@ -63,8 +64,9 @@ struct Fit {
   double fitting_share = 0.0;
 };
 
-/// Starts from `first`, the ring of the start's shape, if there is one. Nothing where it does not settle.
-std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring* first,
-                       const Eigen::Matrix2d& blur_px2);
+/// Starts from `first`, the ring of the start's shape, if there is one. `uneven` as in Ring. Nothing where it does not
+/// settle.
+std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring* first, const Eigen::Matrix2d& blur_px2,
+                       const Eigen::Matrix2d& uneven_px2 = Eigen::Matrix2d::Zero());
 
 }  // namespace zerodrift::vision::rim_fit
