@@ -29,7 +29,7 @@ constexpr double nearly_all_of_part = 0.95;  // fits, and so near that it was no
 constexpr double barely_known_px = 0.045;
 constexpr double least_residual = 1.0;  // grey levels at middle grey
 constexpr double as_well = 1.6;  // times the residual of the rest: what has moved fits there, a cover does so roughly
-constexpr double apart_px = 0.1;
+constexpr double apart_px = 0.1, here_px = 0.08;
 constexpr double apart_chi_square = 36.0;
 constexpr double next_piece_px = 3.0;              // further away a pattern that repeats is like itself
 constexpr double alike = 0.95, alike_share = 0.5;  // correlation, and of its pixels
@@ -85,13 +85,13 @@ RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
 }
 
 // Around a part of the region.
-FramePatch patch_at(const RegistrationStart& start, const Registrar& fine, const cv::Rect& part,
-                    const GrayImage& frame) {
+FramePatch patch_at(const RegistrationStart& start, const Registrar& fine, const cv::Rect& part, const GrayImage& frame,
+                    const Eigen::Matrix2d& blur_px2) {
   Region at = fine.patch_at(static_cast<int>(start.whole_px(0)), static_cast<int>(start.whole_px(1)));
   const Region& region = fine.source().region;
   at.x += part.x, at.y += part.y;
   at.width += part.width - region.width, at.height += part.height - region.height;
-  return {frame, at, fine.model().blur_px2};
+  return {frame, at, blur_px2};
 }
 
 // Of all that the template shows, where an outline alone was followed.
@@ -100,7 +100,7 @@ std::vector<float> residuals_of(const Registrar& fine, const GrayImage& frame, c
   RegistrationStart start = start_at(found.displacement_px);
   start.linear = found.linear;
   const Region& region = fine.source().region;
-  const FramePatch patch = patch_at(start, fine, {0, 0, region.width, region.height}, frame);
+  const FramePatch patch = patch_at(start, fine, {0, 0, region.width, region.height}, frame, fine.model().blur_px2);
   RegistrationSolver solver(fine.model(), patch, nullptr, start);
   if (!solver.compare()) return found.residual_map;
   return solver.residual_map(region.width, region.height);
@@ -156,49 +156,63 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
   const std::optional<Part> part = part_that_does_not_fit(fine, residuals_of(fine, frame, found));
   if (!part) return false;
   const TemplateSource& source = fine.source();
-  const TemplateModel& model = fine.model();
   TemplateSource of_part = source;
   of_part.usable = part->pixels;
   of_part.backdrop.reset();
-  TemplateModel alone = make_template_model(of_part, model.blur_px2, model.blur_px2);
+  TemplateModel alone = make_template_model(of_part, found.setup.template_blur, found.setup.frame_blur);
   const Eigen::Vector2d rest_px =
       found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
-  const auto seen_in = [&](const GrayImage& picture, RegistrationStart start) {
+  // Whatever does not fit there, it has not moved.
+  const auto is_here = [&](const Registration& own) {
+    return own.correlation > part_correlation && own.inlier_share > most_of_part &&
+           (own.middle_px - rest_px).norm() < here_px;
+  };
+  const auto seen_in = [&](const GrayImage& picture, const Eigen::Matrix2d& blur_px2, RegistrationStart start) {
     start.middle_px = part->middle_px;
     start.outline_alone = true;  // of a few edges size and place are hardly told apart
-    const FramePatch patch = patch_at(start, fine, part->box, picture);
+    const FramePatch patch = patch_at(start, fine, part->box, picture, blur_px2);
     RegistrationSolver solver(alone, patch, nullptr, start);
-    if (!solver.glance() || solver.fit(alone.pixels / 4).correlation < glanced_correlation || !solver.run()) {
-      return Registration{};
-    }
-    Registration out = solver.fit(alone.pixels);
+    if (!solver.glance()) return Registration{};
+    Registration out = solver.fit(alone.pixels / 4);
+    out.middle_px = out.displacement_px + (out.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
+    if (out.correlation < glanced_correlation || is_here(out)) return out;
+    if (!solver.run()) return Registration{};
+    out = solver.fit(alone.pixels);
     if (out.correlation < alike) return out;
     if (alone.noise_growth_x == 0.0) find_noise_effects(alone);
     solver.tell_uncertainty(out);
     return out;
   };
-  const auto is_at = [&](const Eigen::Vector2d& away_px) {
+  // The part for itself, where it is like itself.
+  const auto fitted_from = [&](const Eigen::Vector2d& away_px) -> std::optional<Registration> {
     RegistrationStart start = start_at(rest_px + found.linear * away_px);
     start.linear = found.linear;
-    const Registration own = seen_in(frame, start);
-    if (own.correlation < part_correlation || own.inlier_share < most_of_part) return false;
-    if (own.residual > as_well * std::max(found.residual, least_residual)) return false;
+    Registration own = seen_in(frame, found.setup.frame_blur, start);
+    if (is_here(own)) return own;
+    if (own.correlation < part_correlation || own.inlier_share < most_of_part) return std::nullopt;
+    if (own.residual > as_well * std::max(found.residual, least_residual)) return std::nullopt;
     const bool all_there = away_px.isZero() && own.inlier_share > nearly_all_of_part;
     const double known_px = all_there ? barely_known_px : part_known_px;
-    if (own.covariance_px2.diagonal().maxCoeff() > known_px * known_px) return false;
+    if (own.covariance_px2.diagonal().maxCoeff() > known_px * known_px) return std::nullopt;
+    return own;
+  };
+  const auto is_elsewhere = [&](const Registration& own) {
     const Eigen::Vector2d apart = own.middle_px - rest_px;
     if (apart.norm() < apart_px) return false;
     const Eigen::Matrix2d both = own.covariance_px2 + found.covariance_px2;
     if (apart.dot(both.ldlt().solve(apart)) < apart_chi_square) return false;
     if (apart.norm() < next_piece_px) return true;
     // Under a cover it may be taken for another piece of a print that repeats, which was there before.
-    const Registration before = seen_in(image, start_at(apart));
+    const Registration before = seen_in(image, found.setup.template_blur, start_at(apart));
     return before.correlation < alike || before.inlier_share < alike_share ||
            (before.middle_px - apart).norm() > next_piece_px;
   };
-  if (is_at(Eigen::Vector2d::Zero())) return true;
-  const std::vector<Eigen::Vector2d> places = places_of(source, *part, frame, found);
-  return std::any_of(places.begin(), places.end(), is_at);
+  if (const auto here = fitted_from(Eigen::Vector2d::Zero())) return is_elsewhere(*here);
+  for (const Eigen::Vector2d& away_px : places_of(source, *part, frame, found)) {
+    const auto there = fitted_from(away_px);
+    if (there && is_elsewhere(*there)) return true;
+  }
+  return false;
 }
 
 }  // namespace zerodrift::vision

@@ -327,7 +327,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   // What does not fit may be the ball itself, and what fits what stands still around it.
   if (!by_rim && out.inlier_share + out.saturated_share > all_of_it) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
-  const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.blur_change_px2);
+  const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.setup.template_blur - out.setup.frame_blur);
   if (!by_rim) {
     if (rim && rim->fitting_share > all_but_chips) {
       const Eigen::Vector2d variance = (rim->covariance_px2 + out.covariance_px2).diagonal();
@@ -482,8 +482,8 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
       std::hypot(source.noise_levels, source.frame_noise_levels) / std::sqrt(last.noise_correlation);
   out.converged = out.converged && (out.covariance_px2.diagonal().array() > 0.0).all();
   if (m_outline && m_source.backdrop) out.covariance_px2.diagonal().array() += learned_px * learned_px;
-  out.blur_change_px2 = setup.template_blur - setup.frame_blur;
-  out.blur_px2 = out.blur_change_px2.trace() / 2.0;
+  out.setup = setup;
+  out.blur_px2 = (setup.template_blur - setup.frame_blur).trace() / 2.0;
   return out;
 }
 

@@ -15,6 +15,13 @@
 
 namespace zerodrift::vision {
 
+/// What was put into the images and the model to make them alike.
+struct ImageSetup {
+  Eigen::Matrix2d template_blur;
+  Eigen::Matrix2d frame_blur;
+  bool with_field = false;
+};
+
 struct Registration {
   bool converged = false;
   bool partly_unlit = false;  // where not converged: light that falls on no target was needed to explain a part of it
@@ -39,8 +46,8 @@ struct Registration {
   double saturated_share = 0.0;
   double contrast = 0.0;  // gain of the frame over the template
   double blur_px2 = 0.0;  // change of the blur's variance since the template, mean of both axes
-  Eigen::Matrix2d blur_change_px2 = Eigen::Matrix2d::Zero();  // of which this is the covariance
-  LensTerm lens;                                              // prior and this frame together
+  ImageSetup setup{Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()};
+  LensTerm lens;                   // prior and this frame together
   double residual = 0.0;           // robust scale of the weighted residual, in standard deviations of shot noise
   double expected_residual = 0.0;  // of the template's own noise, as if the frame had the same
   double structure = 0.0;          // rms of the residual's means over tiles, in units of their noise: 1 is none
@@ -55,13 +62,6 @@ inline double linear_change(const Registration& r) {
 
 struct RegistrationStart;
 class PatchOfFrame;
-
-/// What was put into the images and the model to make them alike.
-struct ImageSetup {
-  Eigen::Matrix2d template_blur;
-  Eigen::Matrix2d frame_blur;
-  bool with_field = false;
-};
 
 class Registrar {
  public:

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/memory.h"
 #include "core/vision/acceptance.h"
 #include "core/vision/bare_place.h"
 #include "core/vision/moved_apart.h"
@@ -159,6 +160,7 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
                                           {"found", fmt::format("{}x{} pixels", region.width, region.height)},
                                           {"expected", fmt::format("at least {0}x{0}", smallest_region_px)}});
   }
+  keep_freed_memory();  // a frame frees and asks for some MB many times, which took a quarter of its time
   const PixelPoint named = point.value_or(centre_of(region));
   const std::optional<Region> telling = region_that_tells(image, region);
   if (!telling) return fail(ErrorCode::pattern_repeats, {{"file", name}});
