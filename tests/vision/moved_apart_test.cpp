@@ -29,6 +29,12 @@ double small_cross(double x, double y) {
   return along + down - share_of(x, 3.0) * share_of(y, 3.0);
 }
 
+// A tenth of what the frame shows.
+double tiny_cross(double x, double y) {
+  const double along = share_of(x, 12.0) * share_of(y, 2.0), down = share_of(x, 2.0) * share_of(y, 12.0);
+  return along + down - share_of(x, 2.0) * share_of(y, 2.0);
+}
+
 double dots_at(double x, double y) {
   double out = 0.0;
   for (int row = -2; row <= 2; ++row) {
@@ -101,7 +107,7 @@ TEST_P(MarkInAFrame, IsAnotherTargetInAnotherSize) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Marks, MarkInAFrame, ::testing::Values(&small_cross, &dots_at));
+INSTANTIATE_TEST_SUITE_P(Marks, MarkInAFrame, ::testing::Values(&small_cross, &tiny_cross, &dots_at));
 
 }  // namespace
 }  // namespace zerodrift::vision
