@@ -59,8 +59,7 @@ Eigen::Matrix2d noise_of_sums(const Ring& ring, const Eigen::Matrix<float, Eigen
 
 }  // namespace
 
-Ring::Ring(double radius, double blur, const Eigen::Matrix2d& uneven)
-    : radius_px(radius), blur_px(blur), uneven_px2(uneven) {
+Ring::Ring(double radius, double blur, const Eigen::Matrix2d& uneven) : radius_px(radius), blur_px(blur) {
   const double widest = std::sqrt(blur * blur + uneven.norm() / std::numbers::sqrt2);
   const double inner = std::max(radius - within_px - within_blurs * widest, 0.0);
   const double outer = radius + beside_px + beside_blurs * widest;
@@ -239,7 +238,7 @@ std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring*
       const Eigen::Vector2d move = last * std::min(share, largest_step_px / (last.norm() + 1e-12));
       out.circle.middle_px += move;
       if ((out.circle.middle_px - start.middle_px).norm() > largest_way_px) return std::nullopt;
-      settled = move.norm() < settled_px;
+      settled = last.norm() < settled_px;
       if (std::abs(step(2)) > other_shape || std::abs(step(3)) > other_shape * ring.blur_px) break;
     }
     const double radius = ring.radius_px + std::clamp(step(2), -largest_step_px, largest_step_px);

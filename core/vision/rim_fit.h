@@ -31,7 +31,6 @@ using Shape = Eigen::Matrix<double, shape_terms, 1>;
 // The pixels at both sides of a circle about the origin, and what the light there is made of.
 struct Ring {
   double radius_px, blur_px;
-  Eigen::Matrix2d uneven_px2;  // by which the edge's blur is more in one direction than in the other; no trace
   int count = 0;
   Eigen::VectorXf x, y, cosine, sine, distance;
   Eigen::VectorXf inside, slope, widening;  // share of the ball, and how it changes with radius and with blur
@@ -41,6 +40,7 @@ struct Ring {
   Eigen::LLT<Light> solved;
   Eigen::LLT<Eigen::Matrix<double, simpler_terms, simpler_terms>> simpler;
 
+  /// `uneven`, without a trace: by how much the edge's blur, px^2, is more in one direction than in the other.
   Ring(double radius, double blur, const Eigen::Matrix2d& uneven);
 
   // By how much a step from here would go if what is seen within were simpler by one order: no reflection is quite of
