@@ -8,22 +8,15 @@
 #include "core/vision/frame_patch.h"
 #include "core/vision/opencv_image.h"
 #include "core/vision/registration_solver.h"
+#include "core/vision/target_part.h"
 
 namespace zerodrift::vision {
 namespace {
 
-constexpr float misfit_scales = 4.0f;
-constexpr int around_misfit_px = 3;  // the other side of an edge, and what it lies on
-constexpr int least_misfits = 60;    // pixels
-constexpr int least_part_pixels = 150;
-constexpr int solved_pixels = 500;  // fewer are not solved well: as much again around them
-constexpr int widened_times = 3;
-constexpr double least_part_energy = 0.015;               // of the gradients'
 constexpr int sample_step_px = 3, searched_samples = 27;  // each way
 constexpr int places_tried = 3, same_place_samples = 3;
 constexpr double least_alike = 0.6;  // correlation at the samples
 constexpr double part_correlation = 0.995, glanced_correlation = 0.9;
-constexpr double most_of_part = 0.7;         // of its pixels: it hides and uncovers some of what stands
 constexpr double part_known_px = 0.03;       // along a cover's edge nearly anything fits somewhere, not so well, unless
 constexpr double nearly_all_of_part = 0.95;  // fits, and so near that it was not sought
 constexpr double barely_known_px = 0.045;
@@ -33,49 +26,7 @@ constexpr double apart_px = 0.1, here_px = 0.08;
 constexpr double apart_chi_square = 36.0;
 constexpr double next_piece_px = 3.0;              // further away a pattern that repeats is like itself
 constexpr double alike = 0.95, alike_share = 0.5;  // correlation, and of its pixels
-
-struct Part {
-  std::vector<std::uint8_t> pixels;                     // of the region, 1 each
-  cv::Rect box;                                         // around them
-  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // from the named point
-};
-
-// What does not fit, with its surroundings; nothing where it is too little to tell a place.
-std::optional<Part> part_that_does_not_fit(const Registrar& fine, const std::vector<float>& residual_map) {
-  const TemplateSource& source = fine.source();
-  const TemplateModel& model = fine.model();
-  const Region& region = source.region;
-  cv::Mat1b misfit(region.height, region.width, std::uint8_t{0});
-  for (int k = 0; k < model.pixels; ++k) {
-    const float residual = residual_map[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]];
-    misfit(model.row[k], model.column[k]) = std::abs(residual) > misfit_scales ? 1 : 0;  // not if it is not a number
-  }
-  if (cv::countNonZero(misfit) < least_misfits) return std::nullopt;
-  const cv::Mat around = cv::Mat::ones(2 * around_misfit_px + 1, 2 * around_misfit_px + 1, CV_8U);
-  Part out;
-  double all = 0.0, part = 0.0;
-  int count = 0;
-  for (int widened = 0; widened < widened_times && count < solved_pixels; ++widened) {
-    cv::dilate(misfit, misfit, around);
-    out.pixels.assign(misfit.begin(), misfit.end());
-    for (std::size_t k = 0; k < out.pixels.size(); ++k) out.pixels[k] = out.pixels[k] && source.usable[k];
-    out.middle_px.setZero();
-    all = part = 0.0;
-    count = 0;
-    for (int k = 0; k < model.pixels; ++k) {
-      const double energy = double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
-      all += energy;
-      if (!out.pixels[static_cast<std::size_t>(model.row[k]) * region.width + model.column[k]]) continue;
-      part += energy;
-      out.middle_px += energy * Eigen::Vector2d(model.x[k], model.y[k]);
-      ++count;
-    }
-    if (count < least_part_pixels || part < least_part_energy * all) return std::nullopt;
-  }
-  out.box = cv::boundingRect(misfit);
-  out.middle_px /= part;
-  return out;
-}
+constexpr double less_alike = 0.1;                 // and not so much fewer of them than where it is seen now
 
 RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
   RegistrationStart out;
@@ -84,55 +35,55 @@ RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
   return out;
 }
 
-// Around a part of the region.
-FramePatch patch_at(const RegistrationStart& start, const Registrar& fine, const cv::Rect& part, const GrayImage& frame,
-                    const Eigen::Matrix2d& blur_px2) {
-  Region at = fine.patch_at(static_cast<int>(start.whole_px(0)), static_cast<int>(start.whole_px(1)));
-  const Region& region = fine.source().region;
-  at.x += part.x, at.y += part.y;
-  at.width += part.width - region.width, at.height += part.height - region.height;
-  return {frame, at, blur_px2};
+Region patch_around(const Region& region, const RegistrationStart& start) {
+  return {region.x + static_cast<int>(start.whole_px(0)) - patch_margin_px,
+          region.y + static_cast<int>(start.whole_px(1)) - patch_margin_px, region.width + 2 * patch_margin_px,
+          region.height + 2 * patch_margin_px};
 }
 
-// Of all that the template shows, where an outline alone was followed.
-std::vector<float> residuals_of(const Registrar& fine, const GrayImage& frame, const Registration& found) {
-  if (!found.by_outline) return found.residual_map;
+// Of all that the template shows, where it was found.
+std::vector<float> residuals_at(const Registrar& fine, const GrayImage& frame, const Registration& found) {
   RegistrationStart start = start_at(found.displacement_px);
   start.linear = found.linear;
   const Region& region = fine.source().region;
-  const FramePatch patch = patch_at(start, fine, {0, 0, region.width, region.height}, frame, fine.model().blur_px2);
+  const FramePatch patch(frame, patch_around(region, start), fine.model().blur_px2);
   RegistrationSolver solver(fine.model(), patch, nullptr, start);
   if (!solver.compare()) return found.residual_map;
   return solver.residual_map(region.width, region.height);
 }
 
 // Where the part is seen best in the frame, from where the rest is.
-std::vector<Eigen::Vector2d> places_of(const TemplateSource& source, const Part& part, const GrayImage& frame,
-                                       const Registration& found) {
-  const Region& region = source.region;
+std::vector<Eigen::Vector2d> places_of(const TemplateSource& part, const GrayImage& frame, const Registration& found) {
+  const Region& region = part.region;
   const cv::Size samples(region.width / sample_step_px, region.height / sample_step_px);
   cv::Mat1f smooth, shown(samples), mask(samples),
       there(samples.height + 2 * searched_samples, samples.width + 2 * searched_samples);
-  cv::blur(mat_view(source.pixels), smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
+  cv::blur(mat_view(part.pixels), smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
   for (int row = 0; row < samples.height; ++row) {
     for (int column = 0; column < samples.width; ++column) {
       const int x = column * sample_step_px, y = row * sample_step_px;
-      shown(row, column) = smooth(y + source.margin_px, x + source.margin_px);
-      mask(row, column) = part.pixels[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1.0f : 0.0f;
+      shown(row, column) = smooth(y + part.margin_px, x + part.margin_px);
+      mask(row, column) = part.usable[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1.0f : 0.0f;
     }
   }
+  const Eigen::Vector2d point(part.point.x_px, part.point.y_px), corner(region.x, region.y);
+  // Around all that is looked at.
+  const int reach_px = sample_step_px * (searched_samples + 3);
+  const Eigen::Vector2d from = corner + found.displacement_px;
+  cv::Rect seen(static_cast<int>(std::floor(from(0))) - reach_px, static_cast<int>(std::floor(from(1))) - reach_px,
+                region.width + 2 * reach_px, region.height + 2 * reach_px);
+  seen &= cv::Rect(0, 0, frame.width, frame.height);
+  if (seen.empty()) return {};
   cv::Mat1f map_x(there.size()), map_y(there.size());
-  const Eigen::Vector2d point(source.point.x_px, source.point.y_px), corner(region.x, region.y);
   for (int row = 0; row < there.rows; ++row) {
     for (int column = 0; column < there.cols; ++column) {
       const Eigen::Vector2d at(column - searched_samples, row - searched_samples);
-      const Eigen::Vector2d in_frame =
-          corner + point + found.displacement_px + found.linear * (sample_step_px * at - point);
-      map_x(row, column) = static_cast<float>(in_frame(0));
-      map_y(row, column) = static_cast<float>(in_frame(1));
+      const Eigen::Vector2d in_frame = from + point + found.linear * (sample_step_px * at - point);
+      map_x(row, column) = static_cast<float>(in_frame(0) - seen.x);
+      map_y(row, column) = static_cast<float>(in_frame(1) - seen.y);
     }
   }
-  mat_view(frame).convertTo(smooth, CV_32F);
+  mat_view(frame)(seen).convertTo(smooth, CV_32F);
   cv::blur(smooth, smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
   cv::remap(smooth, there, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::Mat1f scores;
@@ -150,31 +101,25 @@ std::vector<Eigen::Vector2d> places_of(const TemplateSource& source, const Part&
   return out;
 }
 
-}  // namespace
-
-bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage& frame, const Registration& found) {
-  const std::optional<Part> part = part_that_does_not_fit(fine, residuals_of(fine, frame, found));
-  if (!part) return false;
-  const TemplateSource& source = fine.source();
-  TemplateSource of_part = source;
-  of_part.usable = part->pixels;
-  of_part.backdrop.reset();
+// The part alone, where it is elsewhere than the target was found.
+std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& fine, const GrayImage& image,
+                                      const GrayImage& frame, const Registration& found) {
+  const TemplateSource of_part = source_of(fine.source(), part);
   TemplateModel alone = make_template_model(of_part, found.setup.template_blur, found.setup.frame_blur);
-  const Eigen::Vector2d rest_px =
-      found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
+  const Eigen::Vector2d rest_px = found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part.middle_px;
   // Whatever does not fit there, it has not moved.
   const auto is_here = [&](const Registration& own) {
-    return own.correlation > part_correlation && own.inlier_share > most_of_part &&
+    return own.correlation > part_correlation && own.inlier_share > part.least_share &&
            (own.middle_px - rest_px).norm() < here_px;
   };
   const auto seen_in = [&](const GrayImage& picture, const Eigen::Matrix2d& blur_px2, RegistrationStart start) {
-    start.middle_px = part->middle_px;
+    start.middle_px = part.middle_px;
     start.outline_alone = true;  // of a few edges size and place are hardly told apart
-    const FramePatch patch = patch_at(start, fine, part->box, picture, blur_px2);
+    const FramePatch patch(picture, patch_around(of_part.region, start), blur_px2);
     RegistrationSolver solver(alone, patch, nullptr, start);
     if (!solver.glance()) return Registration{};
     Registration out = solver.fit(alone.pixels / 4);
-    out.middle_px = out.displacement_px + (out.linear - Eigen::Matrix2d::Identity()) * part->middle_px;
+    out.middle_px = out.displacement_px + (out.linear - Eigen::Matrix2d::Identity()) * part.middle_px;
     if (out.correlation < glanced_correlation || is_here(out)) return out;
     if (!solver.run()) return Registration{};
     out = solver.fit(alone.pixels);
@@ -189,14 +134,15 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
     start.linear = found.linear;
     Registration own = seen_in(frame, found.setup.frame_blur, start);
     if (is_here(own)) return own;
-    if (own.correlation < part_correlation || own.inlier_share < most_of_part) return std::nullopt;
+    if (own.correlation < part_correlation || own.inlier_share < part.least_share) return std::nullopt;
     if (own.residual > as_well * std::max(found.residual, least_residual)) return std::nullopt;
     const bool all_there = away_px.isZero() && own.inlier_share > nearly_all_of_part;
     const double known_px = all_there ? barely_known_px : part_known_px;
-    if (own.covariance_px2.diagonal().maxCoeff() > known_px * known_px) return std::nullopt;
+    const Eigen::Array2d variance_px2 = own.covariance_px2.diagonal();
+    if (!(variance_px2 <= known_px * known_px).all()) return std::nullopt;  // nor one that is not a number
     return own;
   };
-  const auto is_elsewhere = [&](const Registration& own) {
+  const auto has_moved = [&](const Registration& own) {
     const Eigen::Vector2d apart = own.middle_px - rest_px;
     if (apart.norm() < apart_px) return false;
     const Eigen::Matrix2d both = own.covariance_px2 + found.covariance_px2;
@@ -204,15 +150,33 @@ bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage&
     if (apart.norm() < next_piece_px) return true;
     // Under a cover it may be taken for another piece of a print that repeats, which was there before.
     const Registration before = seen_in(image, found.setup.template_blur, start_at(apart));
-    return before.correlation < alike || before.inlier_share < alike_share ||
+    return before.correlation < alike || before.inlier_share < std::max(alike_share, own.inlier_share - less_alike) ||
            (before.middle_px - apart).norm() > next_piece_px;
   };
-  if (const auto here = fitted_from(Eigen::Vector2d::Zero())) return is_elsewhere(*here);
-  for (const Eigen::Vector2d& away_px : places_of(source, *part, frame, found)) {
+  if (const auto here = fitted_from(Eigen::Vector2d::Zero())) return has_moved(*here) ? here : std::nullopt;
+  for (const Eigen::Vector2d& away_px : places_of(of_part, frame, found)) {
     const auto there = fitted_from(away_px);
-    if (there && is_elsewhere(*there)) return true;
+    if (there && has_moved(*there)) return there;
   }
-  return false;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Registration> found_at_the_point(const Registrar& fine, const GrayImage& image, const GrayImage& frame,
+                                               const Registration& found) {
+  const std::optional<TargetPart> part = part_at_the_point(fine, found.residual_map);
+  std::optional<Registration> out;
+  if (part) out = elsewhere(*part, fine, image, frame, found);
+  if (out) out->residual_map = residuals_at(fine, frame, *out);
+  return out;
+}
+
+bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage& frame, Registration found) {
+  if (found.by_outline) found.residual_map = residuals_at(fine, frame, found);
+  if (found_at_the_point(fine, image, frame, found)) return true;
+  const std::optional<TargetPart> part = part_that_does_not_fit(fine, found.residual_map);
+  return part && elsewhere(*part, fine, image, frame, found);
 }
 
 }  // namespace zerodrift::vision

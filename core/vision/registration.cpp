@@ -43,6 +43,7 @@ constexpr double some_hidden = 0.93;       // of the pixels
 constexpr int likeness_window_px = 15;
 constexpr int largest_rounds = 6;
 constexpr int shared_patch_px = 24;         // further apart, two patches are less work than one around both
+constexpr double one_body = 0.0015;         // of the linear part
 constexpr double straight = 0.01;           // a solve that bent the target more may have been caught by a reflection
 constexpr double field_bias = 16.0;         // chi-square: four standard deviations, for blur's shape moves both
 constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
@@ -327,20 +328,30 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   // What does not fit may be the ball itself, and what fits what stands still around it.
   if (!by_rim && out.inlier_share + out.saturated_share > all_of_it) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
-  const auto rim = m_rim->find(patch, out.middle_px, out.contrast, out.setup.template_blur - out.setup.frame_blur);
+  const Eigen::Matrix2d blur_px2 = out.setup.template_blur - out.setup.frame_blur;
+  auto rim = m_rim->find(patch, out.middle_px, out.contrast, blur_px2);
   if (!by_rim) {
     if (rim && rim->fitting_share > all_but_chips) {
       const Eigen::Vector2d variance = (rim->covariance_px2 + out.covariance_px2).diagonal();
-      const Eigen::Vector2d apart = rim->moved_px - out.middle_px;
-      out.parts_apart = (apart.array().square() / variance.array()).sum() > parts_apart;
+      out.parts_apart = ((rim->moved_px - out.middle_px).array().square() / variance.array()).sum() > parts_apart;
     }
     return out;
   }
-  out.converged = rim.has_value();
-  if (!rim) return out;
+  if (out.converged = rim.has_value(); !rim) return out;
   out.growth = rim->growth;
   // Of a rim that is hidden in part the levels know more.
   if (rim->fitting_share < all_but_chips) return out;
+  out.structure = 1.0;
+  // A strong blur along one direction smears a rim of uneven contrast, and a cover may draw a part of it: where it
+  // disagrees neither is known better than that. Changed light may pass for a blur, but seldom moves as one body.
+  const bool smeared = blur_px2.trace() > strong_blur_px2 && linear_change(out) < one_body &&
+                       !(blur_px2 - 0.5 * blur_px2.trace() * Eigen::Matrix2d::Identity()).isZero();
+  const Eigen::Vector2d apart = rim->moved_px - out.middle_px;
+  const bool levels_do =
+      smeared && !biased(apart, out.middle_variance_px2, rim->covariance_px2.diagonal(), outline_bias);
+  const bool doubtful = smeared || out.inlier_share + out.saturated_share <= all_of_it;
+  if (doubtful) (levels_do ? out.covariance_px2 : rim->covariance_px2).diagonal() += apart.cwiseAbs2();
+  if (levels_do) return out;
   out.by_rim = true;
   out.middle_px = out.displacement_px = rim->moved_px;
   out.covariance_px2 = rim->covariance_px2;
@@ -351,7 +362,6 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   }
   out.linear.setIdentity();
   out.informed_share = out.inlier_share = rim->fitting_share;
-  out.structure = 1.0;
   return out;
 }
 

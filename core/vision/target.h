@@ -102,6 +102,7 @@ class Target {
   struct Impl;
   std::optional<RegisteredFrame> place_in(const GrayImage& frame, bool rough) const;
   std::vector<RegisteredFrame> places_in(const std::vector<GrayImage>& frames, bool rough) const;
+  Location search_at_the_point(const GrayImage& frame, Registration& fit) const;
   Target learned_backdrop(const std::vector<GrayImage>& frames) const;
   std::vector<GrayImage> without_covered(const std::vector<GrayImage>& frames) const;
   Target gathered_from(const std::vector<GrayImage>& frames) const;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/vision/acceptance.h"
+#include "core/vision/moved_apart.h"
 #include "core/vision/target_impl.h"
 #include "core/vision/target_mask.h"
 
@@ -36,10 +37,29 @@ bool roughly_known(const Location& at, const Registration& fit) {
 
 }  // namespace
 
+// As search, but where something else was followed than what lies around the named point, there: it would be learned as
+// what travels.
+Location Target::search_at_the_point(const GrayImage& frame, Registration& fit) const {
+  std::vector<float> map;
+  Location out = search(frame, &map, &fit);
+  fit.residual_map = std::move(map);
+  const bool known = out.ok || fits_in_part(out) || roughly_known(out, fit);
+  if (!known || m_impl->fine.rim() || fit.by_outline) return out;  // what lies within may be reflected
+  const auto there = found_at_the_point(m_impl->fine, m_impl->image, frame, fit);
+  if (!there) return out;
+  fit = *there;
+  out.ok = true;
+  out.point = {m_impl->point.x_px + fit.displacement_px(0), m_impl->point.y_px + fit.displacement_px(1)};
+  const Eigen::Vector2d zero_px = m_impl->gathered ? m_impl->gathered->zero_px : Eigen::Vector2d::Zero();
+  out.x_px = fit.displacement_px(0) - zero_px(0), out.y_px = fit.displacement_px(1) - zero_px(1);
+  out.linear = fit.linear;
+  return out;
+}
+
 // Where a frame shows the target; `rough`: as far as can be told before what stands behind it is known.
 std::optional<RegisteredFrame> Target::place_in(const GrayImage& frame, bool rough) const {
   Registration fit;
-  const Location at = search(frame, nullptr, &fit);
+  const Location at = search_at_the_point(frame, fit);
   if (at.ok) return RegisteredFrame{&frame, {at.x_px, at.y_px}, at.linear, at.lens};
   if (!rough) return std::nullopt;
   RegisteredFrame out{&frame, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), {}};
@@ -66,10 +86,9 @@ std::vector<GrayImage> Target::without_covered(const std::vector<GrayImage>& fra
   std::vector<GrayImage> out;
   for (const GrayImage& frame : frames) {
     Registration fit;
-    std::vector<float> map;
-    const Location at = search(frame, &map, &fit);
+    const Location at = search_at_the_point(frame, fit);
     const bool known = at.ok || roughly_known(at, fit);
-    if (!known || m_impl->under_a_cover(frame, at, map).empty()) out.push_back(frame);
+    if (!known || m_impl->under_a_cover(frame, at, fit.residual_map).empty()) out.push_back(frame);
   }
   return out;
 }
@@ -97,8 +116,10 @@ Target Target::without_what_stands(const std::vector<GrayImage>& frames, bool in
   std::vector<ShownFrame> whole, part;
   int moved = 0, moved_in_part = 0;
   for (const GrayImage& frame : frames) {
+    Registration fit;
+    const Location at = search_at_the_point(frame, fit);
     ShownFrame shown;
-    const Location at = search(frame, &shown.residual_map);
+    shown.residual_map = std::move(fit.residual_map);
     if (!at.ok && !fits_in_part(at)) continue;
     if (cover == Cover::possible) shown.under_a_cover = m_impl->under_a_cover(frame, at, shown.residual_map);
     const bool moves =

@@ -45,9 +45,21 @@ double dots_at(double x, double y) {
   return out;
 }
 
+double frame_around(double x, double y) {
+  return share_of(x, 52.0) * share_of(y, 52.0) - share_of(x, 46.0) * share_of(y, 46.0);
+}
+
+// They hold a registration along x, and at their ends alone along y.
+double bars_beside(double x, double y) {
+  double out = 0.0;
+  for (const double at : {44.0, 51.0}) out += (share_of(x - at, 1.5) + share_of(x + at, 1.5)) * share_of(y, 50.0);
+  return out;
+}
+
 using Mark = double (*)(double x, double y);
 
-GrayImage framed(Mark mark, const MarkPlace& mark_at, const MarkPlace& frame_at, unsigned seed) {
+GrayImage framed(Mark mark, const MarkPlace& mark_at, const MarkPlace& frame_at, unsigned seed,
+                 Mark around = &frame_around) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 1.5);
   GrayImage out{640, 480, std::vector<std::uint8_t>(640 * 480)};
@@ -55,7 +67,7 @@ GrayImage framed(Mark mark, const MarkPlace& mark_at, const MarkPlace& frame_at,
     for (int column = 0; column < out.width; ++column) {
       const double x = column - stands_x, y = row - stands_y;
       const double fx = (x - frame_at.x) / frame_at.size, fy = (y - frame_at.y) / frame_at.size;
-      double ink = share_of(fx, 52.0) * share_of(fy, 52.0) - share_of(fx, 46.0) * share_of(fy, 46.0);
+      double ink = around(fx, fy);
       ink += mark((x - mark_at.x) / mark_at.size, (y - mark_at.y) / mark_at.size);
       out.at(column, row) =
           static_cast<std::uint8_t>(std::clamp(std::lround(170.0 - 120.0 * ink + noise(random)), 0L, 255L));
@@ -105,6 +117,35 @@ TEST_P(MarkInAFrame, IsAnotherTargetInAnotherSize) {
   for (const double size : {0.998, 1.002}) {
     EXPECT_TRUE(seen.locate(framed(GetParam(), {1.2, -2.1, size}, {1.2, -2.1, size}, 51)).ok) << size;
   }
+}
+
+// Frames in which it moves teach that the bars do not, although each by itself is found by the bars.
+TEST(MarkBetweenBars, IsRefusedOrMeasuredWhereItIs) {
+  auto made = Target::create(framed(&dots_at, {}, {}, 1, &bars_beside), {254, 180, 128, 128},
+                             PixelPoint{stands_x, stands_y}, "mark.png");
+  ASSERT_TRUE(made);
+  std::vector<GrayImage> frames;
+  std::vector<MarkPlace> places;
+  for (const double way_px : {0.3, 0.6, 1.2, 2.5, 3.5, 5.0}) {
+    for (int k = 0; k < 2; ++k) {
+      places.push_back({way_px * std::cos(1.9 * k + way_px), way_px * std::sin(1.9 * k + way_px)});
+      frames.push_back(
+          framed(&dots_at, places.back(), {}, 60 + static_cast<unsigned>(frames.size()), &bars_beside));
+    }
+  }
+  const auto error_of = [&](const Location& at, std::size_t k) {
+    return std::hypot(at.x_px - places[k].x, at.y_px - places[k].y);
+  };
+  const Target taught = made->learned_from(frames);
+  int measured = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Location alone = made->locate(frames[k]);
+    EXPECT_FALSE(alone.ok && error_of(alone, k) > 0.1) << k << ": " << error_of(alone, k);
+    const Location at = taught.locate(frames[k]);
+    measured += at.ok;
+    EXPECT_FALSE(at.ok && error_of(at, k) > 0.02) << k << ": " << error_of(at, k);
+  }
+  EXPECT_GE(measured, 6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Marks, MarkInAFrame, ::testing::Values(&small_cross, &tiny_cross, &dots_at));
