@@ -129,8 +129,7 @@ TEST(MarkBetweenBars, IsRefusedOrMeasuredWhereItIs) {
   for (const double way_px : {0.3, 0.6, 1.2, 2.5, 3.5, 5.0}) {
     for (int k = 0; k < 2; ++k) {
       places.push_back({way_px * std::cos(1.9 * k + way_px), way_px * std::sin(1.9 * k + way_px)});
-      frames.push_back(
-          framed(&dots_at, places.back(), {}, 60 + static_cast<unsigned>(frames.size()), &bars_beside));
+      frames.push_back(framed(&dots_at, places.back(), {}, 60 + static_cast<unsigned>(frames.size()), &bars_beside));
     }
   }
   const auto error_of = [&](const Location& at, std::size_t k) {
