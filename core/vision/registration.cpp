@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/vision/blur_match.h"
 #include "core/vision/outline.h"
 #include "core/vision/patch_of_frame.h"
 #include "core/vision/registration_solver.h"
@@ -19,22 +20,15 @@ namespace {
 constexpr double prefilter_px2 = 0.25;  // variance of the blur on both images: keeps the spline's bias below the noise
 // In a clear picture what the sampling has folded down outweighs the noise: most of it lies at high frequencies.
 constexpr double clear_prefilter_px2 = 0.4;
-constexpr double aliased_share = 0.003;    // of the gradients' energy: with less noise a picture is clear
-constexpr double blur_limit_px2 = 0.25;    // a larger change of blur is put into the images and solved again
-constexpr double largest_blur_px2 = 40.0;  // trace of the covariance
-constexpr double usual_edge_px2 = 0.8;     // variance of an edge in a picture in focus
-constexpr double largest_part = 0.45;
-constexpr double least_blur_px2 = 0.1;       // along one axis, left to the blur columns
-constexpr double round_blur_px2 = 0.3;       // nearer to round than this, the blur is made round, which is quicker
+constexpr double aliased_share = 0.003;      // of the gradients' energy: with less noise a picture is clear
 constexpr double structure_limit = 1.55;     // tile means over their noise: above it a smooth field is solved as well
 constexpr double doubtful_structure = 1.1;   // from here on it is tried whether a field moves the result
 constexpr double reflected_structure = 0.9;  // from here on what a ball reflects may have moved
 constexpr double glance_structure = 3.4;     // the same on a quarter of the pixels, when there is no doubt
 constexpr double glance_structure_expected = 1.7;
 constexpr double strong_blur_px2 = 1.0;
-constexpr double with_field_px2 = 1.0;  // beside a field the solve's own blur columns do for a smaller change
-constexpr double as_good = 0.93;        // of the best fit: blur fits shapes nearly as well before it fits them better
-constexpr double glare_share = 0.005;   // of saturated pixels
+constexpr double as_good = 0.93;       // of the best fit: blur fits shapes nearly as well before it fits them better
+constexpr double glare_share = 0.005;  // of saturated pixels
 constexpr double clean_inliers = 0.97;
 constexpr double field_spacing_px = 18.0;
 constexpr double poor_residual = 4.0;      // grey levels at middle grey: no camera's noise is so large after the blur
@@ -87,35 +81,6 @@ bool biased(const Registration& precise, const Registration& robust, double limi
 bool biased_at_middle(const Registration& precise, const Registration& robust, double limit, double known_px) {
   return biased(robust.middle_px - precise.middle_px, precise.middle_variance_px2, robust.middle_variance_px2, limit,
                 known_px);
-}
-
-// The solve sees of a blur the part that the second derivative tells. For an edge of variance s^2 that is further
-// blurred by v it is q = 4 s^2 (1 - (1 + v / 2 s^2)^-1/2), by the integral over the edge's spectrum; this is its
-// inverse.
-double whole_change(double seen_px2, double edge_px2) {
-  const double part = std::min(std::abs(seen_px2) / (4.0 * edge_px2), largest_part);
-  return std::copysign(2.0 * edge_px2 * (1.0 / ((1.0 - part) * (1.0 - part)) - 1.0), seen_px2);
-}
-
-// Blurs the sharper of the two images until both are alike; false when they are alike enough already or never will be.
-bool match_blur(const Eigen::Matrix2d& extra_px2, ImageSetup& setup) {
-  const double limit = setup.with_field ? with_field_px2 : blur_limit_px2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solved(extra_px2);
-  Eigen::Vector2d change = solved.eigenvalues();
-  if (change.cwiseAbs().maxCoeff() < limit) return false;
-  if (change(1) - change(0) < round_blur_px2) change.setConstant(change.mean());
-  const Eigen::Matrix2d& axes = solved.eigenvectors();
-  for (int k = 0; k < 2; ++k) {
-    if (std::abs(change(k)) < least_blur_px2) change(k) = 0.0;
-    const Eigen::Matrix2d& there = change(k) > 0.0 ? setup.template_blur : setup.frame_blur;
-    change(k) = whole_change(change(k), usual_edge_px2 + axes.col(k).dot(there * axes.col(k)));
-  }
-  ImageSetup next = setup;
-  next.template_blur += axes * change.cwiseMax(0.0).asDiagonal() * axes.transpose();
-  next.frame_blur += axes * (-change).cwiseMax(0.0).asDiagonal() * axes.transpose();
-  if (std::max(next.template_blur.trace(), next.frame_blur.trace()) > largest_blur_px2) return false;
-  setup = next;
-  return true;
 }
 
 Eigen::Matrix2d turn_of(const Eigen::Matrix2d& linear) {
@@ -213,7 +178,7 @@ double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setu
       setup.with_field = true;
       break;
     }
-    if (!match_blur(extra_px2, tried)) {
+    if (!match_blur(extra_px2, !m_rim, tried)) {
       // Glare has a halo, and a strong blur is never quite of the shape that the template is given.
       const double blur_px2 = (setup.template_blur + setup.frame_blur - 2.0 * m_model.blur_px2).trace();
       const bool expected = seen.saturated_share > glare_share || blur_px2 > strong_blur_px2;
@@ -470,7 +435,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     }
     solver.hand_over(course.start);
     ImageSetup next = setup;
-    const bool blurs = match_blur(solver.extra_blur_px2(), next);
+    const bool blurs = match_blur(solver.extra_blur_px2(), !m_rim, next);
     // The outline comes before a field.
     const bool doubted = &source == &m_source && outline_tells_more(out) && out.structure > doubtful_structure;
     on_trial = !doubted && !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;

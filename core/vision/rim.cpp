@@ -19,7 +19,7 @@ constexpr double rim_levels = 0.7;            // and that,
 constexpr double learned_levels = 3.0;        // or that where the backdrop has been learned
 constexpr double largest_rim_sigma_px = 0.3;  // a rim that is known worse is no help
 constexpr float saturated_from = 250.0f;
-constexpr double circle_known_px = 2.0;
+constexpr double found_circle_known_px = 2.0;
 
 }  // namespace
 
@@ -98,7 +98,7 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
   for (const RimCircle& circle : circles) {
     // Most targets are no balls, and this needs the circle less well.
     RimCircle narrow = circle;
-    narrow.radius_px -= circle_known_px;
+    narrow.radius_px -= found_circle_known_px;
     if (shows_a_print(source, narrow)) continue;
     best = fit(levels, circle, nullptr, blur_px2);
     if (best && is_ball(*best)) break;
