@@ -35,10 +35,8 @@ RegistrationStart start_at(const Eigen::Vector2d& displacement_px) {
   return out;
 }
 
-Region patch_around(const Region& region, const RegistrationStart& start) {
-  return {region.x + static_cast<int>(start.whole_px(0)) - patch_margin_px,
-          region.y + static_cast<int>(start.whole_px(1)) - patch_margin_px, region.width + 2 * patch_margin_px,
-          region.height + 2 * patch_margin_px};
+Region patch_at(const Region& region, const RegistrationStart& start) {
+  return patch_around(region, static_cast<int>(start.whole_px(0)), static_cast<int>(start.whole_px(1)));
 }
 
 // Of all that the template shows, where it was found.
@@ -46,7 +44,7 @@ std::vector<float> residuals_at(const Registrar& fine, const GrayImage& frame, c
   RegistrationStart start = start_at(found.displacement_px);
   start.linear = found.linear;
   const Region& region = fine.source().region;
-  const FramePatch patch(frame, patch_around(region, start), fine.model().blur_px2);
+  const FramePatch patch(frame, patch_at(region, start), fine.model().blur_px2);
   RegistrationSolver solver(fine.model(), patch, nullptr, start);
   if (!solver.compare()) return found.residual_map;
   return solver.residual_map(region.width, region.height);
@@ -115,7 +113,7 @@ std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& f
   const auto seen_in = [&](const GrayImage& picture, const Eigen::Matrix2d& blur_px2, RegistrationStart start) {
     start.middle_px = part.middle_px;
     start.outline_alone = true;  // of a few edges size and place are hardly told apart
-    const FramePatch patch(picture, patch_around(of_part.region, start), blur_px2);
+    const FramePatch patch(picture, patch_at(of_part.region, start), blur_px2);
     RegistrationSolver solver(alone, patch, nullptr, start);
     if (!solver.glance()) return Registration{};
     Registration out = solver.fit(alone.pixels / 4);

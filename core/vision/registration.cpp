@@ -114,12 +114,6 @@ Registrar::Registrar(TemplateSource source)
   if (m_rim && !m_outline) m_middle = m_rim->middle_px();
 }
 
-Region Registrar::patch_at(int dx_px, int dy_px) const {
-  const Region& region = m_source.region;
-  return {region.x + dx_px - patch_margin_px, region.y + dy_px - patch_margin_px, region.width + 2 * patch_margin_px,
-          region.height + 2 * patch_margin_px};
-}
-
 // Places near each other share a patch: a pattern that repeats has many, a period apart.
 std::vector<Registration> Registrar::glances(const GrayImage& frame,
                                              const std::vector<std::array<int, 2>>& places) const {
@@ -128,14 +122,14 @@ std::vector<Registration> Registrar::glances(const GrayImage& frame,
   for (std::size_t first = 0; first < places.size(); ++first) {
     if (done[first]) continue;
     std::vector<std::size_t> together;
-    Region box = patch_at(places[first][0], places[first][1]);
+    Region box = patch_around(m_source.region, places[first][0], places[first][1]);
     for (std::size_t k = first; k < places.size(); ++k) {
       const int dx = places[k][0] - places[first][0];
       const int dy = places[k][1] - places[first][1];
       if (done[k] || std::max(std::abs(dx), std::abs(dy)) > shared_patch_px) continue;
       done[k] = true;
       together.push_back(k);
-      const Region own = patch_at(places[k][0], places[k][1]);
+      const Region own = patch_around(m_source.region, places[k][0], places[k][1]);
       const int right = std::max(box.x + box.width, own.x + own.width);
       const int bottom = std::max(box.y + box.height, own.y + own.height);
       box.x = std::min(box.x, own.x), box.y = std::min(box.y, own.y);
@@ -192,7 +186,7 @@ double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setu
 
 Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
                             bool with_residual_map) const {
-  PatchOfFrame patches(frame, patch_at(dx_px, dy_px));
+  PatchOfFrame patches(frame, patch_around(m_source.region, dx_px, dy_px));
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
@@ -226,7 +220,7 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
 // nearly anything: only a turn that shows nearly all of the target is worth a look.
 std::optional<Registration> Registrar::run_turned(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
                                                   double largest_turn_rad, bool with_residual_map) const {
-  PatchOfFrame patches(frame, patch_at(dx_px, dy_px));
+  PatchOfFrame patches(frame, patch_around(m_source.region, dx_px, dy_px));
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};

@@ -77,8 +77,6 @@ class Registrar {
   /// As run, on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
   std::vector<Registration> glances(const GrayImage& frame, const std::vector<std::array<int, 2>>& places) const;
 
-  /// Of a frame, what is looked at to find the region displaced so.
-  Region patch_at(int dx_px, int dy_px) const;
   const TemplateModel& model() const { return m_model; }
   const TemplateSource& source() const { return m_source; }
   /// Empty where the target is no ball, whose rim is told from what it reflects.

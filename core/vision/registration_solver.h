@@ -22,6 +22,12 @@ inline constexpr double registration_lens_unit = 1e-8;   // of the lens column, 
 inline constexpr int registration_light_count = 7;       // gain and its plane, offset, blur
 inline constexpr int patch_margin_px = 18;               // around the region: rotation, blur and the spline's support
 
+/// Of a frame, what is looked at to find a region of the template displaced by whole pixels.
+inline Region patch_around(const Region& region, int dx_px, int dy_px) {
+  return {region.x + dx_px - patch_margin_px, region.y + dy_px - patch_margin_px, region.width + 2 * patch_margin_px,
+          region.height + 2 * patch_margin_px};
+}
+
 // An outline does not see a round target turn; what is still seen of it is reflected, and would move a point beside its
 // middle.
 inline constexpr double linear_prior_of_outline = 0.002;

@@ -25,12 +25,12 @@ double energy_at(const TemplateModel& model, int k) {
   return double{model.fx[k]} * model.fx[k] + double{model.fy[k]} * model.fy[k];
 }
 
-// Box, middle, pixels and energy of what `mask` holds.
 struct Told {
   double energy = 0.0, all = 0.0;
   int pixels = 0;
 };
 
+// Fills in the part that `mask` holds, and says how much it tells.
 Told tell(const Registrar& fine, const cv::Mat1b& mask, TargetPart& part) {
   const TemplateModel& model = fine.model();
   const TemplateSource& source = fine.source();
