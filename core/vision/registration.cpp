@@ -283,9 +283,13 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   Registration out = by_levels(patches, std::move(start), with_residual_map);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   out.growth = 0.5 * out.linear.trace() - 1.0;
-  const bool by_rim = out.light_changed || out.structure >= reflected_structure;
+  bool by_rim = out.light_changed || out.structure >= reflected_structure;
+  const double fits = out.inlier_share + out.saturated_share;
+  // Where what stands behind is known the levels tell several times as much, unless what is reflected has moved them:
+  // then they do not explain all without more.
+  if (m_source.backdrop) by_rim = (out.by_outline || out.setup.with_field) && fits > all_but_chips;
   // What does not fit may be the ball itself, and what fits what stands still around it.
-  if (!by_rim && out.inlier_share + out.saturated_share > all_of_it) return out;
+  if (!by_rim && (m_source.backdrop || fits > all_of_it)) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
   const Eigen::Matrix2d blur_px2 = out.setup.template_blur - out.setup.frame_blur;
   auto rim = m_rim->find(patch, out.middle_px, out.contrast, blur_px2);
@@ -294,6 +298,10 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
       const Eigen::Vector2d variance = (rim->covariance_px2 + out.covariance_px2).diagonal();
       out.parts_apart = ((rim->moved_px - out.middle_px).array().square() / variance.array()).sum() > parts_apart;
     }
+    return out;
+  }
+  if (m_source.backdrop && (!rim || !biased(rim->moved_px - out.middle_px, out.middle_variance_px2,
+                                            rim->covariance_px2.diagonal(), field_bias, outline_known_px))) {
     return out;
   }
   if (out.converged = rim.has_value(); !rim) return out;
@@ -308,7 +316,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   const Eigen::Vector2d apart = rim->moved_px - out.middle_px;
   const bool levels_do =
       smeared && !biased(apart, out.middle_variance_px2, rim->covariance_px2.diagonal(), outline_bias);
-  const bool doubtful = smeared || out.inlier_share + out.saturated_share <= all_of_it;
+  const bool doubtful = smeared || fits <= all_of_it;
   if (doubtful) (levels_do ? out.covariance_px2 : rim->covariance_px2).diagonal() += apart.cwiseAbs2();
   if (levels_do) return out;
   out.by_rim = true;

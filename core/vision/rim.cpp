@@ -32,16 +32,13 @@ struct Rim::Seen {
 
 namespace {
 
-// Takes off what is known of the backdrop beside the ball; `corner` is the place in the picture of the source's or the
-// patch's first pixel.
-void take_off_backdrop(const Backdrop& backdrop, const Eigen::Vector2d& middle_px, const Eigen::Vector2d& corner,
-                       const Ring& ring, double contrast, Eigen::VectorXf& level) {
+// What is known to stand behind; `corner` is the place in the picture of the source's or the patch's first pixel.
+void look_behind(const Backdrop& backdrop, const Eigen::Vector2d& middle_px, const Eigen::Vector2d& corner,
+                 const Ring& ring, double contrast, Eigen::VectorXf& behind) {
+  const Eigen::Vector2f from = (corner + middle_px).cast<float>();
+  behind.resize(ring.count);
   for (int k = 0; k < ring.count; ++k) {
-    const float share = 1.0f - ring.inside(k);
-    if (share < 0.01f) continue;
-    level(k) -= share * static_cast<float>(contrast) *
-                backdrop.at(static_cast<float>(corner(0) + middle_px(0)) + ring.x(k),
-                            static_cast<float>(corner(1) + middle_px(1)) + ring.y(k));
+    behind(k) = static_cast<float>(contrast) * backdrop.at(from(0) + ring.x(k), from(1) + ring.y(k));
   }
 }
 
@@ -72,12 +69,11 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
   const SplineImage spline(blurred(source.pixels, blur_px2));
   const Eigen::Vector2d corner(source.region.x - source.margin_px, source.region.y - source.margin_px);
   std::vector<int> place;
-  const Levels levels = [&](const Eigen::Vector2d& middle_px, const Ring& ring, Eigen::VectorXf& level,
-                            Eigen::Array<bool, Eigen::Dynamic, 1>& seen) {
-    if (!sample_ring(spline, middle_px, ring, place, level)) return false;
-    if (source.backdrop) take_off_backdrop(*source.backdrop, middle_px, corner, ring, 1.0, level);
-    seen.setConstant(ring.count, true);
-    for (int k = 0; k < ring.count; ++k) seen(k) = source.pixels.values[place[k]] < saturated_from;
+  const Levels levels = [&](const Eigen::Vector2d& middle_px, const Ring& ring, Around& out) {
+    if (!sample_ring(spline, middle_px, ring, place, out.level)) return false;
+    if (source.backdrop) look_behind(*source.backdrop, middle_px, corner, ring, 1.0, out.behind);
+    out.seen.resize(ring.count);
+    for (int k = 0; k < ring.count; ++k) out.seen(k) = source.pixels.values[place[k]] < saturated_from;
     return true;
   };
   const double noise = source.noise_levels * std::sqrt(blur_power(blur_px2));
@@ -125,12 +121,11 @@ std::optional<RimPlace> Rim::find(const FramePatch& patch, const Eigen::Vector2d
   const Eigen::Vector2d stood = m_seen->fit.circle.middle_px +
                                 Eigen::Vector2d(source.region.x - source.margin_px, source.region.y - source.margin_px);
   std::vector<int> place;
-  const Levels levels = [&](const Eigen::Vector2d& middle_px, const Ring& ring, Eigen::VectorXf& level,
-                            Eigen::Array<bool, Eigen::Dynamic, 1>& seen) {
-    if (!sample_ring(patch.spline, middle_px, ring, place, level)) return false;
-    if (source.backdrop) take_off_backdrop(*source.backdrop, middle_px, corner, ring, contrast, level);
-    seen.resize(ring.count);
-    for (int k = 0; k < ring.count; ++k) seen(k) = patch.state[place[k]] == FramePatch::seen;
+  const Levels levels = [&](const Eigen::Vector2d& middle_px, const Ring& ring, Around& out) {
+    if (!sample_ring(patch.spline, middle_px, ring, place, out.level)) return false;
+    if (source.backdrop) look_behind(*source.backdrop, middle_px, corner, ring, contrast, out.behind);
+    out.seen.resize(ring.count);
+    for (int k = 0; k < ring.count; ++k) out.seen(k) = patch.state[place[k]] == FramePatch::seen;
     return true;
   };
   RimCircle start = m_seen->fit.circle;

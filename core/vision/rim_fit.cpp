@@ -117,7 +117,9 @@ Ring::Ring(double radius, double blur, const Eigen::Matrix2d& uneven) : radius_p
   Eigen::MatrixXf all(count, light_terms);
   all.leftCols<within_count>() = inside.asDiagonal() * within;
   all.rightCols<beside_count>() = (1.0f - inside.array()).matrix().asDiagonal() * beside;
-  Light normal = (all.transpose() * all).cast<double>();
+  Eigen::MatrixXf lower = Eigen::MatrixXf::Zero(light_terms, light_terms);
+  lower.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
+  Light normal = Eigen::MatrixXf(lower.selfadjointView<Eigen::Lower>()).cast<double>();
   normal.diagonal().array() += 1e-7 * normal.diagonal().maxCoeff();
   solved.compute(normal);
   constexpr int less = simpler_terms - beside_count;
@@ -171,8 +173,10 @@ std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring*
   out.circle = start;
   std::optional<Ring> own;
   if (first == nullptr) own.emplace(start.radius_px, start.blur_px, uneven_px2);
+  Around picture;
+  const Eigen::VectorXf& behind = picture.behind;
+  const Eigen::Array<bool, Eigen::Dynamic, 1>& seen = picture.seen;
   Eigen::VectorXf level, error;
-  Eigen::Array<bool, Eigen::Dynamic, 1> seen;
   Eigen::Matrix<double, light_terms, 1> light;
   for (int shape = 0; shape < shapes; ++shape) {
     const Ring& ring = own ? *own : *first;
@@ -188,12 +192,16 @@ std::optional<Fit> fit(const Levels& levels, const RimCircle& start, const Ring*
     double share = 1.0;  // of a step that is gone: one that overshoots would go to and fro
     Eigen::Vector2d last = Eigen::Vector2d::Zero();
     for (int round = 0; round < steps && !settled; ++round) {
-      if (!levels(out.circle.middle_px, ring, level, seen)) return std::nullopt;
+      if (!levels(out.circle.middle_px, ring, picture)) return std::nullopt;
+      level = picture.level;
+      if (behind.size() > 0) level -= (1.0f - ring.inside.array()).matrix().cwiseProduct(behind);
       const auto errors = [&] {
         const Eigen::VectorXf of_ball = ring.within * light.head<within_count>().cast<float>();
         const Eigen::VectorXf of_rest = ring.beside * light.tail<beside_count>().cast<float>();
-        const Eigen::VectorXf apart = of_ball - of_rest;
+        Eigen::VectorXf apart = of_ball - of_rest;
         error = level - of_rest - ring.inside.cwiseProduct(apart);
+        // What is known was taken off as far as the ball leaves it free, and a step changes how far that is.
+        if (behind.size() > 0) apart -= behind;
         const Eigen::VectorXf steep = apart.cwiseProduct(ring.slope);
         // What is seen within changes along the radius and across it.
         Eigen::Matrix<float, within_count, 1> along = Eigen::Matrix<float, within_count, 1>::Zero(), across = along;

@@ -53,9 +53,16 @@ struct Ring {
   Eigen::MatrixXd project(const Eigen::MatrixXf& rows) const;
 };
 
-// Levels of a picture around a middle; false for those that cannot be used.
-using Levels = std::function<bool(const Eigen::Vector2d& middle_px, const Ring&, Eigen::VectorXf&,
-                                  Eigen::Array<bool, Eigen::Dynamic, 1>&)>;
+// A picture around a middle.
+struct Around {
+  Eigen::VectorXf level;
+  /// What is known to stand behind; beside the ball that much of the level needs no fit. Empty: nothing is known.
+  Eigen::VectorXf behind;
+  Eigen::Array<bool, Eigen::Dynamic, 1> seen;  // false for levels that cannot be used
+};
+
+// Fills in the picture around a middle; false where it reaches beyond it.
+using Levels = std::function<bool(const Eigen::Vector2d& middle_px, const Ring&, Around&)>;
 
 struct Fit {
   RimCircle circle;

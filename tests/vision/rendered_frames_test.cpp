@@ -39,8 +39,8 @@ std::vector<GrayImage> views_of(const test_support::Session& session) {
 }
 
 // Largest error in px over the frames, all of which must be measured.
-double largest_error_px(PatternKind kind, Disturbance disturbance, std::uint64_t seed) {
-  const test_support::Session session = test_support::make_session(kind, disturbance, seed, 4);
+double largest_error_px(PatternKind kind, Disturbance disturbance, std::uint64_t seed, int frames = 4) {
+  const test_support::Session session = test_support::make_session(kind, disturbance, seed, frames);
   const auto target = target_of(session);
   if (!target) return std::nan("");
   const Target learned = target->learned_from(views_of(session));
@@ -73,6 +73,11 @@ TEST(RenderedFrames, ALensIsFoundFromMovesThatShowIt) {
       EXPECT_TRUE(!wide || std::abs(lens.per_px2) > 3.0 * lens.sigma_per_px2);
     }
   }
+}
+
+// Of this ball what is reflected at its rim is of no form that the rim's fit knows: it must not be followed there.
+TEST(RenderedFrames, ABallWhoseRimCannotBeFollowedIsMeasuredAllTheSame) {
+  EXPECT_LT(largest_error_px(PatternKind::ball, Disturbance::light, 690089999, 6), 0.03);
 }
 
 TEST(LensTerm, CountsWhenItStandsOutOrIsKnownFarBetterThanBefore) {

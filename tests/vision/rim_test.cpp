@@ -87,6 +87,56 @@ INSTANTIATE_TEST_SUITE_P(Levels, BallUnderAMovingLamp,
                                            Scene{100, 200, 150, 92.0}, Scene{80, 170, 200, 66.0},
                                            Scene{40, 120, 200, 78.0}));
 
+// What is known to stand behind is taken off as far as the ball leaves it free: for a ball darker than that, as for a
+// brighter one, a step outwards takes off less.
+TEST(Rim, IsFollowedBeforeWhatIsKnownToStandBehindIt) {
+  constexpr double radius_px = 80.0, behind = 110.0;
+  auto backdrop = std::make_shared<Backdrop>();
+  backdrop->area = {0, 0, 640, 480};
+  backdrop->levels = FloatImage(640, 480);
+  backdrop->clear = FloatImage(224, 224);
+  for (int row = 0; row < 480; ++row) {
+    for (int column = 0; column < 640; ++column) {
+      backdrop->levels.row(row)[column] =
+          static_cast<float>(behind + 15.0 * std::sin(0.21 * column) * std::cos(0.17 * row));
+    }
+  }
+  const auto before_it = [&](const Scene& scene, const Shot& shot) {
+    GrayImage out = ball_of(scene, shot);
+    for (int row = 0; row < 480; ++row) {
+      for (int column = 0; column < 640; ++column) {
+        const double r = std::hypot(column - middle_x - shot.dx, row - middle_y - shot.dy);
+        const double beside = 1.0 - 0.5 * std::erfc((r - radius_px) / (std::sqrt(2.0) * 0.9));
+        const double level = out.at(column, row) + beside * (backdrop->levels.row(row)[column] - behind);
+        out.at(column, row) = static_cast<std::uint8_t>(std::clamp(std::lround(level), 0L, 255L));
+      }
+    }
+    return out;
+  };
+  for (const auto& [dark, bright] : {std::pair{20.0, 60.0}, {150.0, 220.0}, {60.0, 200.0}}) {
+    const Scene scene{dark, bright, behind, radius_px};
+    TemplateSource source;
+    source.region = {221, 139, 200, 200};
+    source.margin_px = template_margin_px;
+    source.pixels = crop(before_it(scene, {}), {209, 127, 224, 224});
+    source.point = {100.3, 99.6};
+    source.usable.assign(200 * 200, 1);
+    source.backdrop = backdrop;
+    const Eigen::Matrix2d blur = 0.25 * Eigen::Matrix2d::Identity();
+    const auto rim = Rim::seen_in(completed(source), blur);
+    ASSERT_TRUE(rim) << dark;
+    EXPECT_NEAR(rim->circle().radius_px, radius_px, 0.15) << dark;
+    EXPECT_LT(rim->middle_px().norm(), 0.1) << dark;
+    const Shot moved{.dx = 4.3, .dy = -3.7, .lamp_x = 0.05, .lamp_y = -0.05, .seed = 5};
+    const FramePatch patch(before_it(scene, moved), {201, 119, 240, 240}, blur);
+    const auto there = rim->find(patch, {4.0, -4.0}, 1.0, Eigen::Matrix2d::Zero());
+    ASSERT_TRUE(there) << dark;
+    const Eigen::Vector2d off = there->moved_px - Eigen::Vector2d(moved.dx, moved.dy);
+    EXPECT_LT(off.norm(), 0.1) << dark;
+    EXPECT_LT(off.cwiseQuotient(there->covariance_px2.diagonal().cwiseSqrt()).cwiseAbs().maxCoeff(), 4.0) << dark;
+  }
+}
+
 // Printed discs and rings are measured by all that they show: no rim, and none of its larger uncertainty.
 TEST(Rim, IsNoneOfAPrint) {
   GrayImage rings{640, 480, std::vector<std::uint8_t>(640 * 480)};
