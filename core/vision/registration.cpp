@@ -283,11 +283,11 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   Registration out = by_levels(patches, std::move(start), with_residual_map);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   out.growth = 0.5 * out.linear.trace() - 1.0;
-  bool by_rim = out.light_changed || out.structure >= reflected_structure;
   const double fits = out.inlier_share + out.saturated_share;
   // Where what stands behind is known the levels tell several times as much, unless what is reflected has moved them:
   // then they do not explain all without more.
-  if (m_source.backdrop) by_rim = (out.by_outline || out.setup.with_field) && fits > all_but_chips;
+  const bool by_rim = m_source.backdrop ? (out.by_outline || out.setup.with_field) && fits > all_but_chips
+                                        : out.light_changed || out.structure >= reflected_structure;
   // What does not fit may be the ball itself, and what fits what stands still around it.
   if (!by_rim && (m_source.backdrop || fits > all_of_it)) return out;
   const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});

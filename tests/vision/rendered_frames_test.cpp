@@ -75,8 +75,8 @@ TEST(RenderedFrames, ALensIsFoundFromMovesThatShowIt) {
   }
 }
 
-// Of this ball what is reflected at its rim is of no form that the rim's fit knows: it must not be followed there.
-TEST(RenderedFrames, ABallWhoseRimCannotBeFollowedIsMeasuredAllTheSame) {
+// Its rim was once found 1.3 px too small before what had been learned of the backdrop, and followed in no frame.
+TEST(RenderedFrames, ADarkBallBeforeALearnedBackdropIsMeasuredInChangedLight) {
   EXPECT_LT(largest_error_px(PatternKind::ball, Disturbance::light, 690089999, 6), 0.03);
 }
 
