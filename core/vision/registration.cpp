@@ -39,6 +39,7 @@ constexpr int largest_rounds = 6;
 constexpr int shared_patch_px = 24;         // further apart, two patches are less work than one around both
 constexpr double one_body = 0.0015;         // of the linear part
 constexpr double straight = 0.01;           // a solve that bent the target more may have been caught by a reflection
+constexpr double least_field_bias = 4.0;    // to first order: less of it is not solved for
 constexpr double field_bias = 16.0;         // chi-square: four standard deviations, for blur's shape moves both
 constexpr double learned_px = 0.002;        // that what was learned of what stands behind moves a target by
 constexpr double outline_known_px = 0.003;  // what stands behind is not known better, and draws the outline
@@ -442,11 +443,15 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     const bool doubted = &source == &m_source && outline_tells_more(out) && out.structure > doubtful_structure;
     on_trial = !doubted && !setup.with_field && !blurs && !needs_field(out) && out.structure > doubtful_structure;
     next.with_field = setup.with_field || (!doubted && !blurs && (needs_field(out) || on_trial));
-    const bool last = doubted || (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
+    bool last = doubted || (!blurs && next.with_field == setup.with_field) || round + 1 == largest_rounds;
     // What only leads to a better matched blur need not be known so well.
     if (!told && (last || !blurs)) {
       if (blurred_model && blurred_model->noise_growth_x == 0.0) find_noise_effects(*blurred_model);
       solver.tell_uncertainty(out);
+    }
+    if (on_trial && !last) {
+      const SmoothField asked(model, m_source.region.width, m_source.region.height, field_spacing_px);
+      last = solver.moved_by_field(asked, out) < least_field_bias;
     }
     if (doubted) setup = next;
     if (last) break;

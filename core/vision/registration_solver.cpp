@@ -281,6 +281,41 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   return p.solved.info() == Eigen::Success;
 }
 
+// The step that a solve with the field would begin with: the motion is known, so it is nearly all of it.
+double RegistrationSolver::moved_by_field(const SmoothField& field, const Registration& told) const {
+  const int count = m_model.pixels;
+  Vector motion_gain = Vector::Ones();
+  motion_gain.head<motion_count>().setConstant(m_prepared.gain);
+  const Eigen::VectorXf weighted_errors = m_weight.cwiseProduct(m_error);
+  Eigen::Matrix<double, row_length, 1> sums = Eigen::Matrix<double, row_length, 1>::Zero();
+  add_products(m_rows.data(), weighted_errors.data(), count, sums.data());
+  Vector right = motion_gain.asDiagonal() * sums.head<column_count>();
+  const Eigen::MatrixXd cross =
+      field.cross(m_rows, m_weight, count).leftCols<column_count>().cast<double>() * motion_gain.asDiagonal();
+  Eigen::MatrixXd field_normal = field.normal(m_weight, count).cast<double>();
+  field_normal.diagonal().array() +=
+      std::pow(m_scale / field_prior_levels, 2) + 1e-9 * field_normal.diagonal().maxCoeff();
+  BandedCholesky solved;
+  if (!solved.compute(field_normal, field.band())) return 0.0;
+  Eigen::MatrixXd share = cross;
+  solved.solve_in_place(share);
+  Normal normal = m_prepared.normal - cross.transpose() * share;
+  const double prior = std::pow(m_scale / (length_px * linear_prior_with_field), 2);
+  normal.diagonal().segment<4>(axx).array() += prior - m_prepared.linear_prior;
+  const Eigen::Vector4d away(m_linear(0, 0) - 1.0, m_linear(0, 1), m_linear(1, 0), m_linear(1, 1) - 1.0);
+  right.segment<4>(axx) += prior * length_px * away;
+  right -= share.transpose() * field.project(weighted_errors, count).cast<double>();
+  const Normal precise = m_prepared.normal.inverse();
+  const Normal robust = normal.inverse();
+  const Vector moved = robust * right;
+  double out = 0.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double grown = std::max(robust(axis, axis) / precise(axis, axis) - 1.0, 0.1);
+    out += moved(axis) * moved(axis) / (grown * told.noise_variance_px2(axis));
+  }
+  return out;
+}
+
 // One step from the errors and weights at hand.
 bool RegistrationSolver::solve(int count, bool light_only) {
   if (outdated(count, light_only) && !prepare_normal(count, light_only)) return false;

@@ -62,6 +62,9 @@ class RegistrationSolver {
   Registration fit(int count) const;
   /// After run. The noise's effects on the model must be known.
   void tell_uncertainty(Registration& out) const;
+  /// After run without a field and tell_uncertainty: chi-square of two numbers by which one would move the result, to
+  /// first order, beyond what its noise lets it (Hausman's).
+  double moved_by_field(const SmoothField& field, const Registration& told) const;
   /// Errors over their scale at each pixel of the region; NaN where the model has none.
   std::vector<float> residual_map(int width, int height) const;
   const Eigen::Vector2d& shift_px() const { return m_shift; }
