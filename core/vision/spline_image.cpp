@@ -17,41 +17,43 @@ constexpr int largest_lattice_steps = 32;
 // Poles of the quintic B-spline's inverse filter.
 constexpr double poles[] = {-0.43057534709997430, -0.043096288203264443};
 
-// In-place inverse filter down the columns with mirrored ends; the inner loops run along a row.
-ZERODRIFT_WIDE void prefilter_columns(float* values, int width, int height, float* scratch) {
-  const auto row = [values, width](int y) { return values + static_cast<std::ptrdiff_t>(y) * width; };
+// In-place inverse filter down some columns with mirrored ends; a row of `strip` numbers each, in the inner loops. All
+// of it stays near the processor: the whole width at once would pass by it eight times.
+constexpr int strip = 32;
+template <int width>
+__attribute__((always_inline)) inline void prefilter_strip(float* values, std::ptrdiff_t stride, int height) {
   for (const double pole : poles) {
     const float z = static_cast<float>(pole);
     const float gain = static_cast<float>((1.0 - pole) * (1.0 - 1.0 / pole));
     const int reach = std::min(height, 24);  // pole^24 is below the precision of a float
-    for (int x = 0; x < width; ++x) scratch[x] = row(0)[x];
+    float before[width];
+    for (int x = 0; x < width; ++x) before[x] = values[x];
     float power = z;
     for (int y = 1; y < reach; ++y, power *= z) {
-      const float* now = row(y);
-      for (int x = 0; x < width; ++x) scratch[x] += power * now[x];
+      const float* now = values + y * stride;
+      for (int x = 0; x < width; ++x) before[x] += power * now[x];
     }
-    float* first = row(0);
-    for (int x = 0; x < width; ++x) first[x] = gain * scratch[x];
+    for (int x = 0; x < width; ++x) values[x] = before[x] = gain * before[x];
     for (int y = 1; y < height; ++y) {
-      float* now = row(y);
-      const float* before = row(y - 1);
-      for (int x = 0; x < width; ++x) now[x] = gain * now[x] + z * before[x];
+      float* now = values + y * stride;
+      for (int x = 0; x < width; ++x) now[x] = before[x] = gain * now[x] + z * before[x];
     }
     const float end_gain = static_cast<float>(pole / (pole * pole - 1.0));
-    float* last = row(height - 1);
-    const float* beside = row(height - 2);
-    for (int x = 0; x < width; ++x) last[x] = end_gain * (last[x] + z * beside[x]);
+    float* last = values + (height - 1) * stride;
+    const float* beside = last - stride;
+    for (int x = 0; x < width; ++x) last[x] = before[x] = end_gain * (last[x] + z * beside[x]);
     for (int y = height - 2; y >= 0; --y) {
-      float* now = row(y);
-      const float* after = row(y + 1);
-      for (int x = 0; x < width; ++x) now[x] = z * (after[x] - now[x]);
+      float* now = values + y * stride;
+      for (int x = 0; x < width; ++x) now[x] = before[x] = z * (before[x] - now[x]);
     }
   }
 }
 
-void prefilter_columns(FloatImage& image) {
-  std::vector<float> scratch(static_cast<std::size_t>(image.width));
-  prefilter_columns(image.values.data(), image.width, image.height, scratch.data());
+ZERODRIFT_WIDE void prefilter_columns(float* values, int width, int height) {
+  int x = 0;
+  for (; x + strip <= width; x += strip) prefilter_strip<strip>(values + x, width, height);
+  for (; x + 4 <= width; x += 4) prefilter_strip<4>(values + x, width, height);
+  for (; x < width; ++x) prefilter_strip<1>(values + x, width, height);
 }
 
 FloatImage transposed(const FloatImage& image) {
@@ -276,9 +278,9 @@ FloatImage blurred(const FloatImage& image, const Eigen::Matrix2d& covariance_px
 }
 
 SplineImage::SplineImage(FloatImage samples) : m_coefficients(std::move(samples)) {
-  prefilter_columns(m_coefficients);
+  prefilter_columns(m_coefficients.values.data(), m_coefficients.width, m_coefficients.height);
   m_coefficients = transposed(m_coefficients);
-  prefilter_columns(m_coefficients);
+  prefilter_columns(m_coefficients.values.data(), m_coefficients.width, m_coefficients.height);
   m_coefficients = transposed(m_coefficients);
 }
 
