@@ -115,17 +115,28 @@ void take_off_standing(const FloatImage& behind, const FloatImage& clear, FloatI
   }
 }
 
+ZERODRIFT_WIDE void squared(const float* values, std::ptrdiff_t count, float* __restrict out) {
+  for (std::ptrdiff_t k = 0; k < count; ++k) out[k] = values[k] * values[k];
+}
+
+ZERODRIFT_WIDE void take_down(const float* mean_square, float noise, std::ptrdiff_t count, float* __restrict values) {
+  const float scale = 1.0f / (noise * (clear_of_noise - noise_alone));
+  const float offset = noise_alone / (clear_of_noise - noise_alone);
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    const float share = mean_square[k] * scale - offset;
+    const float least = share > 0.0f ? share : 0.0f;
+    values[k] *= least < 1.0f ? least : 1.0f;
+  }
+}
+
 // Where a gradient is no more than the template's noise it would tell of the motion what the frame does not know: one
 // axis or the turning of a target that shows nothing of them. There it is taken down, by what its surroundings show.
 void calm(FloatImage& gradient, double noise_energy) {
   FloatImage mean(gradient.width, gradient.height);
-  for (std::size_t k = 0; k < mean.values.size(); ++k) mean.values[k] = gradient.values[k] * gradient.values[k];
+  const auto count = static_cast<std::ptrdiff_t>(mean.values.size());
+  squared(gradient.values.data(), count, mean.values.data());
   cv::blur(mat_view(mean), mat_view(mean), {calm_window_px, calm_window_px});
-  const auto noise = static_cast<float>(std::max(noise_energy, 1e-9));
-  for (std::size_t k = 0; k < mean.values.size(); ++k) {
-    gradient.values[k] *=
-        std::clamp((mean.values[k] / noise - noise_alone) / (clear_of_noise - noise_alone), 0.0f, 1.0f);
-  }
+  take_down(mean.values.data(), static_cast<float>(std::max(noise_energy, 1e-9)), count, gradient.values.data());
 }
 
 // Variance of a shift estimated from blurred noise over that from independent noise of equal power: by each of the two
