@@ -16,6 +16,7 @@ struct FramePatch {
   FramePatch(const GrayImage& frame, const Region& region, const Eigen::Matrix2d& blur_px2);
   /// Leaves out the surroundings of bright spots as well, where their flank still falls steeply.
   void widen_glare();
+  bool has_glare() const { return !m_dark.empty(); }
 
   Region at;  // in the frame, or beyond it
   Eigen::Matrix2d blur_px2;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/vision/frame_patch.h"
 #include "core/vision/opencv_image.h"
 #include "core/vision/registration_solver.h"
 #include "core/vision/target_part.h"
@@ -40,11 +39,11 @@ Region patch_at(const Region& region, const RegistrationStart& start) {
 }
 
 // Of all that the template shows, where it was found.
-std::vector<float> residuals_at(const Registrar& fine, const GrayImage& frame, const Registration& found) {
+std::vector<float> residuals_at(const Registrar& fine, FramePatches& frame, const Registration& found) {
   RegistrationStart start = start_at(found.displacement_px);
   start.linear = found.linear;
   const Region& region = fine.source().region;
-  const FramePatch patch(frame, patch_at(region, start), fine.model().blur_px2);
+  const FramePatch& patch = frame.around(patch_at(region, start), fine.model().blur_px2);
   RegistrationSolver solver(fine.model(), patch, nullptr, start);
   if (!solver.compare()) return found.residual_map;
   return solver.residual_map(region.width, region.height);
@@ -100,8 +99,8 @@ std::vector<Eigen::Vector2d> places_of(const TemplateSource& part, const GrayIma
 }
 
 // The part alone, where it is elsewhere than the target was found.
-std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& fine, const GrayImage& image,
-                                      const GrayImage& frame, const Registration& found) {
+std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& fine, FramePatches& image,
+                                      FramePatches& frame, const Registration& found) {
   const TemplateSource of_part = source_of(fine.source(), part);
   TemplateModel alone = make_template_model(of_part, found.setup.template_blur, found.setup.frame_blur);
   const Eigen::Vector2d rest_px = found.displacement_px + (found.linear - Eigen::Matrix2d::Identity()) * part.middle_px;
@@ -110,10 +109,10 @@ std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& f
     return own.correlation > part_correlation && own.inlier_share > part.least_share &&
            (own.middle_px - rest_px).norm() < here_px;
   };
-  const auto seen_in = [&](const GrayImage& picture, const Eigen::Matrix2d& blur_px2, RegistrationStart start) {
+  const auto seen_in = [&](FramePatches& picture, const Eigen::Matrix2d& blur_px2, RegistrationStart start) {
     start.middle_px = part.middle_px;
     start.outline_alone = true;  // of a few edges size and place are hardly told apart
-    const FramePatch patch(picture, patch_at(of_part.region, start), blur_px2);
+    const FramePatch& patch = picture.around(patch_at(of_part.region, start), blur_px2);
     RegistrationSolver solver(alone, patch, nullptr, start);
     if (!solver.glance()) return Registration{};
     Registration out = solver.fit(alone.pixels / 4);
@@ -152,7 +151,7 @@ std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& f
            (before.middle_px - apart).norm() > next_piece_px;
   };
   if (const auto here = fitted_from(Eigen::Vector2d::Zero())) return has_moved(*here) ? here : std::nullopt;
-  for (const Eigen::Vector2d& away_px : places_of(of_part, frame, found)) {
+  for (const Eigen::Vector2d& away_px : places_of(of_part, frame.image(), found)) {
     const auto there = fitted_from(away_px);
     if (there && has_moved(*there)) return there;
   }
@@ -161,20 +160,22 @@ std::optional<Registration> elsewhere(const TargetPart& part, const Registrar& f
 
 }  // namespace
 
-std::optional<Registration> found_at_the_point(const Registrar& fine, const GrayImage& image, const GrayImage& frame,
+std::optional<Registration> found_at_the_point(const Registrar& fine, const GrayImage& image, FramePatches& frame,
                                                const Registration& found) {
   const std::optional<TargetPart> part = part_at_the_point(fine, found.residual_map);
   std::optional<Registration> out;
-  if (part) out = elsewhere(*part, fine, image, frame, found);
+  FramePatches before(image);
+  if (part) out = elsewhere(*part, fine, before, frame, found);
   if (out) out->residual_map = residuals_at(fine, frame, *out);
   return out;
 }
 
-bool moved_apart(const Registrar& fine, const GrayImage& image, const GrayImage& frame, Registration found) {
+bool moved_apart(const Registrar& fine, const GrayImage& image, FramePatches& frame, Registration found) {
   if (found.by_outline) found.residual_map = residuals_at(fine, frame, found);
   if (found_at_the_point(fine, image, frame, found)) return true;
   const std::optional<TargetPart> part = part_that_does_not_fit(fine, found.residual_map);
-  return part && elsewhere(*part, fine, image, frame, found);
+  FramePatches before(image);
+  return part && elsewhere(*part, fine, before, frame, found);
 }
 
 }  // namespace zerodrift::vision

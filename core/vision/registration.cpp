@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "core/vision/blur_match.h"
+#include "core/vision/frame_patches.h"
 #include "core/vision/outline.h"
-#include "core/vision/patch_of_frame.h"
 #include "core/vision/registration_solver.h"
 #include "core/vision/smooth_field.h"
 #include "core/vision/window_likeness.h"
@@ -116,8 +116,7 @@ Registrar::Registrar(TemplateSource source)
 }
 
 // Places near each other share a patch: a pattern that repeats has many, a period apart.
-std::vector<Registration> Registrar::glances(const GrayImage& frame,
-                                             const std::vector<std::array<int, 2>>& places) const {
+std::vector<Registration> Registrar::glances(FramePatches& frame, const std::vector<std::array<int, 2>>& places) const {
   std::vector<Registration> out(places.size());
   std::vector<bool> done(places.size(), false);
   for (std::size_t first = 0; first < places.size(); ++first) {
@@ -136,7 +135,7 @@ std::vector<Registration> Registrar::glances(const GrayImage& frame,
       box.x = std::min(box.x, own.x), box.y = std::min(box.y, own.y);
       box.width = right - box.x, box.height = bottom - box.y;
     }
-    const FramePatch patch(frame, box, m_model.blur_px2);
+    const FramePatch& patch = frame.around(box, m_model.blur_px2);
     for (const std::size_t k : together) {
       RegistrationStart start;
       start.whole_px = {places[k][0], places[k][1]};
@@ -149,7 +148,7 @@ std::vector<Registration> Registrar::glances(const GrayImage& frame,
 
 // Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only
 // then can the rest be solved well, and a smooth field must not take for itself what a blur does.
-double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup,
+double Registrar::match_blur_at_a_glance(const PlaceInFrame& place, ImageSetup& setup,
                                          std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
   ImageSetup tried = setup;
   std::optional<TemplateModel> tried_model;
@@ -157,7 +156,7 @@ double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setu
   double saturated_share = 0.0;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = tried_model ? *tried_model : m_model;
-    RegistrationSolver solver(model, patches.with(tried), nullptr, start);
+    RegistrationSolver solver(model, place.with(tried), nullptr, start);
     if (!solver.glance()) break;
     const Registration seen = solver.fit(model.pixels / 4);
     const double now = fit_of(seen);
@@ -185,13 +184,13 @@ double Registrar::match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setu
   return saturated_share;
 }
 
-Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
+Registration Registrar::run(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens,
                             bool with_residual_map) const {
-  PatchOfFrame patches(frame, patch_around(m_source.region, dx_px, dy_px));
+  const PlaceInFrame place{frame, patch_around(m_source.region, dx_px, dy_px)};
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
-  Registration best = attempt(patches, start, with_residual_map);
+  Registration best = attempt(place, start, with_residual_map);
   const auto stuck = [&] {
     return !best.converged || best.residual > (best.inlier_share < some_hidden ? doubtful_residual : poor_residual);
   };
@@ -205,24 +204,24 @@ Registration Registrar::run(const GrayImage& frame, int dx_px, int dy_px, const 
   start.light.emplace();
   start.light->setZero();
   (*start.light)(0) = 1.0;
-  keep_better(attempt(patches, start, with_residual_map));
+  keep_better(attempt(place, start, with_residual_map));
   if (!stuck()) return best;
   // Something in the way that is large against what the target shows pulls at the start: once more from the windows
   // that are like the target where the coarse search has found it.
-  const std::vector<std::uint8_t> doubted = unlike(frame, dx_px, dy_px);
+  const std::vector<std::uint8_t> doubted = unlike(frame.image(), dx_px, dy_px);
   start.light.reset();
   start.doubted = &doubted;
-  keep_better(attempt(patches, start, with_residual_map));
+  keep_better(attempt(place, start, with_residual_map));
   return best;
 }
 
 // Where a turn moves the ends of thin lines by more than their width, they lie on even paper and count as outliers: the
 // middle alone is then fitted, and nothing of what is left pulls towards the turn. Among many starts one fits part of
 // nearly anything: only a turn that shows nearly all of the target is worth a look.
-std::optional<Registration> Registrar::run_turned(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
+std::optional<Registration> Registrar::run_turned(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens,
                                                   double largest_turn_rad, bool with_residual_map) const {
-  PatchOfFrame patches(frame, patch_around(m_source.region, dx_px, dy_px));
-  const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
+  const PlaceInFrame place{frame, patch_around(m_source.region, dx_px, dy_px)};
+  const FramePatch& patch = place.with({m_model.blur_px2, m_model.blur_px2, false});
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
@@ -249,7 +248,7 @@ std::optional<Registration> Registrar::run_turned(const GrayImage& frame, int dx
   }
   if (best_rad == 0.0) return std::nullopt;
   turn_to(best_rad);
-  return attempt(patches, start, with_residual_map);
+  return attempt(place, start, with_residual_map);
 }
 
 std::vector<std::uint8_t> Registrar::unlike(const GrayImage& frame, int dx_px, int dy_px) const {
@@ -271,7 +270,7 @@ std::vector<std::uint8_t> Registrar::unlike(const GrayImage& frame, int dx_px, i
 // What goes from solve to solve: how the images are blurred, the template's model if that is not the usual one, and
 // where to start.
 struct Registrar::Course {
-  PatchOfFrame& patches;
+  const PlaceInFrame& place;
   RegistrationStart start;
   ImageSetup setup;
   std::optional<TemplateModel> blurred_model;
@@ -280,8 +279,8 @@ struct Registrar::Course {
 };
 
 // Light that has changed across a ball is what it reflects, which tells nothing of where it is.
-Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
-  Registration out = by_levels(patches, std::move(start), with_residual_map);
+Registration Registrar::attempt(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const {
+  Registration out = by_levels(place, std::move(start), with_residual_map);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   out.growth = 0.5 * out.linear.trace() - 1.0;
   const double fits = out.inlier_share + out.saturated_share;
@@ -291,7 +290,7 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
                                         : out.light_changed || out.structure >= reflected_structure;
   // What does not fit may be the ball itself, and what fits what stands still around it.
   if (!by_rim && (m_source.backdrop || fits > all_of_it)) return out;
-  const FramePatch& patch = patches.with({m_model.blur_px2, m_model.blur_px2, false});
+  const FramePatch& patch = place.with({m_model.blur_px2, m_model.blur_px2, false});
   const Eigen::Matrix2d blur_px2 = out.setup.template_blur - out.setup.frame_blur;
   auto rim = m_rim->find(patch, out.middle_px, out.contrast, blur_px2);
   if (!by_rim) {
@@ -333,12 +332,12 @@ Registration Registrar::attempt(PatchOfFrame& patches, RegistrationStart start, 
   return out;
 }
 
-Registration Registrar::by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const {
+Registration Registrar::by_levels(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const {
   const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
-  Course course{patches, std::move(start), plain, std::nullopt, false, with_residual_map};
+  Course course{place, std::move(start), plain, std::nullopt, false, with_residual_map};
   course.start.middle_px = m_middle;
   const RegistrationStart first_start = course.start;
-  course.glare = match_blur_at_a_glance(patches, course.setup, course.blurred_model, course.start) > glare_share;
+  course.glare = match_blur_at_a_glance(place, course.setup, course.blurred_model, course.start) > glare_share;
   Registration whole = solve(m_source, m_model, first_start, course);
   whole.light_changed = course.setup.with_field || whole.structure > doubtful_structure;
   if (!outline_tells_more(whole)) return whole;
@@ -408,7 +407,7 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     const TemplateModel& model = blurred_model ? *blurred_model : usual;
     std::optional<SmoothField> field;
     if (setup.with_field) field.emplace(model, m_source.region.width, m_source.region.height, field_spacing_px);
-    RegistrationSolver solver(model, course.patches.with(setup), field ? &*field : nullptr, course.start);
+    RegistrationSolver solver(model, course.place.with(setup), field ? &*field : nullptr, course.start);
     if (!solver.run()) {
       unlit = unlit || solver.was_partly_unlit();
       // A first attempt without the field may fail in a strong halo; one with it is the last.

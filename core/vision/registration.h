@@ -61,21 +61,22 @@ inline double linear_change(const Registration& r) {
 }
 
 struct RegistrationStart;
-class PatchOfFrame;
+class FramePatches;
+struct PlaceInFrame;
 
 class Registrar {
  public:
   explicit Registrar(TemplateSource source);
 
   /// Starts with the region displaced by whole pixels; the point may end up to 8 px from there.
-  Registration run(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens = {},
+  Registration run(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens = {},
                    bool with_residual_map = false) const;
   /// From the turn about the target's middle at which a glance explains nearly all of it, and more than unturned; empty
   /// where none does.
-  std::optional<Registration> run_turned(const GrayImage& frame, int dx_px, int dy_px, const LensTerm& lens,
+  std::optional<Registration> run_turned(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens,
                                          double largest_turn_rad, bool with_residual_map) const;
   /// As run, on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
-  std::vector<Registration> glances(const GrayImage& frame, const std::vector<std::array<int, 2>>& places) const;
+  std::vector<Registration> glances(FramePatches& frame, const std::vector<std::array<int, 2>>& places) const;
 
   const TemplateModel& model() const { return m_model; }
   const TemplateSource& source() const { return m_source; }
@@ -84,16 +85,16 @@ class Registrar {
 
  private:
   struct Course;
-  Registration attempt(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
-  Registration by_levels(PatchOfFrame& patches, RegistrationStart start, bool with_residual_map) const;
+  Registration attempt(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const;
+  Registration by_levels(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const;
   Registration solve(const TemplateSource& source, const TemplateModel& usual, const RegistrationStart& first_start,
                      Course& course) const;
   bool outline_tells_more(const Registration& whole) const;
   /// 1 for each pixel of the region around which a frame does not look like the template there.
   std::vector<std::uint8_t> unlike(const GrayImage& frame, int dx_px, int dy_px) const;
   /// The share of saturated pixels; 0 if the first glance found nothing.
-  double match_blur_at_a_glance(PatchOfFrame& patches, ImageSetup& setup, std::optional<TemplateModel>& blurred_model,
-                                RegistrationStart& start) const;
+  double match_blur_at_a_glance(const PlaceInFrame& place, ImageSetup& setup,
+                                std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const;
 
   TemplateSource m_source;
   TemplateModel m_model;  // with the smallest blur

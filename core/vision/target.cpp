@@ -55,7 +55,7 @@ double merit(const Registration& r) {
 
 }  // namespace
 
-std::vector<Candidate> Target::Impl::likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const {
+std::vector<Candidate> Target::Impl::likeliest(FramePatches& frame, const std::vector<Candidate>& candidates) const {
   const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
   if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
   double most_saturated = 0.0;
@@ -182,7 +182,8 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
 Location Target::locate(const GrayImage& frame) const {
   Registration found;
   std::vector<float> residual_map;
-  Location out = search(frame, &residual_map, &found);
+  FramePatches patches(frame);
+  Location out = search(patches, &residual_map, &found);
   if (!out.ok) {
     const Eigen::Vector2d moved_px(out.point.x_px - m_impl->point.x_px, out.point.y_px - m_impl->point.y_px);
     out.refusal = told_by_the_picture(out.refusal, frame, m_impl->image, m_impl->region, moved_px);
@@ -203,13 +204,19 @@ Location Target::locate(const GrayImage& frame) const {
   }
   found.residual_map = std::move(residual_map);
   // What a ball shows within its rim is a reflection; where the rim itself is was asked.
-  if (!m_impl->fine.rim() && moved_apart(m_impl->fine, m_impl->image, frame, found)) {
+  if (!m_impl->fine.rim() && moved_apart(m_impl->fine, m_impl->image, patches, found)) {
     return refuse(Refusal::moved_apart);
   }
   return out;
 }
 
-Location Target::search(const GrayImage& frame, std::vector<float>* residual_map, Registration* fit) const {
+Location Target::search(const GrayImage& frame) const {
+  FramePatches patches(frame);
+  return search(patches, nullptr, nullptr);
+}
+
+Location Target::search(FramePatches& patches, std::vector<float>* residual_map, Registration* fit) const {
+  const GrayImage& frame = patches.image();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Location out;
   out.point = m_impl->point;
@@ -225,7 +232,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
 
   Registration best;
   double best_coarse = candidates.front().correlation;
-  std::vector<Candidate> likeliest = m_impl->likeliest(frame, candidates);
+  std::vector<Candidate> likeliest = m_impl->likeliest(patches, candidates);
   if (m_impl->backdrop) {
     const auto bare = [&](const Candidate& one) {
       return is_bare(frame, m_impl->image, m_impl->region, *m_impl->backdrop, one.dx_px, one.dy_px);
@@ -234,7 +241,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   }
   if (likeliest.empty()) return refuse(Refusal::missing);
   for (const Candidate& one : likeliest) {
-    const Registration found = m_impl->fine.run(frame, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
+    const Registration found = m_impl->fine.run(patches, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
     if (merit(found) > merit(best)) {
       best = found;
       best_coarse = one.correlation;
@@ -248,7 +255,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   for (std::size_t k = 0; k < likeliest.size() && may_be_turned(refusal_of(best, best_coarse)); ++k) {
     const Candidate& one = likeliest[k];
     const auto found =
-        m_impl->fine.run_turned(frame, one.dx_px, one.dy_px, m_lens, largest_linear, residual_map != nullptr);
+        m_impl->fine.run_turned(patches, one.dx_px, one.dy_px, m_lens, largest_linear, residual_map != nullptr);
     if (!found || merit(*found) <= merit(best) || refusal_of(*found, one.correlation) != Refusal::none) continue;
     if (found->inlier_share + found->saturated_share < nothing_hidden) continue;
     best = *found;
@@ -259,7 +266,7 @@ Location Target::search(const GrayImage& frame, std::vector<float>* residual_map
   for (int step = 0; doubt.likelier_px && step < most_periods_off; ++step) {
     const Eigen::Vector2d there = best.displacement_px + *doubt.likelier_px;
     const Registration found =
-        m_impl->fine.run(frame, static_cast<int>(std::lround(there(0))), static_cast<int>(std::lround(there(1))),
+        m_impl->fine.run(patches, static_cast<int>(std::lround(there(0))), static_cast<int>(std::lround(there(1))),
                          m_lens, residual_map != nullptr);
     if (!found.converged || (found.displacement_px - there).norm() > 0.25 * doubt.likelier_px->norm()) break;
     const RepeatingTarget::Doubt left = m_impl->repeating.doubt(frame, found);

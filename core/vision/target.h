@@ -54,6 +54,7 @@ struct Location {
   LensTerm lens;           // what is known of the lens after this frame
 };
 
+class FramePatches;
 struct Registration;
 
 /// Whether something may lie over the target in frames that are learned from. In a calibration's views nothing does.
@@ -107,8 +108,8 @@ class Target {
   std::vector<GrayImage> without_covered(const std::vector<GrayImage>& frames) const;
   Target gathered_from(const std::vector<GrayImage>& frames) const;
   Target without_what_stands(const std::vector<GrayImage>& frames, bool in_part, Cover cover) const;
-  Location search(const GrayImage& frame, std::vector<float>* residual_map = nullptr,
-                  Registration* fit = nullptr) const;
+  Location search(const GrayImage& frame) const;
+  Location search(FramePatches& frame, std::vector<float>* residual_map, Registration* fit) const;
   explicit Target(std::shared_ptr<const Impl> impl, LensTerm lens = {}) : m_impl(std::move(impl)), m_lens(lens) {}
   std::shared_ptr<const Impl> m_impl;
   LensTerm m_lens;

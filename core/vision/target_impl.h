@@ -6,6 +6,7 @@
 
 #include "core/vision/coarse_search.h"
 #include "core/vision/disc.h"
+#include "core/vision/frame_patches.h"
 #include "core/vision/gathered_template.h"
 #include "core/vision/registration.h"
 #include "core/vision/repeating_target.h"
@@ -44,7 +45,7 @@ struct Target::Impl : Learned {
   }
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
-  std::vector<Candidate> likeliest(const GrayImage& frame, const std::vector<Candidate>& candidates) const;
+  std::vector<Candidate> likeliest(FramePatches& frame, const std::vector<Candidate>& candidates) const;
 
   RegisteredFrame place_of(const GrayImage& frame, const Location& at) const {
     return {&frame, {at.point.x_px - point.x_px, at.point.y_px - point.y_px}, at.linear, at.lens};

@@ -41,11 +41,12 @@ bool roughly_known(const Location& at, const Registration& fit) {
 // what travels.
 Location Target::search_at_the_point(const GrayImage& frame, Registration& fit) const {
   std::vector<float> map;
-  Location out = search(frame, &map, &fit);
+  FramePatches patches(frame);
+  Location out = search(patches, &map, &fit);
   fit.residual_map = std::move(map);
   const bool known = out.ok || fits_in_part(out) || roughly_known(out, fit);
   if (!known || m_impl->fine.rim() || fit.by_outline) return out;  // what lies within may be reflected
-  const auto there = found_at_the_point(m_impl->fine, m_impl->image, frame, fit);
+  const auto there = found_at_the_point(m_impl->fine, m_impl->image, patches, fit);
   if (!there) return out;
   fit = *there;
   out.ok = true;
