@@ -103,7 +103,9 @@ std::vector<cv::Point> peaks(const cv::Mat& scores, int count, int apart) {
 // Zero-mean normalized correlation of the pattern with the frame at places near some start, each computed once.
 class Climb {
  public:
-  Climb(const cv::Mat& frame, const GrayImage& pattern) : m_frame(frame), m_pattern(pattern) {
+  Climb(const cv::Mat& frame, const GrayImage& pattern) {
+    frame.convertTo(m_frame, CV_16S);
+    mat_view(pattern).convertTo(m_pattern, CV_16S);
     const double n = static_cast<double>(pattern.pixels.size());
     double squares = 0.0;
     for (const std::uint8_t value : pattern.pixels) {
@@ -114,7 +116,7 @@ class Climb {
   }
 
   double at(int x, int y) {
-    if (x < 0 || y < 0 || x + m_pattern.width > m_frame.cols || y + m_pattern.height > m_frame.rows) return -1.0;
+    if (x < 0 || y < 0 || x + m_pattern.cols > m_frame.cols || y + m_pattern.rows > m_frame.rows) return -1.0;
     const auto [place, is_new] = m_known.try_emplace({x, y}, 0.0);
     if (is_new) place->second = correlation(x, y);
     return place->second;
@@ -144,23 +146,20 @@ class Climb {
  private:
   double correlation(int x, int y) const {
     std::int64_t product = 0, sum = 0, squares = 0;
-    for (int row = 0; row < m_pattern.height; ++row) {
-      const std::uint8_t* from = m_frame.ptr(y + row) + x;
-      const std::uint8_t* pattern = m_pattern.pixels.data() + static_cast<std::size_t>(row) * m_pattern.width;
+    for (int row = 0; row < m_pattern.rows; ++row) {
       std::int32_t sums[3];
-      byte_sums(from, pattern, m_pattern.width, sums);
+      level_sums(m_frame.ptr<std::int16_t>(y + row) + x, m_pattern.ptr<std::int16_t>(row), m_pattern.cols, sums);
       product += sums[0];
       sum += sums[1];
       squares += sums[2];
     }
-    const double n = static_cast<double>(m_pattern.pixels.size());
+    const double n = static_cast<double>(m_pattern.total());
     const double spread = static_cast<double>(squares) - static_cast<double>(sum) * static_cast<double>(sum) / n;
     if (spread <= 0.0 || m_spread <= 0.0) return -1.0;
     return (static_cast<double>(product) - static_cast<double>(sum) * m_sum / n) / std::sqrt(spread * m_spread);
   }
 
-  const cv::Mat& m_frame;
-  const GrayImage& m_pattern;
+  cv::Mat m_frame, m_pattern;  // of 16 bits a level: their products are then summed as fast as any
   double m_sum = 0.0;
   double m_spread = 0.0;
   std::map<std::pair<int, int>, double> m_known;

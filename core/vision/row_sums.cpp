@@ -167,7 +167,7 @@ ZERODRIFT_WIDE void blur_row(const float* middle, std::ptrdiff_t step, const flo
   }
 }
 
-ZERODRIFT_WIDE void byte_sums(const std::uint8_t* a, const std::uint8_t* b, int count, std::int32_t* sums) {
+ZERODRIFT_WIDE void level_sums(const std::int16_t* a, const std::int16_t* b, int count, std::int32_t* sums) {
   std::int32_t product = 0, sum = 0, squares = 0;
   for (int k = 0; k < count; ++k) {
     product += a[k] * b[k];

@@ -40,6 +40,6 @@ void add_moments(const float* x, const float* y, const float* fx, const float* f
 void blur_row(const float* middle, std::ptrdiff_t step, const float* weights, int taps, int count, float* to);
 
 /// sums of a * b, a and a * a over one row of a picture: product, sum, squares.
-void byte_sums(const std::uint8_t* a, const std::uint8_t* b, int count, std::int32_t* sums);
+void level_sums(const std::int16_t* a, const std::int16_t* b, int count, std::int32_t* sums);
 
 }  // namespace zerodrift::vision

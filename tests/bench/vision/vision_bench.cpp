@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 #include <map>
 
 #include "core/vision/error_view.h"
@@ -115,10 +116,14 @@ void run_ours(const BenchSession& session, const Options& options, Score& score)
   const auto calibration = calibration_of(session, &masked);
   const auto exact = calibration_of(session, nullptr);
   for (const BenchFrame& frame : session.frames) {
-    const double start = cpu_ms();
     vision::Location at;
-    for (int k = 0; k < options.repeat; ++k) at = masked.locate(frame.image);
-    score.ms += (cpu_ms() - start) / options.repeat;
+    double least_ms = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < options.repeat; ++k) {
+      const double start = cpu_ms();
+      at = masked.locate(frame.image);
+      least_ms = std::min(least_ms, cpu_ms() - start);
+    }
+    score.ms += least_ms;
     count(score, frame, at.ok, at.x_px, at.y_px, at.sigma_x_px, at.sigma_y_px);
     if (options.detail) {
       fmt::print(
@@ -230,7 +235,8 @@ int main(int argc, char** argv) {
   app.add_option("--data", options.data, "folders written by render_frames")->required();
   app.add_flag("--peers", options.peers, "measure the peers too");
   app.add_flag("--detail", options.detail, "a line a frame");
-  app.add_option("--repeat", options.repeat, "locate each frame so often: for a profile")->check(CLI::PositiveNumber);
+  app.add_option("--repeat", options.repeat, "locate each frame so often: for a profile, or for the least of the times")
+      ->check(CLI::PositiveNumber);
   app.add_option("--targets", options.targets)->delimiter(',');
   app.add_option("--sets", options.sets)->delimiter(',');
   CLI11_PARSE(app, argc, argv);
