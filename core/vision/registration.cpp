@@ -450,7 +450,8 @@ Registration Registrar::solve(const TemplateSource& source, const TemplateModel&
     }
     if (on_trial && !last) {
       const SmoothField asked(model, m_source.region.width, m_source.region.height, field_spacing_px);
-      last = solver.moved_by_field(asked, out) < least_field_bias;
+      const auto step = solver.step_with(asked, out);
+      last = !step || !biased(step->moved_px, out.noise_variance_px2, step->noise_variance_px2, least_field_bias);
     }
     if (doubted) setup = next;
     if (last) break;

@@ -117,7 +117,7 @@ RegistrationSolver::Scores RegistrationSolver::scores_of_tiles(int count) const 
   if (m_field != nullptr) {
     without_field = m_rows.leftCols(count);
     without_field.topRows<motion_count>() *= gain_now;
-    m_field->take_off(without_field, count, m_prepared.field_share.cast<float>());
+    m_field->take_off(without_field, count, m_prepared.field.share.cast<float>());
   }
   const Rows& from = m_field != nullptr ? without_field : m_rows;
   // Tile after tile, for sums over many pixels at once.

@@ -245,6 +245,28 @@ RegistrationSolver::Normal RegistrationSolver::normal_of(const float* rows, cons
   return sums.topLeftCorner<column_count, column_count>();
 }
 
+// The motion's columns count times the gain of the light.
+RegistrationSolver::Vector RegistrationSolver::motion_gain() const {
+  Vector out = Vector::Ones();
+  out.head<motion_count>().setConstant(m_prepared.gain);
+  return out;
+}
+
+// Takes off the columns' normal matrix what the field would explain of them.
+bool RegistrationSolver::eliminate(const SmoothField& field, const Eigen::VectorXf& weight, int count, FieldPart& out,
+                                   Normal& normal) const {
+  const Eigen::MatrixXd cross =
+      field.cross(m_rows, weight, count).leftCols<column_count>().cast<double>() * motion_gain().asDiagonal();
+  Eigen::MatrixXd own = field.normal(weight, count).cast<double>();
+  out.prior = std::pow(m_scale / field_prior_levels, 2);
+  own.diagonal().array() += out.prior + 1e-9 * own.diagonal().maxCoeff();
+  if (!out.solved.compute(own, field.band())) return false;
+  out.share = cross;
+  out.solved.solve_in_place(out.share);
+  normal -= cross.transpose() * out.share;
+  return true;
+}
+
 bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   Prepared& p = m_prepared;
   p.count = count;
@@ -252,20 +274,9 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   p.weight = m_weight.head(count);
   p.gain = m_light(0);
   p.scale = m_scale;
-  Vector motion_gain = Vector::Ones();
-  motion_gain.head<motion_count>().setConstant(p.gain);
-  p.normal = motion_gain.asDiagonal() * normal_of(m_rows.data(), p.weight.data(), 0, count) * motion_gain.asDiagonal();
-  if (m_field != nullptr) {
-    const Eigen::MatrixXd cross =
-        m_field->cross(m_rows, p.weight, count).leftCols<column_count>().cast<double>() * motion_gain.asDiagonal();
-    Eigen::MatrixXd normal = m_field->normal(p.weight, count).cast<double>();
-    p.field_prior = std::pow(m_scale / field_prior_levels, 2);
-    normal.diagonal().array() += p.field_prior + 1e-9 * normal.diagonal().maxCoeff();
-    if (!p.field.compute(normal, m_field->band())) return false;
-    p.field_share = cross;
-    p.field.solve_in_place(p.field_share);
-    p.normal -= cross.transpose() * p.field_share;
-  }
+  const Vector factors = motion_gain();
+  p.normal = factors.asDiagonal() * normal_of(m_rows.data(), p.weight.data(), 0, count) * factors.asDiagonal();
+  if (m_field != nullptr && !eliminate(*m_field, p.weight, count, p.field, p.normal)) return false;
   double linear = m_field != nullptr ? linear_prior_with_field : linear_prior;
   if (m_outline_alone) linear = linear_prior_of_outline;
   p.linear_prior = std::pow(m_scale / (length_px * linear), 2);
@@ -281,39 +292,34 @@ bool RegistrationSolver::prepare_normal(int count, bool light_only) {
   return p.solved.info() == Eigen::Success;
 }
 
-// The step that a solve with the field would begin with: the motion is known, so it is nearly all of it.
-double RegistrationSolver::moved_by_field(const SmoothField& field, const Registration& told) const {
-  const int count = m_model.pixels;
-  Vector motion_gain = Vector::Ones();
-  motion_gain.head<motion_count>().setConstant(m_prepared.gain);
-  const Eigen::VectorXf weighted_errors = m_weight.cwiseProduct(m_error);
+// What the errors and the priors pull at each column, a field aside.
+RegistrationSolver::Vector RegistrationSolver::right_of(const Eigen::VectorXf& weighted_errors, int count,
+                                                        double prior) const {
   Eigen::Matrix<double, row_length, 1> sums = Eigen::Matrix<double, row_length, 1>::Zero();
   add_products(m_rows.data(), weighted_errors.data(), count, sums.data());
-  Vector right = motion_gain.asDiagonal() * sums.head<column_count>();
-  const Eigen::MatrixXd cross =
-      field.cross(m_rows, m_weight, count).leftCols<column_count>().cast<double>() * motion_gain.asDiagonal();
-  Eigen::MatrixXd field_normal = field.normal(m_weight, count).cast<double>();
-  field_normal.diagonal().array() +=
-      std::pow(m_scale / field_prior_levels, 2) + 1e-9 * field_normal.diagonal().maxCoeff();
-  BandedCholesky solved;
-  if (!solved.compute(field_normal, field.band())) return 0.0;
-  Eigen::MatrixXd share = cross;
-  solved.solve_in_place(share);
-  Normal normal = m_prepared.normal - cross.transpose() * share;
-  const double prior = std::pow(m_scale / (length_px * linear_prior_with_field), 2);
-  normal.diagonal().segment<4>(axx).array() += prior - m_prepared.linear_prior;
+  Vector out = motion_gain().asDiagonal() * sums.head<column_count>();
   const Eigen::Vector4d away(m_linear(0, 0) - 1.0, m_linear(0, 1), m_linear(1, 0), m_linear(1, 1) - 1.0);
-  right.segment<4>(axx) += prior * length_px * away;
-  right -= share.transpose() * field.project(weighted_errors, count).cast<double>();
+  out.segment<4>(axx) += prior * length_px * away;
+  out(bend) += m_prepared.lens_prior * (m_lens - m_prior.per_px2) / lens_unit;
+  return out;
+}
+
+// The step that a solve with the field would begin with: the motion is known, so it is nearly all of it.
+std::optional<RegistrationSolver::FieldStep> RegistrationSolver::step_with(const SmoothField& field,
+                                                                           const Registration& told) const {
+  const int count = m_model.pixels;
+  const double with_field = std::pow(m_scale / (length_px * linear_prior_with_field), 2);
+  Normal normal = m_prepared.normal;
+  normal.diagonal().segment<4>(axx).array() += with_field - m_prepared.linear_prior;
+  FieldPart part;
+  if (!eliminate(field, m_weight, count, part, normal)) return std::nullopt;
+  const Eigen::VectorXf weighted_errors = m_weight.cwiseProduct(m_error);
+  const Vector right = right_of(weighted_errors, count, with_field) -
+                       part.share.transpose() * field.project(weighted_errors, count).cast<double>();
   const Normal precise = m_prepared.normal.inverse();
   const Normal robust = normal.inverse();
-  const Vector moved = robust * right;
-  double out = 0.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double grown = std::max(robust(axis, axis) / precise(axis, axis) - 1.0, 0.1);
-    out += moved(axis) * moved(axis) / (grown * told.noise_variance_px2(axis));
-  }
-  return out;
+  const Eigen::Vector2d grown = robust.diagonal().head<2>().cwiseQuotient(precise.diagonal().head<2>());
+  return FieldStep{(robust * right).head<2>(), told.noise_variance_px2.cwiseProduct(grown)};
 }
 
 // One step from the errors and weights at hand.
@@ -321,27 +327,20 @@ bool RegistrationSolver::solve(int count, bool light_only) {
   if (outdated(count, light_only) && !prepare_normal(count, light_only)) return false;
   const Prepared& ready = m_prepared;
   const Eigen::VectorXf weighted_errors = m_weight.head(count).cwiseProduct(m_error.head(count));
-  Eigen::Matrix<double, row_length, 1> sums = Eigen::Matrix<double, row_length, 1>::Zero();
-  add_products(m_rows.data(), weighted_errors.data(), count, sums.data());
-  Vector right = sums.head<column_count>();
-  right.head<motion_count>() *= ready.gain;
-  Eigen::VectorXd field_step;
+  Vector right = right_of(weighted_errors, count, ready.linear_prior);
+  Eigen::MatrixXd field_step;
   if (m_field != nullptr) {
     const Eigen::VectorXd field_right =
-        m_field->project(weighted_errors, count).cast<double>() - ready.field_prior * m_field_levels.cast<double>();
-    Eigen::MatrixXd levels_step = field_right;
-    ready.field.solve_in_place(levels_step);
-    field_step = levels_step;
-    right -= ready.field_share.transpose() * field_right;
+        m_field->project(weighted_errors, count).cast<double>() - ready.field.prior * m_field_levels.cast<double>();
+    field_step = field_right;
+    ready.field.solved.solve_in_place(field_step);
+    right -= ready.field.share.transpose() * field_right;
   }
-  const Eigen::Vector4d away(m_linear(0, 0) - 1.0, m_linear(0, 1), m_linear(1, 0), m_linear(1, 1) - 1.0);
-  right.segment<4>(axx) += ready.linear_prior * length_px * away;
-  right(bend) += ready.lens_prior * (m_lens - m_prior.per_px2) / lens_unit;
   Vector p = ready.solved.solve(right);
   if (!p.allFinite()) return false;
   if (light_only) p.head<motion_count>().setZero();
   if (m_field != nullptr) {
-    const Eigen::VectorXf levels = (field_step - ready.field_share * p).cast<float>();
+    const Eigen::VectorXf levels = (field_step - ready.field.share * p).cast<float>();
     m_field_levels += levels;
     m_field->subtract_from(m_error, count, levels);
   }

@@ -62,9 +62,12 @@ class RegistrationSolver {
   Registration fit(int count) const;
   /// After run. The noise's effects on the model must be known.
   void tell_uncertainty(Registration& out) const;
-  /// After run without a field and tell_uncertainty: chi-square of two numbers by which one would move the result, to
-  /// first order, beyond what its noise lets it (Hausman's).
-  double moved_by_field(const SmoothField& field, const Registration& told) const;
+  struct FieldStep {
+    Eigen::Vector2d moved_px, noise_variance_px2;
+  };
+  /// After run without a field and tell_uncertainty: where a field would move the result to first order, and how well
+  /// that would be known; empty where no field can be told.
+  std::optional<FieldStep> step_with(const SmoothField& field, const Registration& told) const;
   /// Errors over their scale at each pixel of the region; NaN where the model has none.
   std::vector<float> residual_map(int width, int height) const;
   const Eigen::Vector2d& shift_px() const { return m_shift; }
@@ -83,7 +86,12 @@ class RegistrationSolver {
   using Normal = Eigen::Matrix<double, column_count, column_count>;
   using Vector = Eigen::Matrix<double, column_count, 1>;
   using Rows = Eigen::Matrix<float, row_length, Eigen::Dynamic>;  // zero beyond column_count
-  struct Scores;                                                  // sums over tiles, for the uncertainty
+  struct FieldPart {
+    double prior = 0.0;
+    BandedCholesky solved;
+    Eigen::MatrixXd share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
+  };
+  struct Scores;  // sums over tiles, for the uncertainty
 
   void fill_row(int k);
   Normal normal_of(const float* rows, const float* weights, int begin, int end) const;
@@ -104,6 +112,10 @@ class RegistrationSolver {
   void choose_tukey();
   bool outdated(int count, bool light_only) const;
   bool prepare_normal(int count, bool light_only);
+  bool eliminate(const SmoothField& field, const Eigen::VectorXf& weight, int count, FieldPart& out,
+                 Normal& normal) const;
+  Vector motion_gain() const;
+  Vector right_of(const Eigen::VectorXf& weighted_errors, int count, double prior) const;
   bool solve(int count, bool light_only);
   void apply(const Vector& p);
   void tell_fit(int count, Registration& out) const;
@@ -126,11 +138,10 @@ class RegistrationSolver {
     int count = 0;
     bool light_only = false;
     Eigen::VectorXf weight;
-    double scale = 0.0, gain = 1.0, linear_prior = 0.0, lens_prior = 0.0, field_prior = 0.0;
+    double scale = 0.0, gain = 1.0, linear_prior = 0.0, lens_prior = 0.0;
     Normal normal;  // the field eliminated
     Eigen::LDLT<Normal> solved;
-    BandedCholesky field;
-    Eigen::MatrixXd field_share;  // field coefficients that follow the columns: inverse(N_ff) N_fc
+    FieldPart field;
   } m_prepared;
 
   const TemplateModel& m_model;
