@@ -32,7 +32,7 @@ bool tells_nothing(const RimCircle& rim, const Eigen::Vector2d& named, const Rim
 std::vector<Disc> Disc::all_in(const TemplateSource& source, const std::optional<RimCircle>& rim) {
   const Eigen::Vector2d named(source.point.x_px + source.margin_px, source.point.y_px + source.margin_px);
   std::vector<Disc> out;
-  for (const RimCircle& circle : circles_in(source)) {
+  for (const RimCircle& circle : *source.circles) {
     RimCircle narrow = circle;
     narrow.radius_px -= circle_known_px;
     if (shows_a_print(source, narrow) || (rim && tells_nothing(*rim, named, circle))) continue;

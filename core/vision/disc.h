@@ -14,7 +14,7 @@ namespace zerodrift::vision {
 class Disc {
  public:
   /// Those without a print within that the named point lies in, or where it lies in none all of them; of a ball with
-  /// this rim none of its highlights. The source must be completed.
+  /// this rim none of its highlights. The source must be a registrar's.
   static std::vector<Disc> all_in(const TemplateSource& source, const std::optional<RimCircle>& rim);
 
   enum class Seen { as_expected, elsewhere, of_another_size };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/vision/blur_match.h"
+#include "core/vision/circle_finder.h"
 #include "core/vision/frame_patches.h"
 #include "core/vision/outline.h"
 #include "core/vision/registration_solver.h"
@@ -106,6 +107,7 @@ Registrar::Registrar(TemplateSource source)
   find_noise_effects(m_model);
   m_outline = outline_of(m_source, m_model);
   m_middle = middle_of_turn(m_model);
+  if (!m_source.circles) m_source.circles = circles_in(m_source);
   m_rim = Rim::seen_in(m_source, m_model.blur_px2);
   if (m_outline) {
     m_outline_model.emplace(make_template_model(*m_outline, m_model.blur_px2, m_model.blur_px2));

@@ -30,29 +30,45 @@ constexpr double bad_residual = 6.0;  // standard deviations of shot noise: a ba
 constexpr double least_told = 0.015;  // of the region, by which it must differ from itself a period further
 constexpr std::array grown = {0.0, 0.125, 0.25, 0.375, 0.5, 0.75};  // of the region's larger side, on each side
 
-/// Normalized correlation of the picture with itself, shifted; 0 where either part is even.
-double likeness(const cv::Mat1f& picture, int dx, int dy) {
-  const int width = picture.cols - std::abs(dx);
-  const int height = picture.rows - std::abs(dy);
-  const cv::Mat1f a = picture(cv::Rect(std::max(dx, 0), std::max(dy, 0), width, height));
-  const cv::Mat1f b = picture(cv::Rect(std::max(-dx, 0), std::max(-dy, 0), width, height));
-  const double n = static_cast<double>(width) * height;
-  const double mean_a = cv::sum(a)[0] / n;
-  const double mean_b = cv::sum(b)[0] / n;
-  const double square_a = a.dot(a) / n - mean_a * mean_a;
-  const double square_b = b.dot(b) / n - mean_b * mean_b;
-  const double product = a.dot(b) / n - mean_a * mean_b;
-  return square_a > 1.0 && square_b > 1.0 ? product / std::sqrt(square_a * square_b) : 0.0;
-}
+/// A picture against itself.
+class Itself {
+ public:
+  explicit Itself(const cv::Mat1f& picture) : m_picture(picture) { cv::integral(picture, m_sums, m_squares, CV_64F); }
+
+  /// Normalized correlation over the overlap, shifted; 0 where either part is even.
+  double likeness(int dx, int dy) const {
+    const cv::Size size(m_picture.cols - std::abs(dx), m_picture.rows - std::abs(dy));
+    const cv::Rect here(cv::Point(std::max(dx, 0), std::max(dy, 0)), size);
+    const cv::Rect there(cv::Point(std::max(-dx, 0), std::max(-dy, 0)), size);
+    const double n = size.area();
+    const double mean_here = within(m_sums, here) / n, mean_there = within(m_sums, there) / n;
+    const double square_here = within(m_squares, here) / n - mean_here * mean_here;
+    const double square_there = within(m_squares, there) / n - mean_there * mean_there;
+    if (!(square_here > 1.0 && square_there > 1.0)) return 0.0;
+    const double product = m_picture(here).dot(m_picture(there)) / n - mean_here * mean_there;
+    return product / std::sqrt(square_here * square_there);
+  }
+
+  const cv::Mat1f& picture() const { return m_picture; }
+
+ private:
+  static double within(const cv::Mat1d& sums, const cv::Rect& at) {
+    return sums(at.y + at.height, at.x + at.width) - sums(at.y, at.x + at.width) - sums(at.y + at.height, at.x) +
+           sums(at.y, at.x);
+  }
+
+  cv::Mat1f m_picture;
+  cv::Mat1d m_sums, m_squares;
+};
 
 /// The peak of the full picture that is next to a place, and how high it is.
-std::pair<std::array<int, 2>, double> top_near(const cv::Mat1f& region, std::array<int, 2> period) {
-  const int rounds = static_cast<int>(std::max(region.cols, region.rows) / searched_px) + 2;
-  double top = likeness(region, period[0], period[1]);
+std::pair<std::array<int, 2>, double> top_near(const Itself& region, std::array<int, 2> period) {
+  const int rounds = static_cast<int>(std::max(region.picture().cols, region.picture().rows) / searched_px) + 2;
+  double top = region.likeness(period[0], period[1]);
   for (int round = 0; round < rounds; ++round) {
     std::array<int, 2> best{0, 0};
     for (const std::array<int, 2> to : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      const double here = likeness(region, period[0] + to[0], period[1] + to[1]);
+      const double here = region.likeness(period[0] + to[0], period[1] + to[1]);
       if (here > top) top = here, best = to;
     }
     if (best == std::array{0, 0}) break;
@@ -68,12 +84,13 @@ std::vector<std::array<int, 2>> peaks_of(const cv::Mat1f& region) {
                       static_cast<int>(std::lround(region.rows / shrink)));
   cv::Mat1f picture;
   cv::resize(region, picture, size, 0, 0, cv::INTER_AREA);
+  const Itself itself(picture);
   const int far_x = static_cast<int>((1.0 - least_overlap) * size.width);
   const int far_y = static_cast<int>((1.0 - least_overlap) * size.height);
   cv::Mat1d map(2 * far_y + 1, 2 * far_x + 1);
   for (int dy = 0; dy <= far_y; ++dy) {
     for (int dx = -far_x; dx <= far_x; ++dx) {
-      map(far_y + dy, far_x + dx) = map(far_y - dy, far_x - dx) = likeness(picture, dx, dy);
+      map(far_y + dy, far_x + dx) = map(far_y - dy, far_x - dx) = itself.likeness(dx, dy);
     }
   }
   std::vector<std::array<int, 2>> peaks;
@@ -102,18 +119,19 @@ bool same(const std::array<int, 2>& a, const std::array<int, 2>& b) {
 }
 
 /// A peak of the whole region too, and not that of no shift at all.
-bool repeats_after(const cv::Mat1f& region, const std::array<int, 2>& rough) {
+bool repeats_after(const Itself& region, const std::array<int, 2>& rough) {
   const auto [period, top] = top_near(region, rough);
   return top >= least_correlation && same(period, rough) && !same(period, {0, 0});
 }
 
 /// Periods, px, the nearest first; of two opposites one. What is fine for the picture of the whole region shows in its
 /// middle part, half and half again as large.
-std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
-  std::vector<std::array<int, 2>> periods = peaks_of(region);
-  for (cv::Rect part({0, 0}, region.size()); std::max(part.width, part.height) > searched_px;) {
+std::vector<std::array<int, 2>> rough_periods(const Itself& region) {
+  const cv::Mat1f& picture = region.picture();
+  std::vector<std::array<int, 2>> periods = peaks_of(picture);
+  for (cv::Rect part({0, 0}, picture.size()); std::max(part.width, part.height) > searched_px;) {
     part = {part.x + part.width / 4, part.y + part.height / 4, part.width / 2, part.height / 2};
-    for (const std::array<int, 2>& one : peaks_of(region(part))) {
+    for (const std::array<int, 2>& one : peaks_of(picture(part))) {
       const auto known = [&](const std::array<int, 2>& other) { return same(one, other); };
       if (std::none_of(periods.begin(), periods.end(), known) && repeats_after(region, one)) periods.push_back(one);
     }
@@ -126,12 +144,12 @@ std::vector<std::array<int, 2>> rough_periods(const cv::Mat1f& region) {
 }
 
 /// Between the pixels of the full picture by a parabola along each axis.
-Eigen::Vector2d refined(const cv::Mat1f& region, const std::array<int, 2>& rough) {
+Eigen::Vector2d refined(const Itself& region, const std::array<int, 2>& rough) {
   const auto [period, top] = top_near(region, rough);
-  const double before_x = likeness(region, period[0] - 1, period[1]);
-  const double after_x = likeness(region, period[0] + 1, period[1]);
-  const double before_y = likeness(region, period[0], period[1] - 1);
-  const double after_y = likeness(region, period[0], period[1] + 1);
+  const double before_x = region.likeness(period[0] - 1, period[1]);
+  const double after_x = region.likeness(period[0] + 1, period[1]);
+  const double before_y = region.likeness(period[0], period[1] - 1);
+  const double after_y = region.likeness(period[0], period[1] + 1);
   const auto between = [](double before, double at, double after) {
     const double bend = before - 2.0 * at + after;
     return bend < 0.0 ? std::clamp((before - after) / (2.0 * bend), -0.5, 0.5) : 0.0;
@@ -165,22 +183,40 @@ FloatImage visible_in(const GrayImage& frame) {
 
 }  // namespace
 
-RepeatingTarget::RepeatingTarget(const GrayImage& image, const Region& region, const PixelPoint& point,
-                                 const std::vector<std::uint8_t>& usable)
-    : m_region(region), m_point(point), m_step_px(std::max(1, std::max(region.width, region.height) / samples_a_side)) {
+RepeatingTarget::RepeatingTarget(const GrayImage& image, const Region& region)
+    : m_region(region),
+      m_point(centre_of(region)),
+      m_step_px(std::max(1, std::max(region.width, region.height) / samples_a_side)) {
   cv::Mat1f inside;
   mat_view(image)(cv::Rect(region.x, region.y, region.width, region.height)).convertTo(inside, CV_32F);
-  const std::vector<std::array<int, 2>> rough = rough_periods(inside);
-  if (rough.empty()) return;
+  const Itself itself(inside);
+  for (const std::array<int, 2>& one : rough_periods(itself)) {
+    const Eigen::Vector2d there = refined(itself, one);
+    m_periods.push_back({there, {}});
+    m_periods.push_back({-there, {}});
+  }
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(region.width) * region.height, 1);
+  *this = with(image, m_point, all);
+}
+
+RepeatingTarget RepeatingTarget::with(const GrayImage& image, const PixelPoint& point,
+                                      const std::vector<std::uint8_t>& usable) const {
+  RepeatingTarget out = *this;
+  out.m_point = point;
+  if (repeats()) out.compare(image, usable);
+  return out;
+}
+
+void RepeatingTarget::compare(const GrayImage& image, const std::vector<std::uint8_t>& usable) {
   const FloatImage picture = smoothed(image, m_step_px);
-  m_template = m_usable = FloatImage(region.width / m_step_px, region.height / m_step_px);
+  m_template = m_usable = FloatImage(m_region.width / m_step_px, m_region.height / m_step_px);
   cv::Mat1f levels = mat_view(m_template), use = mat_view(m_usable);
   for (int row = 0; row < levels.rows; ++row) {
     for (int column = 0; column < levels.cols; ++column) {
       const int x = column * m_step_px;
       const int y = row * m_step_px;
-      levels(row, column) = picture.row(region.y + y)[region.x + x];
-      use(row, column) = usable[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1.0f : 0.0f;
+      levels(row, column) = picture.row(m_region.y + y)[m_region.x + x];
+      use(row, column) = usable[static_cast<std::size_t>(y) * m_region.width + x] != 0 ? 1.0f : 0.0f;
     }
   }
   Registration itself;
@@ -188,11 +224,8 @@ RepeatingTarget::RepeatingTarget(const GrayImage& image, const Region& region, c
   const FloatImage visible = visible_in(image);
   m_even_variance = even_share * variance_of(levels);
   const FloatImage here = likeness(picture, visible, itself, Eigen::Vector2d::Zero());
-  for (const std::array<int, 2>& one : rough) {
-    const Eigen::Vector2d there = refined(inside, one);
-    for (const Eigen::Vector2d& shift_px : {there, Eigen::Vector2d(-there)}) {
-      m_periods.push_back({shift_px, lead(here, likeness(picture, visible, itself, shift_px), shift_px)});
-    }
+  for (Period& one : m_periods) {
+    one.lost = lead(here, likeness(picture, visible, itself, one.shift_px), one.shift_px);
   }
 }
 
@@ -270,14 +303,13 @@ double RepeatingTarget::told_apart() const {
   return least;
 }
 
-std::optional<Region> region_that_tells(const GrayImage& image, const Region& region) {
+std::optional<RepeatingTarget> RepeatingTarget::that_tells(const GrayImage& image, const Region& region) {
   for (const double part : grown) {
     const int more = static_cast<int>(std::lround(part * std::max(region.width, region.height)));
     const int left = std::max(region.x - more, 0), top = std::max(region.y - more, 0);
     const Region larger{left, top, std::min(region.x + region.width + more, image.width) - left,
                         std::min(region.y + region.height + more, image.height) - top};
-    const std::vector<std::uint8_t> all(static_cast<std::size_t>(larger.width) * larger.height, 1);
-    if (RepeatingTarget(image, larger, centre_of(larger), all).told_apart() > least_told) return larger;
+    if (RepeatingTarget one(image, larger); one.told_apart() > least_told) return one;
   }
   return std::nullopt;
 }

@@ -14,10 +14,14 @@ namespace zerodrift::vision {
 
 class RepeatingTarget {
  public:
-  /// `usable` as in TemplateSource.
-  RepeatingTarget(const GrayImage& image, const Region& region, const PixelPoint& point,
-                  const std::vector<std::uint8_t>& usable);
+  /// Of the region, or where it lies within a pattern that goes on beyond it and looks the same a period further, of a
+  /// larger one about it that shows the pattern's end or a mark; none where the whole picture shows neither.
+  static std::optional<RepeatingTarget> that_tells(const GrayImage& image, const Region& region);
 
+  /// The same for a point and the pixels that can be used (as in TemplateSource); `image` as it was.
+  RepeatingTarget with(const GrayImage& image, const PixelPoint& point, const std::vector<std::uint8_t>& usable) const;
+
+  const Region& region() const { return m_region; }
   /// False for a pattern that is like itself nowhere.
   bool repeats() const { return !m_periods.empty(); }
   /// Share of its area by which the target differs from itself a period further, where that is least; 1 for
@@ -32,6 +36,9 @@ class RepeatingTarget {
   Doubt doubt(const GrayImage& frame, const Registration& found) const;
 
  private:
+  RepeatingTarget(const GrayImage& image, const Region& region);
+  void compare(const GrayImage& image, const std::vector<std::uint8_t>& usable);
+
   /// Share of the region that speaks against another place more than against this one. A cover over what only
   /// one place foretells would decide alone: where both do is told apart.
   struct Lead {
@@ -54,9 +61,5 @@ class RepeatingTarget {
   double m_even_variance = 0.0;
   std::vector<Period> m_periods;
 };
-
-/// The region, or where it lies within a pattern that goes on beyond it and looks the same a period further, a larger
-/// one about it that shows the pattern's end or a mark; none where the whole picture shows neither.
-std::optional<Region> region_that_tells(const GrayImage& image, const Region& region);
 
 }  // namespace zerodrift::vision

@@ -89,7 +89,7 @@ std::optional<Rim> Rim::seen_in(const TemplateSource& source, const Eigen::Matri
   if (source.ball) {
     circles.push_back({source.ball->middle_px + named, source.ball->radius_px, source.ball->blur_px});
   } else {
-    circles = circles_in(source);
+    circles = source.circles ? *source.circles : circles_in(source);
   }
   for (const RimCircle& circle : circles) {
     // Most targets are no balls, and this needs the circle less well.

@@ -24,8 +24,8 @@ struct RimPlace {
 
 class Rim {
  public:
-  /// The source must be completed. Nothing where the template shows no ball: no circle, one with a print within it, or
-  /// one beside which it is neither smooth nor learned.
+  /// The source must be completed. Nothing where the template shows no ball: no circle, one with a
+  /// print within it, or one beside which it is neither smooth nor learned.
   static std::optional<Rim> seen_in(const TemplateSource& source, const Eigen::Matrix2d& blur_px2);
 
   /// Of the ball in the template, from the named point.

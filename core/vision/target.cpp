@@ -142,6 +142,8 @@ TemplateSource Target::Impl::source_of(const Impl& self) {
   if (self.gathered) {
     source.frame_noise_levels = completed(source).noise_levels;
     source.pixels = self.gathered->pixels;
+  } else {
+    source.circles = self.circles;
   }
   return source;
 }
@@ -162,16 +164,16 @@ Result<Target> Target::create(const GrayImage& image, const Region& region, std:
   }
   keep_freed_memory();  // a frame frees and asks for some MB many times, which took a quarter of its time
   const PixelPoint named = point.value_or(centre_of(region));
-  const std::optional<Region> telling = region_that_tells(image, region);
+  const std::optional<RepeatingTarget> telling = RepeatingTarget::that_tells(image, region);
   if (!telling) return fail(ErrorCode::pattern_repeats, {{"file", name}});
   if (!std::isfinite(named.x_px) || !std::isfinite(named.y_px) || std::abs(named.x_px) > 1e5 ||
       std::abs(named.y_px) > 1e5) {
     return fail(ErrorCode::bad_argument,
                 {{"what", "the named point"}, {"found", "not a place"}, {"expected", "X,Y in pixels"}});
   }
-  std::vector<std::uint8_t> usable = usable_pixels(image, *telling);
-  auto impl =
-      std::make_shared<const Impl>(image, *telling, named, Learned{std::move(usable), nullptr, nullptr, std::nullopt});
+  std::vector<std::uint8_t> usable = usable_pixels(image, telling->region());
+  auto impl = std::make_shared<const Impl>(image, *telling, named,
+                                           Learned{std::move(usable), nullptr, nullptr, std::nullopt, std::nullopt});
   const TemplateModel& model = impl->fine.model();
   if ((model.gradient_energy < least_energy && !impl->fine.rim()) || model.pixels < 200) {
     return fail(ErrorCode::template_without_texture, {{"file", name}});
@@ -315,7 +317,7 @@ Target Target::with_mask(const std::vector<std::uint8_t>& mask) const {
   for (std::size_t k = 0; k < both.size(); ++k) both[k] = both[k] && mask[k];
   Learned learned = *m_impl;
   learned.mask = std::move(both);
-  auto impl = std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(learned));
+  auto impl = std::make_shared<const Impl>(*m_impl, std::move(learned));
   // A mask that leaves hardly anything was learned from frames that do not show the target's motion.
   const double kept = static_cast<double>(impl->fine.model().pixels) / std::max(m_impl->fine.model().pixels, 1);
   return kept > 0.4 ? Target(std::move(impl), m_lens) : *this;
@@ -327,7 +329,7 @@ Target Target::with_backdrop(std::shared_ptr<const Backdrop> backdrop) const {
   if (!fits) return *this;
   Learned learned = *m_impl;
   learned.backdrop = std::move(backdrop);
-  return Target(std::make_shared<const Impl>(m_impl->image, m_impl->region, m_impl->point, std::move(learned)), m_lens);
+  return Target(std::make_shared<const Impl>(*m_impl, std::move(learned)), m_lens);
 }
 
 // Where the template's own picture shows the target against its mean is the zero; a picture that does not show it has
@@ -341,7 +343,7 @@ Target Target::with_gathered(FloatImage pixels) const {
   mean->pixels = std::move(pixels);
   Learned learned = *m_impl;
   learned.gathered = mean;
-  Target out(std::make_shared<const Impl>(m_impl->image, at, m_impl->point, std::move(learned)), m_lens);
+  Target out(std::make_shared<const Impl>(*m_impl, std::move(learned)), m_lens);
   const Location zero = out.search(m_impl->image);
   if (!zero.ok) return *this;
   mean->zero_px = {zero.x_px, zero.y_px};

@@ -19,6 +19,7 @@ struct Target::Learned {
   std::shared_ptr<const Backdrop> backdrop;
   std::shared_ptr<const GatheredTemplate> gathered;
   std::optional<RimCircle> ball;
+  std::optional<std::vector<RimCircle>> circles;  // in the template's own picture, which stays the same
 };
 
 struct Target::Impl : Learned {
@@ -31,17 +32,14 @@ struct Target::Impl : Learned {
   std::vector<Disc> discs;
   std::vector<Candidate> twins;  // where the template's picture shows the like of it once more
 
-  Impl(GrayImage picture, const Region& at, const PixelPoint& named, Learned learned)
-      : Learned(std::move(learned)),
-        image(std::move(picture)),
-        region(at),
-        point(named),
-        coarse(image, at),
-        fine(source_of(*this)),
-        repeating(image, region, point, mask) {
-    if (fine.rim()) ball = fine.rim()->circle();
-    discs = Disc::all_in(fine.source(), ball);
+  Impl(GrayImage picture, const RepeatingTarget& pattern, const PixelPoint& named, Learned learned)
+      : Impl(picture, pattern.region(), named, CoarseSearch(picture, pattern.region()), pattern, std::move(learned)) {
     if (!repeating.repeats()) twins = seen_again();
+  }
+  /// What has been learned is another.
+  Impl(const Impl& before, Learned learned)
+      : Impl(before.image, before.region, before.point, before.coarse, before.repeating, std::move(learned)) {
+    twins = before.twins;
   }
 
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
@@ -58,6 +56,21 @@ struct Target::Impl : Learned {
                                           const std::vector<float>& residual_map) const;
 
   static TemplateSource source_of(const Impl& self);
+
+ private:
+  Impl(const GrayImage& picture, const Region& at, const PixelPoint& named, CoarseSearch search,
+       const RepeatingTarget& pattern, Learned learned)
+      : Learned(std::move(learned)),
+        image(picture),
+        region(at),
+        point(named),
+        coarse(std::move(search)),
+        fine(source_of(*this)),
+        repeating(pattern.with(image, point, mask)) {
+    if (fine.rim()) ball = fine.rim()->circle();
+    if (!gathered) circles = fine.source().circles;
+    discs = Disc::all_in(fine.source(), ball);
+  }
 };
 
 }  // namespace zerodrift::vision

@@ -63,6 +63,8 @@ struct TemplateSource {
   FloatImage behind;                // what stands behind each of the pixels; empty without a backdrop
   double noise_levels = 0.0;        // standard deviation of the noise in the pixels
   double frame_noise_levels = 0.0;  // and in a frame's; that of the pixels unless it was set
+  // What the pixels show of round things; a registrar finds them.
+  std::optional<std::vector<RimCircle>> circles;
 };
 
 TemplateSource completed(TemplateSource source);
