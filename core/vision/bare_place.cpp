@@ -57,11 +57,12 @@ bool is_bare(const GrayImage& frame, const GrayImage& picture, const Region& reg
   if (shown.size() < least_pixels || static_cast<double>(shown.size()) < most_of_it * static_cast<double>(asked)) {
     return false;
   }
+  const double by_bare = left_by(bare, shown);
+  if (left_by(target, shown) <= clearly_more * by_bare) return false;
   const FloatImage patch = crop(frame, {region.x + dx_px, region.y + dy_px, region.width, region.height});
   const double noise =
       backdrop::noise_of(cv::Mat(patch.height, patch.width, CV_32F, const_cast<float*>(patch.values.data())));
-  const double by_bare = left_by(bare, shown);
-  return by_bare < explained * noise + known_levels && left_by(target, shown) > clearly_more * by_bare;
+  return by_bare < explained * noise + known_levels;
 }
 
 }  // namespace zerodrift::vision

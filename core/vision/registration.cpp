@@ -89,6 +89,17 @@ Eigen::Matrix2d turn_of(const Eigen::Matrix2d& linear) {
   return Eigen::Rotation2Dd(std::atan2(linear(1, 0) - linear(0, 1), linear.trace())).toRotationMatrix();
 }
 
+Glance glance_from(const RegistrationStart& start, const TemplateModel& model, const FramePatch& patch) {
+  Glance out;
+  out.ended = start;
+  RegistrationSolver solver(model, patch, nullptr, start);
+  if (!solver.glance()) return out;
+  out.seen = solver.fit(model.pixels / 4);
+  solver.hand_over(out.ended);
+  out.extra_blur_px2 = solver.extra_blur_px2();
+  return out;
+}
+
 bool alike(const ImageSetup& a, const ImageSetup& b) {
   return a.template_blur == b.template_blur && a.frame_blur == b.frame_blur;
 }
@@ -118,8 +129,9 @@ Registrar::Registrar(TemplateSource source)
 }
 
 // Places near each other share a patch: a pattern that repeats has many, a period apart.
-std::vector<Registration> Registrar::glances(FramePatches& frame, const std::vector<std::array<int, 2>>& places) const {
-  std::vector<Registration> out(places.size());
+std::vector<Glance> Registrar::glances(FramePatches& frame, const std::vector<std::array<int, 2>>& places,
+                                       const LensTerm& lens) const {
+  std::vector<Glance> out(places.size());
   std::vector<bool> done(places.size(), false);
   for (std::size_t first = 0; first < places.size(); ++first) {
     if (done[first]) continue;
@@ -141,8 +153,8 @@ std::vector<Registration> Registrar::glances(FramePatches& frame, const std::vec
     for (const std::size_t k : together) {
       RegistrationStart start;
       start.whole_px = {places[k][0], places[k][1]};
-      RegistrationSolver solver(m_model, patch, nullptr, start);
-      if (solver.glance()) out[k] = solver.fit(m_model.pixels / 4);
+      start.lens = lens;
+      out[k] = glance_from(start, m_model, patch);
     }
   }
   return out;
@@ -151,30 +163,32 @@ std::vector<Registration> Registrar::glances(FramePatches& frame, const std::vec
 // Finds on a quarter of the pixels how the frame is blurred against the template and blurs the sharper of the two: only
 // then can the rest be solved well, and a smooth field must not take for itself what a blur does.
 double Registrar::match_blur_at_a_glance(const PlaceInFrame& place, ImageSetup& setup,
-                                         std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const {
+                                         std::optional<TemplateModel>& blurred_model, RegistrationStart& start,
+                                         const Glance* glance) const {
   ImageSetup tried = setup;
   std::optional<TemplateModel> tried_model;
   double best = 0.0;
   double saturated_share = 0.0;
   for (int round = 0; round < largest_rounds; ++round) {
     const TemplateModel& model = tried_model ? *tried_model : m_model;
-    RegistrationSolver solver(model, place.with(tried), nullptr, start);
-    if (!solver.glance()) break;
-    const Registration seen = solver.fit(model.pixels / 4);
+    const Glance look = round == 0 && glance != nullptr ? *glance : glance_from(start, model, place.with(tried));
+    const Registration& seen = look.seen;
+    if (!seen.converged) break;
     const double now = fit_of(seen);
     saturated_share = seen.saturated_share;
     if (now < as_good * best) break;  // what looked like a blur was none: a chip over the edges, for example
     best = std::max(best, now);
     setup = tried;
-    solver.hand_over(start);
-    const Eigen::Matrix2d extra_px2 = solver.extra_blur_px2();
+    start.shift_px = look.ended.shift_px;
+    start.linear = look.ended.linear;
+    start.light = look.ended.light;
     if (tried_model) blurred_model = std::move(tried_model);
     if (round == 0 && seen.saturated_share > glare_share && seen.residual > poor_residual) {
       // So much is left under a glaring spot's halo that a blur cannot be told from it: the field comes first.
       setup.with_field = true;
       break;
     }
-    if (!match_blur(extra_px2, !m_rim, tried)) {
+    if (!match_blur(look.extra_blur_px2, !m_rim, tried)) {
       // Glare has a halo, and a strong blur is never quite of the shape that the template is given.
       const double blur_px2 = (setup.template_blur + setup.frame_blur - 2.0 * m_model.blur_px2).trace();
       const bool expected = seen.saturated_share > glare_share || blur_px2 > strong_blur_px2;
@@ -186,13 +200,13 @@ double Registrar::match_blur_at_a_glance(const PlaceInFrame& place, ImageSetup& 
   return saturated_share;
 }
 
-Registration Registrar::run(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens,
-                            bool with_residual_map) const {
+Registration Registrar::run(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens, bool with_residual_map,
+                            const Glance* glance) const {
   const PlaceInFrame place{frame, patch_around(m_source.region, dx_px, dy_px)};
   RegistrationStart start;
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
-  Registration best = attempt(place, start, with_residual_map);
+  Registration best = attempt(place, start, with_residual_map, glance);
   const auto stuck = [&] {
     return !best.converged || best.residual > (best.inlier_share < some_hidden ? doubtful_residual : poor_residual);
   };
@@ -228,9 +242,7 @@ std::optional<Registration> Registrar::run_turned(FramePatches& frame, int dx_px
   start.whole_px = {dx_px, dy_px};
   start.lens = lens;
   const auto explained_from = [&] {
-    RegistrationSolver solver(m_model, patch, nullptr, start);
-    if (!solver.glance()) return 0.0;
-    const Registration seen = solver.fit(m_model.pixels / 4);
+    const Registration seen = glance_from(start, m_model, patch).seen;
     return seen.informed_share * std::max(seen.correlation, 0.0);
   };
   double most = std::max(more_explained * explained_from(), nearly_all);
@@ -281,8 +293,9 @@ struct Registrar::Course {
 };
 
 // Light that has changed across a ball is what it reflects, which tells nothing of where it is.
-Registration Registrar::attempt(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const {
-  Registration out = by_levels(place, std::move(start), with_residual_map);
+Registration Registrar::attempt(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map,
+                                const Glance* glance) const {
+  Registration out = by_levels(place, std::move(start), with_residual_map, glance);
   if (!m_rim || !out.converged || out.saturated_share > glare_share) return out;
   out.growth = 0.5 * out.linear.trace() - 1.0;
   const double fits = out.inlier_share + out.saturated_share;
@@ -334,12 +347,13 @@ Registration Registrar::attempt(const PlaceInFrame& place, RegistrationStart sta
   return out;
 }
 
-Registration Registrar::by_levels(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const {
+Registration Registrar::by_levels(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map,
+                                  const Glance* glance) const {
   const ImageSetup plain{m_model.blur_px2, m_model.blur_px2, false};
   Course course{place, std::move(start), plain, std::nullopt, false, with_residual_map};
   course.start.middle_px = m_middle;
   const RegistrationStart first_start = course.start;
-  course.glare = match_blur_at_a_glance(place, course.setup, course.blurred_model, course.start) > glare_share;
+  course.glare = match_blur_at_a_glance(place, course.setup, course.blurred_model, course.start, glance) > glare_share;
   Registration whole = solve(m_source, m_model, first_start, course);
   whole.light_changed = course.setup.with_field || whole.structure > doubtful_structure;
   if (!outline_tells_more(whole)) return whole;

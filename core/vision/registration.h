@@ -60,7 +60,27 @@ inline double linear_change(const Registration& r) {
   return (r.linear - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff();
 }
 
-struct RegistrationStart;
+inline constexpr int registration_light_count = 7;  // gain and its plane, offset, blur
+
+struct RegistrationStart {
+  Eigen::Vector2d whole_px = Eigen::Vector2d::Zero();  // displacement of the region to the patch's middle
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the named point from there
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  LensTerm lens;
+  std::optional<Eigen::Matrix<double, registration_light_count, 1>> light;  // of an earlier solve, without its blur
+  // Pixels of the region that the glance alone does without, 1 each; null: none.
+  const std::vector<std::uint8_t>* doubted = nullptr;
+  bool outline_alone = false;
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // of the target, from the named point
+};
+
+/// A look at a quarter of the pixels.
+struct Glance {
+  Registration seen;        // not converged where there was nothing to be seen
+  RegistrationStart ended;  // to go on from
+  Eigen::Matrix2d extra_blur_px2 = Eigen::Matrix2d::Zero();
+};
+
 class FramePatches;
 struct PlaceInFrame;
 
@@ -68,15 +88,17 @@ class Registrar {
  public:
   explicit Registrar(TemplateSource source);
 
-  /// Starts with the region displaced by whole pixels; the point may end up to 8 px from there.
-  Registration run(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens = {},
-                   bool with_residual_map = false) const;
+  /// Starts with the region displaced by whole pixels; the point may end up to 8 px from there. `glance`: one at that
+  /// place, if there was one.
+  Registration run(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens = {}, bool with_residual_map = false,
+                   const Glance* glance = nullptr) const;
   /// From the turn about the target's middle at which a glance explains nearly all of it, and more than unturned; empty
   /// where none does.
   std::optional<Registration> run_turned(FramePatches& frame, int dx_px, int dy_px, const LensTerm& lens,
                                          double largest_turn_rad, bool with_residual_map) const;
   /// As run, on a quarter of the pixels, in a tenth of the time: to choose among places (whole displacements).
-  std::vector<Registration> glances(FramePatches& frame, const std::vector<std::array<int, 2>>& places) const;
+  std::vector<Glance> glances(FramePatches& frame, const std::vector<std::array<int, 2>>& places,
+                              const LensTerm& lens) const;
 
   const TemplateModel& model() const { return m_model; }
   const TemplateSource& source() const { return m_source; }
@@ -85,8 +107,10 @@ class Registrar {
 
  private:
   struct Course;
-  Registration attempt(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const;
-  Registration by_levels(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map) const;
+  Registration attempt(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map,
+                       const Glance* glance = nullptr) const;
+  Registration by_levels(const PlaceInFrame& place, RegistrationStart start, bool with_residual_map,
+                         const Glance* glance) const;
   Registration solve(const TemplateSource& source, const TemplateModel& usual, const RegistrationStart& first_start,
                      Course& course) const;
   bool outline_tells_more(const Registration& whole) const;
@@ -94,7 +118,8 @@ class Registrar {
   std::vector<std::uint8_t> unlike(const GrayImage& frame, int dx_px, int dy_px) const;
   /// The share of saturated pixels; 0 if the first glance found nothing.
   double match_blur_at_a_glance(const PlaceInFrame& place, ImageSetup& setup,
-                                std::optional<TemplateModel>& blurred_model, RegistrationStart& start) const;
+                                std::optional<TemplateModel>& blurred_model, RegistrationStart& start,
+                                const Glance* glance) const;
 
   TemplateSource m_source;
   TemplateModel m_model;  // with the smallest blur

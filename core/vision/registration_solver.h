@@ -19,7 +19,6 @@ namespace zerodrift::vision {
 
 inline constexpr double registration_length_px = 100.0;  // scale of coordinates in the linear columns, for conditioning
 inline constexpr double registration_lens_unit = 1e-8;   // of the lens column, likewise
-inline constexpr int registration_light_count = 7;       // gain and its plane, offset, blur
 inline constexpr int patch_margin_px = 18;               // around the region: rotation, blur and the spline's support
 
 /// Of a frame, what is looked at to find a region of the template displaced by whole pixels.
@@ -31,18 +30,6 @@ inline Region patch_around(const Region& region, int dx_px, int dy_px) {
 // An outline does not see a round target turn; what is still seen of it is reflected, and would move a point beside its
 // middle.
 inline constexpr double linear_prior_of_outline = 0.002;
-
-struct RegistrationStart {
-  Eigen::Vector2d whole_px = Eigen::Vector2d::Zero();  // displacement of the region to the patch's middle
-  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the named point from there
-  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
-  LensTerm lens;
-  std::optional<Eigen::Matrix<double, registration_light_count, 1>> light;  // of an earlier solve, without its blur
-  // Pixels of the region that the glance alone does without, 1 each; null: none.
-  const std::vector<std::uint8_t>* doubted = nullptr;
-  bool outline_alone = false;
-  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // of the target, from the named point
-};
 
 class RegistrationSolver {
  public:

@@ -37,8 +37,9 @@ constexpr double least_energy = 4.0;  // mean squared gradient, grey levels^2 / 
 
 constexpr double some_covered = 0.05;  // of the region, by what neither travels nor stood there before
 
-bool like_the_target(const Registration& glance) {
-  return glance.converged && glance.correlation >= least_glance_correlation && glance.contrast >= least_contrast;
+bool like_the_target(const Glance& glance) {
+  const Registration& seen = glance.seen;
+  return seen.converged && seen.correlation >= least_glance_correlation && seen.contrast >= least_contrast;
 }
 
 bool may_be_turned(Refusal why) {
@@ -55,9 +56,11 @@ double merit(const Registration& r) {
 
 }  // namespace
 
-std::vector<Candidate> Target::Impl::likeliest(FramePatches& frame, const std::vector<Candidate>& candidates) const {
+std::vector<Target::Impl::Likely> Target::Impl::likeliest(FramePatches& frame, const std::vector<Candidate>& candidates,
+                                                          const LensTerm& lens) const {
   const double lead = candidates.size() > 1 ? candidates[0].correlation - candidates[1].correlation : 1.0;
-  if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead) return {candidates[0]};
+  if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead)
+    return {{candidates[0], std::nullopt}};
   double most_saturated = 0.0;
   const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
   std::vector<std::array<int, 2>> places;
@@ -65,11 +68,9 @@ std::vector<Candidate> Target::Impl::likeliest(FramePatches& frame, const std::v
     if (one.correlation < candidates.front().correlation - behind) break;
     places.push_back({one.dx_px, one.dy_px});
   }
-  const std::vector<Registration> glances = fine.glances(frame, places);
-  for (const Registration& seen : glances) {
-    most_saturated = std::max(most_saturated, seen.saturated_share);
-  }
-  const auto settled = [](const Registration& seen) { return seen.converged; };
+  const std::vector<Glance> glances = fine.glances(frame, places, lens);
+  for (const Glance& one : glances) most_saturated = std::max(most_saturated, one.seen.saturated_share);
+  const auto settled = [](const Glance& one) { return one.seen.converged; };
   // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
   const bool told = std::any_of(glances.begin(), glances.end(), settled) && most_saturated < some_glare;
   if (told && std::none_of(glances.begin(), glances.end(), like_the_target) &&
@@ -81,7 +82,7 @@ std::vector<Candidate> Target::Impl::likeliest(FramePatches& frame, const std::v
   // An even place leaves a small residual without being like the target.
   const auto alike = [&](std::size_t k) { return like_the_target(glances[k]); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return alike(a) != alike(b) ? alike(a) : merit(glances[a]) > merit(glances[b]);
+    return alike(a) != alike(b) ? alike(a) : merit(glances[a].seen) > merit(glances[b].seen);
   });
   // One of two alike is the one that stands nearer to where it stood than to where the other did.
   const auto is_twin = [&](std::size_t k) {
@@ -90,21 +91,21 @@ std::vector<Candidate> Target::Impl::likeliest(FramePatches& frame, const std::v
     });
   };
   const auto as_good = [&](std::size_t k) {
-    return !is_twin(k) && alike(k) && merit(glances[k]) > rival_merit * merit(glances[order[0]]);
+    return !is_twin(k) && alike(k) && merit(glances[k].seen) > rival_merit * merit(glances[order[0]].seen);
   };
   if (is_twin(order[0]) && std::any_of(order.begin(), order.end(), as_good)) {
     order.erase(std::remove_if(order.begin(), order.end(), is_twin), order.end());
   }
-  std::vector<Candidate> out;
+  std::vector<Likely> out;
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), candidates_refined); ++k) {
-    const Registration& seen = glances[order[k]];
+    const Registration& seen = glances[order[k]].seen;
     if (k > 0) {
-      const Registration& first = glances[order[0]];
+      const Registration& first = glances[order[0]].seen;
       if (alike(order[k]) != alike(order[0]) || merit(seen) <= rival_merit * merit(first)) break;
       // A rival that came to the same place would be the same once more.
       if ((seen.displacement_px - first.displacement_px).norm() < same_place_px) continue;
     }
-    out.push_back(candidates[order[k]]);
+    out.push_back({candidates[order[k]], glances[order[k]]});
   }
   return out;
 }
@@ -234,7 +235,7 @@ Location Target::search(FramePatches& patches, std::vector<float>* residual_map,
 
   Registration best;
   double best_coarse = candidates.front().correlation;
-  std::vector<Candidate> likeliest = m_impl->likeliest(patches, candidates);
+  std::vector<Impl::Likely> likeliest = m_impl->likeliest(patches, candidates, m_lens);
   if (m_impl->backdrop) {
     const auto bare = [&](const Candidate& one) {
       return is_bare(frame, m_impl->image, m_impl->region, *m_impl->backdrop, one.dx_px, one.dy_px);
@@ -242,8 +243,9 @@ Location Target::search(FramePatches& patches, std::vector<float>* residual_map,
     likeliest.erase(std::remove_if(likeliest.begin(), likeliest.end(), bare), likeliest.end());
   }
   if (likeliest.empty()) return refuse(Refusal::missing);
-  for (const Candidate& one : likeliest) {
-    const Registration found = m_impl->fine.run(patches, one.dx_px, one.dy_px, m_lens, residual_map != nullptr);
+  for (const Impl::Likely& one : likeliest) {
+    const Registration found = m_impl->fine.run(patches, one.dx_px, one.dy_px, m_lens, residual_map != nullptr,
+                                                one.glance ? &*one.glance : nullptr);
     if (merit(found) > merit(best)) {
       best = found;
       best_coarse = one.correlation;

@@ -42,8 +42,12 @@ struct Target::Impl : Learned {
     twins = before.twins;
   }
 
+  struct Likely : Candidate {
+    std::optional<Glance> glance;
+  };
   // Candidates that a glance finds best, best first; none where at a glance nothing is like the target.
-  std::vector<Candidate> likeliest(FramePatches& frame, const std::vector<Candidate>& candidates) const;
+  std::vector<Likely> likeliest(FramePatches& frame, const std::vector<Candidate>& candidates,
+                                const LensTerm& lens) const;
 
   RegisteredFrame place_of(const GrayImage& frame, const Location& at) const {
     return {&frame, {at.point.x_px - point.x_px, at.point.y_px - point.y_px}, at.linear, at.lens};
