@@ -2,11 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/vision/opencv_image.h"
 #include "core/vision/registration_solver.h"
+#include "core/vision/row_sums.h"
 #include "core/vision/target_part.h"
 
 namespace zerodrift::vision {
@@ -49,18 +51,54 @@ std::vector<float> residuals_at(const Registrar& fine, FramePatches& frame, cons
   return solver.residual_map(region.width, region.height);
 }
 
+// Normalized correlation of a pattern's samples with a picture, wherever it lies within; -1 where that is even.
+// OpenCV's with a mask takes several Fourier transforms, eight times as long for so few places.
+cv::Mat1f masked_correlation(const cv::Mat1f& picture, const cv::Mat1f& pattern, const cv::Mat1b& mask) {
+  constexpr double least_variance = 1e-3;  // grey levels^2
+  const int count = cv::countNonZero(mask);
+  cv::Mat1f out(picture.rows - pattern.rows + 1, picture.cols - pattern.cols + 1, -1.0f);
+  if (count == 0) return out;
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(pattern, mean, deviation, mask);
+  const double n = count;
+  if (deviation[0] * deviation[0] < least_variance) return out;
+  // Some places beyond the last are looked at and left out.
+  cv::Mat1f levels(picture.rows + 1, picture.cols + places_at_once, 0.0f);
+  cv::subtract(picture, cv::mean(picture), levels(cv::Rect({0, 0}, picture.size())));
+  std::vector<PatternSample> samples;
+  for (int row = 0; row < pattern.rows; ++row) {
+    for (int column = 0; column < pattern.cols; ++column) {
+      if (mask(row, column) == 0) continue;
+      samples.push_back({row * levels.cols + column, static_cast<float>(pattern(row, column) - mean[0])});
+    }
+  }
+  std::array<float, places_at_once> product, sum, squares;
+  for (int y = 0; y < out.rows; ++y) {
+    for (int first = 0; first < out.cols; first += places_at_once) {
+      pattern_sums(samples.data(), count, levels[y] + first, product.data(), sum.data(), squares.data());
+      for (int k = 0; k < std::min(places_at_once, out.cols - first); ++k) {
+        const double variance = squares[k] / n - std::pow(sum[k] / n, 2);
+        if (variance > least_variance) {
+          out(y, first + k) = static_cast<float>(product[k] / n / (deviation[0] * std::sqrt(variance)));
+        }
+      }
+    }
+  }
+  return out;
+}
+
 // Where the part is seen best in the frame, from where the rest is.
 std::vector<Eigen::Vector2d> places_of(const TemplateSource& part, const GrayImage& frame, const Registration& found) {
   const Region& region = part.region;
   const cv::Size samples(region.width / sample_step_px, region.height / sample_step_px);
-  cv::Mat1f smooth, shown(samples), mask(samples),
-      there(samples.height + 2 * searched_samples, samples.width + 2 * searched_samples);
+  cv::Mat1b mask(samples);
+  cv::Mat1f smooth, shown(samples), there(samples.height + 2 * searched_samples, samples.width + 2 * searched_samples);
   cv::blur(mat_view(part.pixels), smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
   for (int row = 0; row < samples.height; ++row) {
     for (int column = 0; column < samples.width; ++column) {
       const int x = column * sample_step_px, y = row * sample_step_px;
       shown(row, column) = smooth(y + part.margin_px, x + part.margin_px);
-      mask(row, column) = part.usable[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1.0f : 0.0f;
+      mask(row, column) = part.usable[static_cast<std::size_t>(y) * region.width + x] != 0 ? 1 : 0;
     }
   }
   const Eigen::Vector2d point(part.point.x_px, part.point.y_px), corner(region.x, region.y);
@@ -83,9 +121,7 @@ std::vector<Eigen::Vector2d> places_of(const TemplateSource& part, const GrayIma
   mat_view(frame)(seen).convertTo(smooth, CV_32F);
   cv::blur(smooth, smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
   cv::remap(smooth, there, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  cv::Mat1f scores;
-  cv::matchTemplate(there, shown, scores, cv::TM_CCOEFF_NORMED, mask);
-  scores.setTo(-1.0f, (scores != scores) | (scores > 1.1f));
+  cv::Mat1f scores = masked_correlation(there, shown, mask);
   std::vector<Eigen::Vector2d> out;
   for (int k = 0; k < places_tried; ++k) {
     double best = 0.0;

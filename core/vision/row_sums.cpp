@@ -177,4 +177,24 @@ ZERODRIFT_WIDE void level_sums(const std::int16_t* a, const std::int16_t* b, int
   sums[0] = product, sums[1] = sum, sums[2] = squares;
 }
 
+ZERODRIFT_WIDE void pattern_sums(const PatternSample* samples, int count, const float* picture, float* products,
+                                 float* levels, float* squares) {
+  constexpr int registers = places_at_once / 8;
+  Eight product[registers] = {}, level[registers] = {}, square[registers] = {};
+  for (int k = 0; k < count; ++k) {
+    const float* at = picture + samples[k].offset;
+    for (int i = 0; i < registers; ++i) {
+      const Eight here = *reinterpret_cast<const EightAnywhere*>(at + 8 * i);
+      product[i] += samples[k].value * here;
+      level[i] += here;
+      square[i] += here * here;
+    }
+  }
+  for (int i = 0; i < registers; ++i) {
+    *reinterpret_cast<EightAnywhere*>(products + 8 * i) = product[i];
+    *reinterpret_cast<EightAnywhere*>(levels + 8 * i) = level[i];
+    *reinterpret_cast<EightAnywhere*>(squares + 8 * i) = square[i];
+  }
+}
+
 }  // namespace zerodrift::vision

@@ -42,4 +42,14 @@ void blur_row(const float* middle, std::ptrdiff_t step, const float* weights, in
 /// sums of a * b, a and a * a over one row of a picture: product, sum, squares.
 void level_sums(const std::int16_t* a, const std::int16_t* b, int count, std::int32_t* sums);
 
+/// For each of places_at_once places side by side, `picture` being the first: sums over a pattern's samples of
+/// value * level, level and level^2.
+struct PatternSample {
+  std::int32_t offset;  // in the picture, from the place
+  float value;
+};
+inline constexpr int places_at_once = 16;
+void pattern_sums(const PatternSample* samples, int count, const float* picture, float* products, float* levels,
+                  float* squares);
+
 }  // namespace zerodrift::vision
