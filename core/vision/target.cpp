@@ -33,6 +33,7 @@ constexpr double sure_correlation = 0.98;   // of the best candidate with its ri
 constexpr double sure_lead = 0.15;
 // Of the best glance: targets under glare, chips or strong blur have 0.9 and more, other patterns seldom 0.8.
 constexpr double least_glance_correlation = 0.8;
+constexpr double sure_glance_correlation = 0.98, sure_glance_share = 0.6;
 constexpr double least_energy = 4.0;  // mean squared gradient, grey levels^2 / px^2: below it is noise
 
 constexpr double some_covered = 0.05;  // of the region, by what neither travels nor stood there before
@@ -40,6 +41,12 @@ constexpr double some_covered = 0.05;  // of the region, by what neither travels
 bool like_the_target(const Glance& glance) {
   const Registration& seen = glance.seen;
   return seen.converged && seen.correlation >= least_glance_correlation && seen.contrast >= least_contrast;
+}
+
+// Enough of it that no place so far behind can be as good.
+bool surely_the_target(const Glance& glance) {
+  return like_the_target(glance) && glance.seen.correlation > sure_glance_correlation &&
+         glance.seen.informed_share > sure_glance_share;
 }
 
 bool may_be_turned(Refusal why) {
@@ -62,13 +69,20 @@ std::vector<Target::Impl::Likely> Target::Impl::likeliest(FramePatches& frame, c
   if (candidates[0].correlation > sure_correlation - sure_lead && lead > sure_lead)
     return {{candidates[0], std::nullopt}};
   double most_saturated = 0.0;
-  const double behind = rival_correlation * (candidates[0].correlation > clear_correlation ? 0.5 : 1.0);
-  std::vector<std::array<int, 2>> places;
-  for (const Candidate& one : candidates) {
-    if (one.correlation < candidates.front().correlation - behind) break;
-    places.push_back({one.dx_px, one.dy_px});
+  std::vector<Glance> glances;
+  const auto look_at_those_within = [&](double behind) {
+    std::vector<std::array<int, 2>> places;
+    for (std::size_t k = glances.size(); k < candidates.size(); ++k) {
+      if (candidates[k].correlation < candidates.front().correlation - behind) break;
+      places.push_back({candidates[k].dx_px, candidates[k].dy_px});
+    }
+    for (Glance& one : fine.glances(frame, places, lens)) glances.push_back(std::move(one));
+  };
+  look_at_those_within(0.5 * rival_correlation);
+  if (candidates[0].correlation <= clear_correlation &&
+      std::none_of(glances.begin(), glances.end(), surely_the_target)) {
+    look_at_those_within(rival_correlation);
   }
-  const std::vector<Glance> glances = fine.glances(frame, places, lens);
   for (const Glance& one : glances) most_saturated = std::max(most_saturated, one.seen.saturated_share);
   const auto settled = [](const Glance& one) { return one.seen.converged; };
   // If no glance settles, the fine registration is tried nevertheless; nor does a glance know a halo from the target.
