@@ -118,8 +118,8 @@ std::vector<Eigen::Vector2d> places_of(const TemplateSource& part, const GrayIma
       map_y(row, column) = static_cast<float>(in_frame(1) - seen.y);
     }
   }
-  mat_view(frame)(seen).convertTo(smooth, CV_32F);
-  cv::blur(smooth, smooth, {sample_step_px, sample_step_px}, {-1, -1}, cv::BORDER_REPLICATE);
+  cv::boxFilter(mat_view(frame)(seen), smooth, CV_32F, {sample_step_px, sample_step_px}, {-1, -1}, true,
+                cv::BORDER_REPLICATE);
   cv::remap(smooth, there, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::Mat1f scores = masked_correlation(there, shown, mask);
   std::vector<Eigen::Vector2d> out;

@@ -166,8 +166,7 @@ double variance_of(const cv::Mat1f& levels) {
 FloatImage smoothed(const GrayImage& image, int step_px) {
   FloatImage out(image.width, image.height);
   cv::Mat1f to = mat_view(out);
-  mat_view(image).convertTo(to, CV_32F);
-  cv::blur(to, to, {step_px, step_px}, {-1, -1}, cv::BORDER_REPLICATE);
+  cv::boxFilter(mat_view(image), to, CV_32F, {step_px, step_px}, {-1, -1}, true, cv::BORDER_REPLICATE);
   return out;
 }
 
