@@ -271,7 +271,8 @@ void RegistrationSolver::believe_turn(const Normal& inverse, double factor, Regi
   const double seen = told * hidden.shown / all;
   const double noise = factor * told / (all * all);
   const double expected = expected_turn * expected_turn;
-  const double believed = seen * expected / (seen * seen * expected + noise);
+  // Round targets tell nothing of it, and by rounding less than nothing.
+  const double believed = told > 0.0 ? seen * expected / (seen * seen * expected + noise) : 0.0;
   const double left = 1.0 - believed * seen;
   const double variance = left * left * expected + believed * believed * noise;
 
