@@ -104,6 +104,11 @@ TEST(RenderedFrames, APlateOfAnyDesignIsMeasuredUnderAHalo) {
   EXPECT_LT(largest_error_px(PatternKind::rings, Disturbance::glare, 77), 0.012);
 }
 
+// Rings tell nothing of a turn; in the first of these frames rounding makes it less than nothing.
+TEST(RenderedFrames, RingsAreMeasuredWhereNothingIsKnownOfTheirTurn) {
+  EXPECT_LT(largest_error_px(PatternKind::rings, Disturbance::clean, 707145107, 3), 0.001);
+}
+
 TEST(RenderedFrames, ChipsOnTheTargetPullNothing) {
   EXPECT_LT(largest_error_px(PatternKind::checkerboard, Disturbance::occluded, 77), 0.008);
 }
