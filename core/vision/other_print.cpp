@@ -9,7 +9,7 @@ namespace {
 
 constexpr int bins = 32;
 constexpr float levels_a_bin = 8.0f;
-constexpr double even_energy = 0.25;      // of the mean squared gradient
+constexpr double even_energy = 0.5;       // of the mean squared gradient
 constexpr int near_end = 3;               // bins from the darkest or the brightest tone
 constexpr double own_share = 0.06;        // of the even pixels: a tone of the target
 constexpr double most_tones = 0.5;        // of the range from the darkest tone to the brightest

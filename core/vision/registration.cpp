@@ -21,7 +21,8 @@ namespace {
 constexpr double prefilter_px2 = 0.25;  // variance of the blur on both images: keeps the spline's bias below the noise
 // In a clear picture what the sampling has folded down outweighs the noise: most of it lies at high frequencies.
 constexpr double clear_prefilter_px2 = 0.4;
-constexpr double aliased_share = 0.003;      // of the gradients' energy: with less noise a picture is clear
+constexpr double aliased_share = 0.003;  // of the gradients' energy: with less noise a picture is clear
+constexpr double aliased_share_along_rows = 0.012;
 constexpr double structure_limit = 1.55;     // tile means over their noise: above it a smooth field is solved as well
 constexpr double doubtful_structure = 1.1;   // from here on it is tried whether a field moves the result
 constexpr double reflected_structure = 0.9;  // from here on what a ball reflects may have moved
@@ -111,7 +112,8 @@ Registrar::Registrar(TemplateSource source)
       m_model(make_template_model(m_source, prefilter_px2 * Eigen::Matrix2d::Identity(),
                                   prefilter_px2 * Eigen::Matrix2d::Identity())) {
   const double noise_ratio = m_source.frame_noise_levels / m_source.noise_levels;
-  if (m_model.noise_share * noise_ratio * noise_ratio < aliased_share) {
+  const double clear_below = runs_along_rows(m_model) ? aliased_share_along_rows : aliased_share;
+  if (m_model.noise_share * noise_ratio * noise_ratio < clear_below) {
     const Eigen::Matrix2d wide = clear_prefilter_px2 * Eigen::Matrix2d::Identity();
     m_model = make_template_model(m_source, wide, wide);
   }

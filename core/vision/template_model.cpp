@@ -20,7 +20,9 @@ constexpr float noise_alone = 2.0f;     // times the noise's energy: noise alone
 constexpr float clear_of_noise = 4.0f;
 constexpr int calm_window_px = 5;
 constexpr int growth_rows = 5;
-constexpr std::size_t sparse_step = 9;  // and every ninth of the flat pixels, for the light
+constexpr float along_rows_slope = 0.1f;
+constexpr double mostly_along_rows = 0.5;  // of the gradients' energy; of a round target an eighth is
+constexpr std::size_t sparse_step = 9;     // and every ninth of the flat pixels, for the light
 
 // Pixels of the region to work on.
 std::vector<int> choose_pixels(const TemplateSource& source, const std::vector<float>& energy, double noise_energy) {
@@ -270,6 +272,19 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
   model.gradient_x = std::move(fx);
   model.gradient_y = std::move(fy);
   return model;
+}
+
+bool runs_along_rows(const TemplateModel& model) {
+  double along = 0.0;
+  double all = 0.0;
+  for (int k = 0; k < model.pixels; ++k) {
+    const float across = std::abs(model.fx[k]);
+    const float down = std::abs(model.fy[k]);
+    const double energy = double{across} * across + double{down} * down;
+    all += energy;
+    if (std::min(across, down) < along_rows_slope * std::max(across, down)) along += energy;
+  }
+  return along > mostly_along_rows * all;
 }
 
 void find_noise_effects(TemplateModel& model) {

@@ -75,5 +75,8 @@ TemplateModel make_template_model(const TemplateSource& source, const Eigen::Mat
                                   const Eigen::Matrix2d& frame_blur_px2);
 /// What the template's and the frame's noise do to the result: matters once it has been found, and takes a while.
 void find_noise_effects(TemplateModel& model);
+/// Whether most of its edges do: they lie alike on the pixels all along, and what their sampling folded down does not
+/// average out.
+bool runs_along_rows(const TemplateModel& model);
 
 }  // namespace zerodrift::vision

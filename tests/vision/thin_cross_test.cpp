@@ -14,8 +14,8 @@
 namespace zerodrift::vision {
 namespace {
 
-constexpr double middle_x = 160.3;
-constexpr double middle_y = 119.6;
+constexpr double cross_middle_x = 160.3;
+constexpr double cross_middle_y = 119.6;
 constexpr double half_length_px = 80.0;
 constexpr double half_width_px = 1.5;
 constexpr double blur_px = 1.0;
@@ -38,7 +38,7 @@ GrayImage cross_hair(double dx, double dy, double turn_rad, double hidden_from_x
   GrayImage out{320, 240, std::vector<std::uint8_t>(320 * 240)};
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
-      const double u = x - middle_x - dx, v = y - middle_y - dy;
+      const double u = x - cross_middle_x - dx, v = y - cross_middle_y - dy;
       const double along = c * u + s * v, across = c * v - s * u;
       const double ink = x < hidden_from_x ? std::max(inked(along, across), inked(across, along)) : 0.0;
       out.at(x, y) = static_cast<std::uint8_t>(std::clamp(std::round(190.0 - 140.0 * ink + noise(random)), 0.0, 255.0));
@@ -51,8 +51,8 @@ constexpr double whole = 1e3;
 constexpr double degree = std::numbers::pi / 180.0;
 
 TEST(ThinCross, IsMeasuredHoweverItTurns) {
-  const auto target = Target::create(cross_hair(0.0, 0.0, 0.0, whole, 12), cross_region, PixelPoint{middle_x, middle_y},
-                                     "template.png");
+  const auto target = Target::create(cross_hair(0.0, 0.0, 0.0, whole, 12), cross_region,
+                                     PixelPoint{cross_middle_x, cross_middle_y}, "template.png");
   ASSERT_TRUE(target);
   for (const double turn_deg : {1.5, -1.5, 0.9, -1.9}) {
     const Location at = target->locate(cross_hair(3.27, -2.61, turn_deg * degree, whole, 2));
@@ -65,8 +65,8 @@ TEST(ThinCross, IsMeasuredHoweverItTurns) {
 
 // The other starts are no way in for what is not the target.
 TEST(ThinCross, IsRefusedWhereHardlyHalfOfItIsLeft) {
-  const auto target = Target::create(cross_hair(0.0, 0.0, 0.0, whole, 12), cross_region, PixelPoint{middle_x, middle_y},
-                                     "template.png");
+  const auto target = Target::create(cross_hair(0.0, 0.0, 0.0, whole, 12), cross_region,
+                                     PixelPoint{cross_middle_x, cross_middle_y}, "template.png");
   ASSERT_TRUE(target);
   EXPECT_FALSE(target->locate(cross_hair(3.27, -2.61, 1.5 * degree, 130.0, 3)).ok);
   EXPECT_FALSE(target->locate(cross_hair(3.27, -2.61, 4.0 * degree, whole, 4)).ok);
