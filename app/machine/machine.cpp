@@ -96,7 +96,7 @@ void Machine::convert_temperatures() {
   ++m_conversions;
   const auto second = static_cast<std::uint64_t>(m_conversions);
   const bool first = m_conversions == 0;
-  const bool spell = m_sensor_fault.always || m_conversions % 1800 >= 1500;  // sporadic: five minutes of thirty
+  const bool spell = m_sensor_fault.always || m_conversions % 1800 >= 1200;  // sporadic: ten minutes of thirty
   for (int sensor = 0; sensor <= sensor_count; ++sensor) {
     const bool ill = m_sensor_fault.kind != SensorFault::Kind::none && sensor == m_sensor_fault.sensor && spell;
     if (ill && m_sensor_fault.kind == SensorFault::Kind::dead) {

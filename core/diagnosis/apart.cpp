@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/contradiction.h"
+#include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/explain.h"
 
 namespace zerodrift::diagnosis {
@@ -35,8 +37,11 @@ void merge(Diagnosis& all, Diagnosis part, std::size_t described) {
     }
   }
   for (const auto& note : part.notes) {
-    if (note.starts_with("far_from_description:")) all.notes.push_back(note);
+    const bool worse = note.starts_with("held_out_worse:");
+    if (worse || note.starts_with("far_from_description:")) all.notes.push_back(note);
   }
+  std::copy_if(part.sentences.begin(), part.sentences.end(), std::back_inserter(all.sentences),
+               [](const Sentence& sentence) { return sentence.id.starts_with("held_out_worse"); });
   const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(all.effects, part.effects);
   append(all.ambiguous_with, part.ambiguous_with);
@@ -74,7 +79,12 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
     quiet.report = nullptr;
     DiagnoseOptions brief = options;
     brief.details = false;
-    ZD_TRY(Diagnosis result, diagnose(part, recordings, brief, quiet));
+    Result<Diagnosis> found = Diagnoser(part, recordings, brief, quiet).run();
+    // A lump that stands for many parts misses every other run by more than its noise. Only where this run shows
+    // nothing of a part is another one asked.
+    if (found && found->verdict == Verdict::consistent)
+      found = settled(std::move(*found), part, recordings, brief, quiet);
+    ZD_TRY(Diagnosis result, std::move(found));
     unexplained += result.verdict == Verdict::unexplained ? 1 : 0;
     merge(all, std::move(result), part.effects.size());
     context.progress(static_cast<double>(i + 1) / static_cast<double>(machine.components.size()), "parts");
@@ -83,7 +93,7 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
   all.verdict = !all.effects.empty() ? Verdict::missing_effect
                 : unexplained > 0    ? Verdict::unexplained
                                      : Verdict::consistent;
-  all.sentences.push_back(explain_verdict(all));
+  all.sentences.insert(all.sentences.begin(), explain_verdict(all));
   return all;
 }
 

@@ -87,10 +87,10 @@ void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const Ot
   models.resize(kept);
 }
 
-bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others) {
+bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others, double most_left) {
   constexpr double least = 3.0;  // twenty to one
   const Elsewhere there = elsewhere(fit, others);
-  return there.left <= least_evident && there.evidence - elsewhere(without, others).evidence > least;
+  return there.left <= most_left && there.evidence - elsewhere(without, others).evidence > least;
 }
 
 bool fits_elsewhere(const Model& fit, const std::shared_ptr<const Dataset>& other) {

@@ -2,6 +2,7 @@
 // What other recordings of the machine say of an effect that the fitted one leaves in doubt.
 
 #include "core/diagnosis/refine.h"
+#include "core/diagnosis/selection.h"
 
 namespace zerodrift::diagnosis {
 
@@ -23,8 +24,8 @@ bool within_tolerance(const Model& model);
 void ask_elsewhere(std::vector<ModelPtr>& models, const Model& without, const OtherRecordings& others);
 /// Whether the others bear a model out: with what it has shown of the machine they fit, and they are likelier than
 /// beside `without`. What a recording leaves uncertain stays uncertain here; a prediction with its likeliest numbers
-/// may miss by it.
-bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others);
+/// may miss by it. `most_left`: what is slow in the worst channel of a model that still fits (excess_of).
+bool borne_out(const Model& fit, const Model& without, const OtherRecordings& others, double most_left = least_evident);
 /// Does another recording fit the machine, with all that the fitted one leaves uncertain of it free?
 bool fits_elsewhere(const Model& fit, const std::shared_ptr<const Dataset>& other);
 /// The displacement that needs more than the ordinary misfit in another recording, with what the fitted one has shown

@@ -307,9 +307,11 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     }
   }
   if (diagnosis.verdict == Verdict::missing_effect) {
-    std::string list;
-    for (const auto& effect : diagnosis.effects) list += (list.empty() ? "" : ",") + effect.id;
-    s.facts = {{"effects", list}};
+    std::vector<std::string> kinds;  // a machine of many parts lacks the same in most of them
+    for (const auto& effect : diagnosis.effects) {
+      if (std::count(kinds.begin(), kinds.end(), effect.id) == 0) kinds.push_back(effect.id);
+    }
+    s.facts = {{"effects", fmt::format("{}", fmt::join(kinds, ","))}};
   }
   return finished(std::move(s));
 }

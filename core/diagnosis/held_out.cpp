@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
@@ -155,7 +156,9 @@ bool Diagnoser::refuted() const {
 }
 
 bool Diagnoser::borne_out_elsewhere() const {
-  return borne_out(*m_selection.best, *m_selection.base, m_limits.others);
+  // What stands for many parts as one lump each never fits.
+  const double left_at_most = m_lumps_only ? std::numeric_limits<double>::infinity() : least_evident;
+  return borne_out(*m_selection.best, *m_selection.base, m_limits.others, left_at_most);
 }
 
 /// The channel that an other recording misses most in what the fitted one leaves of it, where that is far more than

@@ -111,4 +111,24 @@ TEST(RealRecordings, SpindlePartsHaveWhatAStudyByHandFinds) {
   EXPECT_LT(d.seconds, 60.0);
 }
 
+/// What three of its four cycles show is found whether or not the fourth is given beside them.
+TEST(RealRecordings, SpindlePartsAreNamedAlikeBesideAnotherRecording) {
+  NEEDS("spindle-drift");
+  const auto run = recording::read_recording(data_folder() / "spindle-drift" / "spindle_drift.csv");
+  const auto machine = physics::read_machine(data_folder() / "spindle-drift" / "machine.json");
+  const auto first = part_of(*run, -1.0, 24 * 3600.0), last = part_of(*run, 24 * 3600.0, 1e9);
+  const auto d = diagnose(*machine, {first, last}, {false});
+  ASSERT_TRUE(d.has_value()) << describe(d.error());
+  std::set<std::string> cooled, felt;
+  for (const auto& effect : d->effects) {
+    if (effect.id == "coolant") cooled.insert(effect.component);
+    if (effect.id == "convection") felt.insert(effect.component);
+  }
+  EXPECT_GE(felt.size(), 12U);  // of t2 three cycles show the chiller only
+  EXPECT_EQ(felt.count("L4") + felt.count("L5"), 0U);
+  EXPECT_EQ(cooled, (std::set<std::string>{"L1", "L2"}));
+  EXPECT_EQ(std::count(d->notes.begin(), d->notes.end(), "heat_falls_with_speed:t5_C"), 1);
+  for (const auto* channel : {"t1_C", "t2_C", "t3_C"}) EXPECT_LT(d->held_out[0].explained.at(channel), 1.0) << channel;
+}
+
 }  // namespace zerodrift::diagnosis

@@ -18,11 +18,12 @@ LINK_NAMES = {"busy": "machine_busy", "late": "machine_silent", "wrong-transacti
               "truncated": "machine_silent", "drop": "machine_link_lost", "bytewise": "reply_in_pieces"}
 
 
-# Faults that come and go last the last 300 s of each 1800 s: whenever the run begins, it sees one of them whole.
+# Faults that come and go last the last 600 s (sensor) or 300 s (camera) of each 1800 s: whenever the run begins, it
+# sees one of them whole. A busy machine reads a sensor every 20 or 30 s, and a stuck one is told after some 17 readings.
 def short_plan(folder):
     return write_json(os.path.join(folder, "plan.json"), {
         "name": "short", "sample_period_s": 10, "measure_period_s": 60, "measure_position_mm": {"X": 0, "Y": 0, "Z": 0},
-        "steps": [{"duration_s": 2200, "spindle_rpm": 3000, "coolant_on": True, "path": "cycle"}]})
+        "steps": [{"duration_s": 2500, "spindle_rpm": 3000, "coolant_on": True, "path": "cycle"}]})
 
 
 def begin_of_turning_s(rows, time, speed):
