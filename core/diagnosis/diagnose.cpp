@@ -260,9 +260,21 @@ void Diagnoser::judge() {
   m_far = far_from_description(*m_used);
 }
 
+/// The largest excess of what the best leaves of a temperature.
+double Diagnoser::warmth_left() const {
+  const Excess excess = excess_under(m_selection.best->prediction(), *m_default_data);
+  double largest = 0.0;
+  for (std::size_t c = 0; c < excess.per_channel.size(); ++c) {
+    const MeasuredChannel& channel = m_default_data->channels[c];
+    if (channel.samples > 0 && channel.temperature) largest = std::max(largest, excess.per_channel[c]);
+  }
+  return largest;
+}
+
 void Diagnoser::decide() {
   judge();
-  const bool anywhere = m_out.excess_after > least_evident || names_a_sensor() || !m_far.empty();
+  // A sensor at another place leaves temperatures off, not a displacement alone.
+  const bool anywhere = warmth_left() > least_evident || names_a_sensor() || !m_far.empty();
   m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
                                  anywhere ? Reach::anywhere : Reach::aside, m_context);
   if (!m_misplaced && correct_description()) judge();
@@ -389,9 +401,11 @@ Diagnoser::Shown Diagnoser::show_best(FoundEffect& found, const physics::Predict
     found.contribution[channel.name] = std::sqrt(std::max(0.0, before * before - after * after));
     const double widths = found.contribution[channel.name] / std::hypot(channel.white, channel.drift);
     const bool named = m_selection.effects().size() == 1 && m_out.mismatch.channels.front() == channel.name;
-    if (widths < largest && !best.channel.empty() && !(named && widths > 1.0)) continue;
+    const bool own = channel.name == found.channel;  // what is wrong with a channel shows in it
+    const double weight = widths <= 1.0 ? widths : own ? 2e300 : named ? 1e300 : widths;
+    if (weight < largest && !best.channel.empty()) continue;
     best = {channel.name, before, after};
-    largest = named && widths > 1.0 ? 1e300 : widths;
+    largest = weight;
   }
   return best;
 }

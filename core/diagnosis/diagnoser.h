@@ -35,6 +35,7 @@ class Diagnoser {
   double leftover(const physics::Prediction& prediction) const;
   void tell_tried();
   void judge();
+  double warmth_left() const;
   void decide();
   bool correct_description();
   std::shared_ptr<Model> without_kind(std::size_t i) const;
