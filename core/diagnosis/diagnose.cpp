@@ -84,6 +84,12 @@ Result<Diagnosis> Diagnoser::run() {
     return fail(ErrorCode::not_enough_data,
                 {{"what", recording().name}, {"found", fmt::format("{:g} s", whole_s)}, {"needed", "60 s"}});
   }
+  constexpr std::size_t fewest_rows = 10;
+  if (recording().rows() < fewest_rows) {
+    return fail(ErrorCode::not_enough_data, {{"what", recording().name},
+                                             {"found", std::to_string(recording().rows()) + " samples"},
+                                             {"needed", std::to_string(fewest_rows)}});
+  }
   ZD_CHECK(prepare());
   if (m_data->samples() < 20) {
     return fail(ErrorCode::not_enough_data,
