@@ -90,6 +90,9 @@ recording::Recording run_of(const physics::Machine& real, std::span<const Stretc
     }
   }
   run.channels = {std::move(speed), std::move(room)};
+  if (real.find("gearbox") != nullptr) {  // warms by 12 K, slowly
+    for (const double t_s : run.time_s) run.ensure("gearbox_C").values.push_back(33.5 - 12.0 * std::exp(-t_s / 5000.0));
+  }
   const physics::Network network = physics::build_network(real, run);
   const auto shown = physics::predict(network, physics::make_inputs(network, run), network.start_values());
   for (const physics::PredictedChannel& channel : shown.channels) {
@@ -149,6 +152,42 @@ TEST(Forms, TwoThatHideEachOtherAreFoundTogether) {
     EXPECT_EQ(d->tried, (std::vector<std::string>{"bearing_preload", "bearing_viscosity"})) << seed;
     EXPECT_EQ(d->verdict, Verdict::missing_effect) << seed;
   }
+}
+
+/// Looked for in the middle of the rod alone, it was taken for a sensor at another place.
+TEST(Forms, ANeighbourTouchesARodWhereItDoes) {
+  const auto with_gearbox = [](physics::Machine machine) {
+    physics::Component gearbox;
+    gearbox.id = "gearbox";
+    gearbox.lump = gearbox.prescribed = true;
+    machine.components.push_back(gearbox);
+    machine.sensors.push_back({"gearbox_C", "gearbox"});
+    return machine;
+  };
+  constexpr double touched_mm = 300.0;
+  physics::Machine real = with_gearbox(real_spindle());
+  real.effects.erase(real.effects.begin() + 1, real.effects.end());
+  real.effects.push_back({"neighbour_heat",
+                          false,
+                          {{"conductance_W_K", 1.5}, {"position_mm", touched_mm}},
+                          {{"component", "spindle"}, {"neighbour", "gearbox"}}});
+  const auto d = diagnose(with_gearbox(spindle()), runs_of(5, real), {false});
+  ASSERT_TRUE(d) << describe(d.error());
+  ASSERT_EQ(d->tried, std::vector<std::string>{"neighbour_heat"});
+  EXPECT_EQ(d->verdict, Verdict::missing_effect);
+  EXPECT_NEAR(*d->effects.front().position_mm, touched_mm, 2.0 * d->effects.front().position_sigma_mm);
+  EXPECT_LT(d->effects.front().position_sigma_mm, 6.0);
+}
+
+TEST(Forms, ARodsLengthMayFollowLate) {
+  physics::Machine real = real_spindle();
+  real.effects.erase(real.effects.begin() + 1, real.effects.end());
+  real.effects.push_back({"structure_lag", false, {{"lag_s", 400.0}}, {{"channel", "dZ_um"}}});
+  const auto d = diagnose(spindle(), runs_of(6, real), {false});
+  ASSERT_TRUE(d) << describe(d.error());
+  ASSERT_EQ(d->tried, std::vector<std::string>{"structure_lag"});
+  EXPECT_EQ(d->verdict, Verdict::missing_effect);
+  EXPECT_NEAR(d->effects.front().parameters.at("lag_s"), 400.0, 3.0 * d->effects.front().sigma.at("lag_s"));
 }
 
 /// A joint's shape is hardly known: a heat within its breadth may do no more than mend it.

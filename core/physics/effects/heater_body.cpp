@@ -25,17 +25,12 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   for (const auto& component : machine.components) {
     if (component.prescribed) continue;
     for (const auto& source : component.sources) {
-      const bool motor = source.kind == SourceKind::motor;
-      if (!motor && source.kind != SourceKind::input) continue;
+      if (source.kind != SourceKind::input) continue;
       for (const double contact_W_K : {0.15, 0.6}) {
         list.push_back({"heater_body",
                         true,
                         {{"heat_capacity_J_K", 0.0}, {"contact_W_K", contact_W_K}},
                         {{"component", component.id}, {"source", source.id}}});
-        if (!motor) continue;
-        // A rotor or a stator of some kilograms, pressed or shrunk on.
-        list.back().numbers["heat_capacity_J_K_prior_sigma"] = 1000.0;
-        list.back().numbers["contact_W_K"] = 20.0 * contact_W_K;
       }
     }
   }
@@ -48,10 +43,10 @@ extern const Effect heater_body_effect;
 const Effect heater_body_effect = {
     "heater_body",
     "C_b dT_b/dt = Q - G_b (T_b - T)",
-    "power resistors, cartridge heaters: 1 to 100 J/K behind 0.05 to 5 W/K; rotors and stators: 0.2 to 5 kJ/K behind 1 to 50",
+    "power resistors, cartridge heaters, motor windings: 1 to 100 J/K behind 0.05 to 5 W/K",
     "The heated end starts late and goes on warming after the heater is off",
     "sensor_lag contact_resistance",
-    {{"heat_capacity_J_K", 15.0, 0.0, 20000.0, true}, {"contact_W_K", 1.0, 0.005, 100.0, false, 0.0, true}},
+    {{"heat_capacity_J_K", 15.0, 0.0, 2000.0, true}, {"contact_W_K", 1.0, 0.005, 100.0, false, 0.0, true}},
     {"heat_capacity_J_K"},
     heater_body::add,
     heater_body::candidates};

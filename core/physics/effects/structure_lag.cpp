@@ -28,8 +28,10 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   std::vector<EffectSpec> list;
   for (const auto& displacement : machine.displacements) {
     const Component* component = machine.find(displacement.component);
-    if (component == nullptr || component->prescribed || !component->lump || component->length_mm <= 0.0) continue;
+    if (component == nullptr || component->prescribed || component->length_mm <= 0.0) continue;
+    if (displacement.direction != "Z" && !component->lump) continue;
     list.push_back({"structure_lag", true, {{"lag_s", 0.0}}, {{"channel", displacement.channel}}});
+    if (!component->lump) continue;  // of a rod the length is simulated
     for (const double lag_s : {300.0, 3000.0}) {
       list.push_back(
           {"structure_lag", true, {{"um_per_K", 0.0}, {"second_lag_s", lag_s}}, {{"channel", displacement.channel}}});
