@@ -42,17 +42,7 @@ constexpr double widest_point_mm = 6.0;  // what is known worse is told as a str
 Excess excess_under(const physics::Prediction& prediction, const Dataset& data) {
   Eigen::VectorXd residual;
   whiten(data, prediction, &residual);
-  Excess e;
-  e.per_channel = block_excess(data, residual);
-  int count = 0;
-  for (std::size_t c = 0; c < e.per_channel.size(); ++c) {
-    if (data.channels[c].samples == 0) continue;
-    e.largest = std::max(e.largest, e.per_channel[c]);
-    e.mean += e.per_channel[c];
-    ++count;
-  }
-  e.mean /= std::max(1, count);
-  return e;
+  return excess_of(data, residual);
 }
 
 /// What is fitted to this recording keeps its meaning in others.
@@ -239,6 +229,7 @@ void Diagnoser::judge() {
   }
   m_out.excess_before = before.largest;
   m_out.excess_after = after.largest;
+  m_warmth_left = after.warmest;
   tell_tried();
   const bool found = !m_selection.effects().empty();
   if (!found) {
@@ -266,21 +257,10 @@ void Diagnoser::judge() {
   m_far = far_from_description(*m_used);
 }
 
-/// The largest excess of what the best leaves of a temperature.
-double Diagnoser::warmth_left() const {
-  const Excess excess = excess_under(m_selection.best->prediction(), *m_default_data);
-  double largest = 0.0;
-  for (std::size_t c = 0; c < excess.per_channel.size(); ++c) {
-    const MeasuredChannel& channel = m_default_data->channels[c];
-    if (channel.samples > 0 && channel.temperature) largest = std::max(largest, excess.per_channel[c]);
-  }
-  return largest;
-}
-
 void Diagnoser::decide() {
   judge();
   // A sensor at another place leaves temperatures off, not a displacement alone.
-  const bool anywhere = warmth_left() > least_evident || names_a_sensor() || !m_far.empty();
+  const bool anywhere = m_warmth_left > least_evident || names_a_sensor() || !m_far.empty();
   m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
                                  anywhere ? Reach::anywhere : Reach::aside, m_context);
   if (!m_misplaced && correct_description()) judge();

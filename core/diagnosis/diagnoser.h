@@ -35,7 +35,6 @@ class Diagnoser {
   double leftover(const physics::Prediction& prediction) const;
   void tell_tried();
   void judge();
-  double warmth_left() const;
   void decide();
   bool correct_description();
   std::shared_ptr<Model> without_kind(std::size_t i) const;
@@ -98,6 +97,7 @@ class Diagnoser {
   bool m_lumps_only = false;
   std::string m_moved_elsewhere;   // what only another recording shows to be unexplained
   bool m_from_each_start = false;  // temperature laws of what is named
+  double m_warmth_left = 0.0;      // excess of the temperature that the best explains worst
   bool m_wide = false;             // the data asked for more than the ordinary discrepancy
   physics::RunFacts m_facts;
   Selection m_selection;

@@ -449,18 +449,24 @@ bool Selector::remove_one() {
   return false;
 }
 
-Excess excess_of(const Model& model) {
+Excess excess_of(const Dataset& data, const Eigen::VectorXd& residual) {
   Excess excess;
-  excess.per_channel = block_excess(model.data(), model.residual());
+  excess.per_channel = block_excess(data, residual);
   int count = 0;
   for (std::size_t c = 0; c < excess.per_channel.size(); ++c) {
-    if (model.data().channels[c].samples == 0) continue;
+    const MeasuredChannel& channel = data.channels[c];
+    if (channel.samples == 0) continue;
     excess.largest = std::max(excess.largest, excess.per_channel[c]);
+    if (channel.temperature) excess.warmest = std::max(excess.warmest, excess.per_channel[c]);
     excess.mean += excess.per_channel[c];
     ++count;
   }
   if (count > 0) excess.mean /= count;
   return excess;
+}
+
+Excess excess_of(const Model& model) {
+  return excess_of(model.data(), model.residual());
 }
 
 std::vector<std::size_t> Selection::effects() const {

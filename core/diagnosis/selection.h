@@ -31,9 +31,12 @@ inline constexpr double least_evident = 2.3;
 struct Excess {
   std::vector<double> per_channel;
   double largest = 0.0;
+  double warmest = 0.0;  // the largest of a temperature
   double mean = 0.0;
 };
 
+/// `residual`: whitened under `data`'s noise assumptions.
+Excess excess_of(const Dataset& data, const Eigen::VectorXd& residual);
 Excess excess_of(const Model& model);
 
 struct Selection {

@@ -101,6 +101,14 @@ int NetworkBuilder::effect_parameter(const EffectSpec& spec, int index, std::str
   return add_parameter(p);
 }
 
+int NetworkBuilder::place_parameter(const EffectSpec& spec, int index, const Component& rod) {
+  const int place = effect_parameter(spec, index, "position_mm", 0.5 * rod.length_mm);
+  Parameter& p = m_network.parameters[place];
+  p.low = 0.01 * rod.length_mm;
+  p.high = 0.99 * rod.length_mm;
+  return place;
+}
+
 int NetworkBuilder::held(const std::string& channel) {
   return index_in(m_network.held_channels, channel);
 }

@@ -25,10 +25,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   if (component.lump) {
     source = builder.source_over(id, 0.0, 0.0);
   } else {
-    const int place = builder.effect_parameter(spec, index, "position_mm", 0.5 * component.length_mm);
-    Parameter& p = builder.network().parameters[place];
-    p.low = 0.01 * component.length_mm;
-    p.high = 0.99 * component.length_mm;
+    const int place = builder.place_parameter(spec, index, component);
     source = builder.source_at(id, place, 0.02 * component.length_mm);
   }
   const std::string form = spec.word_or("law", "constant");

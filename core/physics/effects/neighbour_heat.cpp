@@ -13,13 +13,9 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   const Component* other = builder.machine().find(spec.word_or("neighbour", ""));
   if (one == nullptr || other == nullptr || one->prescribed) return;
   const int conductance = builder.effect_parameter(spec, index, "conductance_W_K");
-  const bool anywhere = other->prescribed && !one->lump;
   Term term;
-  if (anywhere) {
-    const int place = builder.effect_parameter(spec, index, "position_mm", 0.5 * one->length_mm);
-    Parameter& p = builder.network().parameters[place];
-    p.low = 0.01 * one->length_mm;
-    p.high = 0.99 * one->length_mm;
+  if (other->prescribed) {
+    const int place = one->lump ? -1 : builder.place_parameter(spec, index, *one);
     term = builder.source_at(one->id, place, breadth * one->length_mm);
   }
   term.label = one->id + "-" + other->id + "/neighbour_heat";
@@ -31,10 +27,6 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
       if (builder.network().environments[e].name == other->id) term.environment = static_cast<int>(e);
     }
     term.kind = TermKind::film;
-    if (!anywhere) {
-      term.first_node = builder.place(one->id).first;
-      term.weights = {1.0};
-    }
   } else {
     term.kind = TermKind::link;
     const Probe here = builder.probe_at(one->id, spec.number_or("position_mm", 0.5 * one->length_mm));
