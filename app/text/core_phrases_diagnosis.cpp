@@ -113,7 +113,7 @@ constexpr std::array<const char*, 120> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "a structure that follows late"),
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: {channel} is off the best simulation by "
-                      "{um} µm (rms), {@regime}."),
+                      "{rms} {unit} (rms), {@regime}."),
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: what fits {channel} in this recording "
                       "misses the machine's other recording by {um} µm (rms)."),

@@ -41,6 +41,23 @@ MeasuredChannel make_channel(const recording::Channel* source, const physics::Ob
   return channel;
 }
 
+/// A dozen samples tell a noise width badly, and a channel that stands still tells none: sensors of a kind are alike.
+void share_noise(std::vector<MeasuredChannel>& channels, bool temperature) {
+  constexpr double worth_samples = 10.0;  // of what the others show
+  std::vector<double> variances;
+  for (const auto& channel : channels) {
+    if (channel.samples > 0 && channel.temperature == temperature) variances.push_back(channel.white * channel.white);
+  }
+  if (variances.empty()) return;
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::nth_element(variances.begin(), middle, variances.end());
+  for (auto& channel : channels) {
+    if (channel.samples == 0 || channel.temperature != temperature) continue;
+    const double own = channel.samples * channel.white * channel.white;
+    channel.white = std::sqrt((own + worth_samples * *middle) / (channel.samples + worth_samples));
+  }
+}
+
 void set_gains(MeasuredChannel& channel, const std::vector<double>& time_s) {
   channel.gains.resize(time_s.size());
   const double drift2 = channel.drift * channel.drift;
@@ -94,6 +111,7 @@ Dataset make_dataset(const recording::Recording& recording, const physics::Netwo
   for (const auto& seen : network.observations) {
     data.channels.push_back(make_channel(recording.find(seen.channel), seen, data.rows()));
   }
+  share_noise(data.channels, true);
   data.prepare();
   return data;
 }

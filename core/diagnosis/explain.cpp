@@ -284,13 +284,13 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
   if (diagnosis.doubtful) {
     s.id += noted("misplaced:") || noted("exchanged:") || noted("places_in:") ? "_misplaced" : "_doubtful";
   } else if (diagnosis.verdict == Verdict::unexplained) {
+    constexpr double told_W = 0.5;  // less would read "about 0 W"
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();
+    const double missing_W = diagnosis.mismatch.missing_heat_W;
     s.facts = {{"channel", channel}, {"regime", regime_or_always(diagnosis.mismatch.regime)}};
-    for (const auto& report : diagnosis.channels) {
-      if (report.channel != channel || report.temperature) continue;
-      s.id += "_length";  // no heat is missing where a displacement alone is off
-      s.facts["um"] = fmt::format("{:.2g}", report.rms_refitted);
-    }
+    const auto report = std::find_if(diagnosis.channels.begin(), diagnosis.channels.end(),
+                                     [&](const auto& one) { return one.channel == channel; });
+    const bool seen = report != diagnosis.channels.end();
     if (std::count(diagnosis.notes.begin(), diagnosis.notes.end(), "moved_elsewhere:" + channel) != 0) {
       s.id = "verdict_unexplained_elsewhere";
       double missed_um = 0.0;
@@ -299,10 +299,12 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
         if (rms != other.explained.end()) missed_um = std::max(missed_um, rms->second);
       }
       s.facts["um"] = fmt::format("{:.2g}", missed_um);
-    }
-    if (s.facts.count("um") == 0) {
-      const double missing_W = diagnosis.mismatch.missing_heat_W;
-      if (missing_W <= -0.5) s.id += "_too_hot";
+    } else if (seen && (!report->temperature || std::abs(missing_W) < told_W)) {
+      s.id += "_off";  // no heat is missing where a displacement alone is off
+      s.facts["rms"] = fmt::format("{:.2g}", report->rms_refitted);
+      s.facts["unit"] = unit_of(channel);
+    } else {
+      if (missing_W < 0.0) s.id += "_too_hot";
       s.facts["watts"] = fmt::format("{:.0f}", std::abs(missing_W));
     }
   }

@@ -21,9 +21,9 @@ constexpr std::array catalogue{
         "verdict_unexplained_too_hot",
         "Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W "
         "too much heat is simulated."},
-    Entry{"verdict_unexplained_length",
+    Entry{"verdict_unexplained_off",
           "Something is missing that the library does not explain: {channel} is off the best "
-          "simulation by {um} µm (rms), {@regime}."},
+          "simulation by {rms} {unit} (rms), {@regime}."},
     Entry{"verdict_unexplained_elsewhere",
           "Something is missing that the library does not explain: what fits {channel} in this recording misses the "
           "machine's other recording by {um} µm (rms)."},

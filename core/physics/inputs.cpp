@@ -20,11 +20,15 @@ double noise_width(const std::vector<double>& values, double floor) {
     if (i + 1 < present.size()) second.push_back(std::abs(present[i + 1] - 2.0 * present[i] + present[i - 1]));
   }
   std::sort(second.begin(), second.end());
-  const std::size_t kept = std::max<std::size_t>(1, second.size() * 9 / 10);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kept; ++i) sum += second[i] * second[i];
-  // 1.267 restores what the trimming of a tenth of a normal sample takes away.
-  double sigma = 1.267 * std::sqrt(sum / static_cast<double>(kept) / 6.0);
+  constexpr std::size_t few = 30;  // one spike is in three of them, and a tenth must hold all three
+  double sigma = second[second.size() / 2] / (0.6745 * std::sqrt(6.0));
+  if (second.size() >= few) {
+    const std::size_t kept = second.size() * 9 / 10;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kept; ++i) sum += second[i] * second[i];
+    // 1.267 restores what the trimming of a tenth of a normal sample takes away.
+    sigma = 1.267 * std::sqrt(sum / static_cast<double>(kept) / 6.0);
+  }
   if (step > 0.004 && step < 1e299) sigma = std::max(sigma, step / std::sqrt(12.0));
   return std::max(sigma, floor);
 }

@@ -3462,8 +3462,8 @@
         <translation>%1：未记录补偿是否断开</translation>
     </message>
     <message>
-        <source>Something is missing that the library does not explain: {channel} is off the best simulation by {um} µm (rms), {@regime}.</source>
-        <translation>存在效应库无法解释的缺失：{channel} 与最佳仿真相差 {um} µm（rms），{@regime}。</translation>
+        <source>Something is missing that the library does not explain: {channel} is off the best simulation by {rms} {unit} (rms), {@regime}.</source>
+        <translation>存在效应库无法解释的缺失：{channel} 与最佳仿真相差 {rms} {unit}（rms），{@regime}。</translation>
     </message>
     <message>
         <source>Something is missing that the library does not explain: what fits {channel} in this recording misses the machine&apos;s other recording by {um} µm (rms).</source>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
@@ -35,6 +36,25 @@ TEST(WrongSetUp, TenRowsShowTooLittleAndAWholeRunDoesNot) {
   EXPECT_TRUE(notes(*answer, "shows_too_little"));
   EXPECT_TRUE(says(*answer, "verdict_consistent_blind"));
   EXPECT_FALSE(says(*answer, "verdict_consistent"));
+}
+
+/// Of so few samples one noise width in ten is told far too small, one spike spoils a width, and of two blocks one is
+/// large.
+TEST(WrongSetUp, AFewRowsOfASoundMachineAreNotCalledUnexplained) {
+  for (const unsigned number : {310u, 311u, 312u, 313u, 314u, 315u}) {
+    proof::Case whole = proof::make_case(number, "none");
+    for (auto& channel : whole.recordings.front().channels) {
+      if (!channel.name.ends_with("_C")) continue;
+      for (double& value : channel.values) value = 0.1 * std::round(10.0 * value);
+    }
+    for (const std::size_t rows : {10u, 15u, 20u, 30u}) {
+      proof::Case one = whole;
+      one.recordings = {recording::slice(whole.recordings.front(), 0, rows)};
+      const auto answer = answer_with_details(one);
+      ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+      EXPECT_EQ(answer->verdict, Verdict::consistent) << number << ", " << rows << " rows";
+    }
+  }
 }
 
 TEST(WrongSetUp, APlaceInMetresIsNamed) {

@@ -33,12 +33,14 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
 
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
   std::vector<EffectSpec> list;
+  constexpr double fewest_periods = 3.0;  // one or two are like any slow wave
   const double watts = std::max(5.0, 0.3 * facts.typical_heat_W);
   for (const auto& component : machine.components) {
     if (component.lump) continue;
     for (const auto& source : component.sources) {
       if (source.kind != SourceKind::motor) continue;
       for (const double period_s : {900.0, 1300.0, 1800.0, 2500.0, 3600.0}) {
+        if (facts.duration_s < fewest_periods * period_s) continue;
         list.push_back({"chiller_cycle",
                         true,
                         {{"sine_W", 0.0},

@@ -43,9 +43,10 @@ std::vector<TextEntry> texts_of_physics() {
       {"Something is missing that the library does not explain: what fits {channel} in this recording misses the "
        "machine's other recording by {um} µm (rms).",
        "存在效应库无法解释的缺失：与本次记录中的 {channel} 相符的仿真，在该机床的另一记录中相差 {um} µm（rms）。"},
-      {"Something is missing that the library does not explain: {channel} is off the best simulation by {um} µm (rms), "
+      {"Something is missing that the library does not explain: {channel} is off the best simulation by {rms} {unit} "
+       "(rms), "
        "{@regime}.",
-       "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {um} µm（均方根），{@regime}。"},
+       "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {rms} {unit}（均方根），{@regime}。"},
       {"This run at one speed would hardly show {@name}{@where}: it cannot be excluded.",
        "本次单一转速的运行几乎不会显示{@name}{@where}：不能排除。"},
       {"This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
