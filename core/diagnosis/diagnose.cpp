@@ -425,13 +425,13 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
   }
   // Nobody knows how the room went: of 27 answers to runs robbed of its column three were wrong.
   const bool room_guessed = !m_machine.room.channel.empty() && !m_facts.room_logged;
-  // Nor what ran before a start that is not at rest, which a short run does not outlast: of 38 answers to stretches
-  // from the middle of a run a quarter was wrong.
+  // Nor what ran before a start that is not at rest, which a short run does not outlast: of 40 answers to stretches
+  // from the middle of a run a third was wrong.
   constexpr double outlasted_s = 3.0 * 3600.0;
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });
   const bool overshadowed = warm && m_out.time_s.back() - m_out.time_s.front() < outlasted_s;
-  const double guessed = nothing_drives() ? 0.7 : m_corrected || overshadowed ? 0.8 : room_guessed || warm ? 0.9 : 1.0;
+  const double guessed = !moves() || overshadowed ? 0.7 : m_corrected ? 0.8 : room_guessed || warm ? 0.9 : 1.0;
   const double poor = (m_out.excess_after > 3.0 ? 0.8 : 1.0) * guessed;
   return poor * 0.99 / (1.0 + others);
 }

@@ -321,6 +321,18 @@ bool Diagnoser::nothing_drives() const {
   return physics::nothing_drives(m_selection.base->inputs()) && !physics::starts_warm(m_machine, recording());
 }
 
+/// Something drives the machine, and some channel shows it.
+bool Diagnoser::moves() const {
+  constexpr double widths = 12.0;
+  return !nothing_drives() && std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
+    double low = 1e300, high = -1e300;
+    for (const double v : c.measured) {
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    return high - low > widths * c.noise;
+  });
+}
+
 /// Two sensors fit whatever heats between them and around them.
 void Diagnoser::few_sensors() {
   constexpr std::ptrdiff_t few = 2;
@@ -355,14 +367,7 @@ void Diagnoser::notes() {
   }
   another_machine();
   worse_elsewhere();
-  const bool excited = std::any_of(m_out.channels.begin(), m_out.channels.end(), [](const ChannelReport& c) {
-    double low = 1e300, high = -1e300;
-    for (const double v : c.measured) {
-      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
-    }
-    return high - low > 12.0 * c.noise;
-  });
-  if (!excited || nothing_drives()) {
+  if (!moves()) {
     m_out.notes.emplace_back("no_excitation");
     m_out.sentences.push_back(explain_note("no_excitation"));
   }

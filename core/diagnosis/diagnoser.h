@@ -77,6 +77,7 @@ class Diagnoser {
   void few_sensors();
   double seconds_between_rows() const;
   bool nothing_drives() const;
+  bool moves() const;
   std::vector<Sentence> far_parameters();
   const ChannelReport* missed_by_far(const HeldOut& other) const;
   bool of_another_machine(const HeldOut& other) const;

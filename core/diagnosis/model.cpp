@@ -352,7 +352,7 @@ std::vector<double> block_excess(const Dataset& data, const Eigen::VectorXd& res
   // Short runs have fewer minutes in a block, so that there are blocks to compare.
   const double block_s = std::min(900.0, 0.1 * (data.time_s.back() - data.time_s.front()));
   const std::size_t block = std::max<std::size_t>(4, static_cast<std::size_t>(std::lround(block_s / period_s)));
-  constexpr int fewest = 10;  // one of two blocks is large by chance: those a run is too short for count as usual
+  constexpr int fewest = 15;  // one of two blocks is large by chance: those a run is too short for count as usual
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
     double sum = 0.0;
     int blocks = 0;

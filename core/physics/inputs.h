@@ -27,7 +27,8 @@ InputSet make_inputs(const Network& network, const recording::Recording& recordi
 /// Fills gaps linearly and removes isolated spikes (more than 8 noise widths and 2.5 times both neighbours' deviation
 /// from the running median of five); sigma is estimated when not given.
 std::vector<double> mended(const std::vector<double>& values, const std::vector<double>& time_s);
-/// Noise of a slowly varying series: trimmed rms of second differences / sqrt(6), at least its step / sqrt(12).
+/// Noise of a slowly varying series: trimmed rms of second differences / sqrt(6), of few samples their median; at least
+/// its step / sqrt(12).
 double noise_width(const std::vector<double>& values, double floor);
 /// Marks isolated spikes, and two in a row.
 std::vector<bool> spikes(const std::vector<double>& values, double sigma);
