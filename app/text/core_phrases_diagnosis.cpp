@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 120> diagnosis = {{
+constexpr std::array<const char*, 121> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -64,6 +64,9 @@ constexpr std::array<const char*, 120> diagnosis = {{
         "core",
         "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
         "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."),
+    QT_TRANSLATE_NOOP("core",
+                      "{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence "
+                      "{evidence}), but leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}."),
     QT_TRANSLATE_NOOP("core", "; it brings {watts} on average while it acts"),
     QT_TRANSLATE_NOOP("core", "; it takes away {watts} on average while it acts"),
     QT_TRANSLATE_NOOP("core",

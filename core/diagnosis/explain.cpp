@@ -75,9 +75,10 @@ double rpm_of(const std::map<std::string, double>& at_rpm, const std::string& ke
   return at == at_rpm.end() ? 0.0 : at->second;
 }
 
-/// All parameters in the order of the table: amplitudes before times.
+/// The neighbour's name, then all parameters in the order of the table: amplitudes before times.
 std::string parameters_in_words(const FoundEffect& effect) {
-  std::string text;
+  const auto neighbour = effect.words.find("neighbour");
+  std::string text = neighbour == effect.words.end() ? "" : neighbour->second;
   for (const Shown& shown : shown_parameters) {
     const auto at = effect.parameters.find(std::string(shown.key));
     if (at == effect.parameters.end()) continue;
@@ -234,10 +235,13 @@ void put_far(Sentence& s, const FarParameter& far) {
 Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
                         const std::string& worst_channel) {
   Sentence s = about_effect(effect, end_s, worst_channel);
-  s.id = "effect_found";
+  constexpr double told = 0.01;  // how it goes can be explained where how far it is off is not
+  const double removed = 1.0 - after / std::max(before, 1e-12);
+  s.id = removed < told ? "effect_found_course" : "effect_found";
   s.facts["before"] = fmt::format("{:.2g}", before);
   s.facts["unit"] = unit_of(worst_channel);
-  s.facts["removed_percent"] = fmt::format("{:.0f}", 100.0 * (1.0 - after / std::max(before, 1e-12)));
+  s.facts["removed_percent"] = fmt::format("{:.0f}", 100.0 * removed);
+  s.facts["evidence"] = fmt::format("{:.0f}", effect.log_evidence_gain);
   return finished(std::move(s));
 }
 

@@ -211,6 +211,7 @@ void Diagnoser::worse_elsewhere() {
   constexpr double clearly = 1.05;  // of all squares, in widths of noise
   constexpr double in_one = 1.5;    // of one channel's rms
   constexpr double noticed = 2.0;   // widths of noise
+  constexpr double doubted = 0.5;
   if (m_out.effects.empty()) return;
   const bool once = std::any_of(m_out.effects.begin(), m_out.effects.end(),
                                 [](const FoundEffect& found) { return physics::happens_once(found.id); });
@@ -233,6 +234,9 @@ void Diagnoser::worse_elsewhere() {
       worst = &channel;
     }
     if (worst == nullptr || (with <= clearly * without && !one_is_worse)) continue;
+    if (m_lumps_only && !once) {  // whose other runs refute nothing (borne_out_elsewhere): doubt is all that they leave
+      for (FoundEffect& found : m_out.effects) found.confidence *= doubted;
+    }
     m_out.notes.push_back("held_out_worse:" + other.recording + ":" + worst->channel);
     m_out.sentences.push_back(explain_note(once ? "held_out_worse_once" : "held_out_worse",
                                            {{"recording", other.recording},

@@ -31,6 +31,9 @@ constexpr std::array catalogue{
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
           "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."},
+    Entry{"effect_found_course",
+          "{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence {evidence}), but "
+          "leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}."},
     Entry{"effect_found_bent",
           "{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} "
           "times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of "

@@ -3202,6 +3202,10 @@
         <translation>{@regime}，不计入该效应时 {channel} 与最佳仿真相差 {before} {unit}（rms）。计入{@where}{@name}（{parameters}）可消除其中的 {removed_percent} %{@heat}。典型特征：{@fingerprint}。</translation>
     </message>
     <message>
+        <source>{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence {evidence}), but leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}.</source>
+        <translation>{@regime}，计入{@where}{@name}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 {before} {unit}（rms）{@heat}。典型特征：{@fingerprint}。</translation>
+    </message>
+    <message>
         <source>{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}.</source>
         <translation>{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} 倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。</translation>
     </message>

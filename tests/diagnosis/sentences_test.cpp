@@ -63,6 +63,28 @@ TEST(Sentences, AFigureThatGrowsWithTheSpeedSaysAtWhich) {
   EXPECT_TRUE(speeds_of_figures(effect.parameters, effect.words, 8000.0).empty());
 }
 
+TEST(Sentences, ANeighbourIsToldByItsName) {
+  FoundEffect effect;
+  effect.id = "neighbour_heat";
+  effect.component = "spindle";
+  effect.words = {{"component", "spindle"}, {"neighbour", "gearbox"}};
+  effect.parameters = {{"conductance_W_K", 1.33}};
+  effect.sigma = {{"conductance_W_K", 0.12}};
+  const Sentence s = explain_effect(effect, 3600.0, 0.5, 0.1, "T1_C");
+  EXPECT_NE(s.english.find("(gearbox, G = 1.33 ± 0.12 W/K)"), std::string::npos) << s.english;
+}
+
+TEST(Sentences, WhatDoesNotComeNearerIsNotSaidToBeRemoved) {
+  FoundEffect effect;
+  effect.id = "convection";
+  effect.parameters = {{"h_W_m2K", 12.0}};
+  effect.log_evidence_gain = 34.0;
+  const Sentence s = explain_effect(effect, 3600.0, 0.069, 0.082, "t2_C");
+  EXPECT_EQ(s.id, "effect_found_course");
+  EXPECT_NE(s.english.find("log evidence 34"), std::string::npos) << s.english;
+  EXPECT_EQ(s.english.find('{'), std::string::npos) << s.english;
+}
+
 TEST(Sentences, HeatThatIsTooMuchIsToldAsSuch) {
   Diagnosis answer;
   answer.verdict = Verdict::unexplained;
@@ -71,6 +93,12 @@ TEST(Sentences, HeatThatIsTooMuchIsToldAsSuch) {
   EXPECT_NE(explain_verdict(answer).english.find("about 60 W too much heat is simulated"), std::string::npos);
   answer.mismatch.missing_heat_W = 60.0;
   EXPECT_EQ(explain_verdict(answer).english.find("too much"), std::string::npos);
+  answer.mismatch.missing_heat_W = 0.2;
+  answer.channels.resize(1);
+  answer.channels[0].channel = "T1_C";
+  answer.channels[0].temperature = true;
+  answer.channels[0].rms_refitted = 0.31;
+  EXPECT_NE(explain_verdict(answer).english.find("T1_C is off the best simulation by 0.31 K (rms)"), std::string::npos);
 }
 
 TEST(Sentences, ASlipIsSaidToLookLikeAGaugeSetToZero) {

@@ -173,6 +173,10 @@ std::vector<TextEntry> texts_of_physics() {
        "{@regime}，不含该效应时 {channel} 与最佳仿真相差 {before} "
        "{unit}（均方根）。加入{@name}{@where}（{parameters}）后消除其中的 {removed_percent} "
        "%{@heat}。其典型表现：{@fingerprint}。"},
+      {"{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence {evidence}), but "
+       "leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}.",
+       "{@regime}，加入{@name}{@where}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 "
+       "{before} {unit}（均方根）{@heat}。其典型表现：{@fingerprint}。"},
       {"; it brings {watts} on average while it acts", "；起作用期间平均带入 {watts}"},
       {"; it takes away {watts} on average while it acts", "；起作用期间平均带走 {watts}"},
       {"This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
