@@ -108,7 +108,7 @@ constexpr std::array<const char*, 121> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "a wrong room sensor"),
     QT_TRANSLATE_NOOP("core", "a bracket that slipped"),
     QT_TRANSLATE_NOOP("core", "heat from a neighbouring part"),
-    QT_TRANSLATE_NOOP("core", "the heater's own body"),
+    QT_TRANSLATE_NOOP("core", "the heat source's own body"),
     QT_TRANSLATE_NOOP("core", "a slow core behind the surface"),
     QT_TRANSLATE_NOOP("core", "a heat that is there at rest as well"),
     QT_TRANSLATE_NOOP("core", "heat as a curve over speed"),

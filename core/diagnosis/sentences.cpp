@@ -178,7 +178,7 @@ constexpr std::array catalogue{
     Entry{"room_sensor_fault", "a wrong room sensor"},
     Entry{"bracket_slip", "a bracket that slipped"},
     Entry{"neighbour_heat", "heat from a neighbouring part"},
-    Entry{"heater_body", "the heater's own body"},
+    Entry{"heater_body", "the heat source's own body"},
     Entry{"casting_core", "a slow core behind the surface"},
     Entry{"standing_heat", "a heat that is there at rest as well"},
     Entry{"speed_heat_curve", "heat as a curve over speed"},

@@ -299,8 +299,8 @@ void NetworkBuilder::modify_bearing(const std::string& source, BearingModifier m
   m_modifiers[source].push_back(modifier);
 }
 
-void NetworkBuilder::put_body_before(const std::string& source, Term contact) {
-  m_bodies[source] = std::move(contact);
+void NetworkBuilder::put_body_before(const std::string& source, int node, int contact) {
+  m_bodies[source] = {node, contact};
 }
 
 Term* NetworkBuilder::term(const std::string& label) {

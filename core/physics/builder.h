@@ -74,8 +74,8 @@ class NetworkBuilder {
   /// The share for an effect's own heat, -1 where the rod is one body.
   int heat_share_of_effect(const EffectSpec& spec, int index, const std::string& component);
   void modify_bearing(const std::string& source, BearingModifier modifier);
-  /// The source heats a node of its own (contact.first_node) that a link with this law joins to the component.
-  void put_body_before(const std::string& source, Term contact);
+  /// The source heats `node`, which passes it on through the parameter `contact` in W/K.
+  void put_body_before(const std::string& source, int node, int contact);
   /// The listed source's term, null if it has none yet.
   Term* term(const std::string& label);
   int held_speed() { return held("spindle_rpm"); }
@@ -96,6 +96,7 @@ class NetworkBuilder {
   void add_start_shapes(const Network::Place& at, double above_K);
   void add_sources();
   void add_source(const Component& component, const HeatSource& source);
+  void join_body(const Component& component, const Term& spread, const std::string& source, int share);
   void add_couplings();
   void wandering_room(Environment& room);
   void add_sensors();
@@ -109,7 +110,11 @@ class NetworkBuilder {
   std::map<std::string, int> m_capacity;
   std::map<std::string, double> m_initial_C;
   std::map<std::string, std::vector<BearingModifier>> m_modifiers;
-  std::map<std::string, Term> m_bodies;
+  struct SourceBody {
+    int node = 0;
+    int contact = 0;  // parameter
+  };
+  std::map<std::string, SourceBody> m_bodies;
   std::map<std::string, int> m_heat_share;  // source -> parameter
   double m_mean_initial_C = 20.0;
   int m_room = -1;

@@ -6,22 +6,83 @@
 #include "core/physics/sources.h"
 
 namespace zerodrift::physics {
+namespace {
+
+/// factor * G of values[0], of which share s (values[1]) is inside: times (1 - s)^outside s^inside.
+Law contact_law(double factor, int outside, int inside) {
+  return [=](const LawPoint& at) {
+    const double s = outside + inside > 0 ? at.values[1] : 0.0;
+    const double part = std::pow(1.0 - s, outside) * std::pow(s, inside);
+    Strength strength;
+    strength.value = factor * at.values[0] * part;
+    strength.by_parameter[0] = factor * part;
+    if (outside + inside == 0) return strength;
+    double slope = 0.0;
+    if (outside > 0) slope -= outside * std::pow(1.0 - s, outside - 1) * std::pow(s, inside);
+    if (inside > 0) slope += inside * std::pow(1.0 - s, outside) * std::pow(s, inside - 1);
+    strength.by_parameter[1] = factor * at.values[0] * slope;
+    return strength;
+  };
+}
+
+}  // namespace
+
+/// What flows out of the body, G (T_b - sum of w_i T_i), enters the component as the source's own heat did, w_i in each
+/// cell, so that a body without capacity changes nothing. The matrix of that, G v v^T with v = 1 at the body and -w_i
+/// in the cells, is the sum of links between each two nodes of weight -v_i v_j: those between cells are negative.
+void NetworkBuilder::join_body(const Component& component, const Term& spread, const std::string& source, int share) {
+  const Network::Place& at = place(component.id);
+  const SourceBody& body = m_bodies.at(source);
+  const bool two = at.inner >= 0 && share >= 0;
+  const auto cells = static_cast<int>(spread.weights.size());
+  const auto node = [&](int cell, bool inside) {
+    return spread.first_node + cell + (inside ? at.inner - at.first : 0);
+  };
+  const auto put = [&](std::vector<Link> links, double factor, int outside, int inside) {
+    Term term;
+    term.kind = TermKind::link;
+    term.law_kind = LawKind::constant;
+    term.label = component.id + "/" + source + "_body";
+    term.links = std::move(links);
+    term.parameters = {body.contact};
+    if (two) term.parameters.push_back(share);
+    term.law = two ? contact_law(factor, outside, inside) : contact_law(factor, 0, 0);
+    add(std::move(term));
+  };
+  const auto pairs = [&](bool first_inside, bool second_inside) {
+    std::vector<Link> links;
+    for (int i = 0; i < cells; ++i) {
+      for (int j = first_inside == second_inside ? i + 1 : 0; j < cells; ++j) {
+        const double weight = spread.weights[i] * spread.weights[j];
+        if (weight > 0.0) links.push_back({node(i, first_inside), node(j, second_inside), weight});
+      }
+    }
+    return links;
+  };
+  for (const bool inside : {false, true}) {
+    if (inside && !two) break;
+    std::vector<Link> links;
+    for (int i = 0; i < cells; ++i) {
+      if (spread.weights[i] > 0.0) links.push_back({body.node, node(i, inside), spread.weights[i]});
+    }
+    put(std::move(links), 1.0, inside ? 0 : 1, inside ? 1 : 0);
+    put(pairs(inside, inside), -1.0, inside ? 0 : 2, inside ? 2 : 0);
+  }
+  if (two) put(pairs(false, true), -1.0, 1, 1);
+}
 
 void NetworkBuilder::add_source(const Component& component, const HeatSource& source) {
   if (component.prescribed) return;
   Term term = source_over(component.id, source.from_mm, source.to_mm);
+  const auto split = m_heat_share.find(source.id);
+  int share = split == m_heat_share.end() ? -1 : split->second;
   if (const auto body = m_bodies.find(source.id); body != m_bodies.end()) {
-    // The heat enters the source's own body; the body's contact spreads it over the same place.
-    for (std::size_t i = 0; i < term.weights.size(); ++i) {
-      body->second.links.push_back({body->second.first_node, term.first_node + static_cast<int>(i), term.weights[i]});
-    }
-    term.first_node = body->second.first_node;
+    join_body(component, term, source.id, share);
+    term.first_node = body->second.node;
     term.weights = {1.0};
-    add(body->second);
+    share = -1;
   }
   term.label = component.id + "/" + source.id;
-  const auto split = m_heat_share.find(source.id);
-  const int share = split == m_heat_share.end() || m_bodies.count(source.id) != 0 ? -1 : split->second;
   Parameter scale;
   scale.key = "scale:" + source.id;
   scale.component = component.id;

@@ -3354,7 +3354,7 @@
         <translation>相邻部件传来的热量</translation>
     </message>
     <message>
-        <source>the heater&apos;s own body</source>
+        <source>the heat source&apos;s own body</source>
         <translation>热源自身的热容</translation>
     </message>
     <message>

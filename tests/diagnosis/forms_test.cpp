@@ -190,6 +190,23 @@ TEST(Forms, ARodsLengthMayFollowLate) {
   EXPECT_NEAR(d->effects.front().parameters.at("lag_s"), 400.0, 3.0 * d->effects.front().sigma.at("lag_s"));
 }
 
+/// What warms late where the motor sits is no joint beside it.
+TEST(Forms, AMotorMayHaveABodyOfItsOwn) {
+  physics::Machine real = real_spindle();
+  real.effects.erase(real.effects.begin() + 1, real.effects.end());
+  real.effects.push_back({"heater_body",
+                          false,
+                          {{"heat_capacity_J_K", 2500.0}, {"contact_W_K", 7.0}},
+                          {{"component", real.components.front().id}, {"source", "motor"}}});
+  const auto d = diagnose(spindle(), runs_of(8, real), {false});
+  ASSERT_TRUE(d) << describe(d.error());
+  ASSERT_EQ(d->tried, std::vector<std::string>{"heater_body"});
+  EXPECT_EQ(d->verdict, Verdict::missing_effect);
+  const FoundEffect& body = d->effects.front();
+  EXPECT_NEAR(body.parameters.at("heat_capacity_J_K"), 2500.0, 3.0 * body.sigma.at("heat_capacity_J_K"));
+  EXPECT_LT(body.sigma.at("heat_capacity_J_K"), 600.0);
+}
+
 /// A joint's shape is hardly known: a heat within its breadth may do no more than mend it.
 TEST(Forms, AHeatWithinAJointsBreadthMendsItsShape) {
   const recording::Recording run = runs_of(3).front();

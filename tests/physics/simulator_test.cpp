@@ -35,6 +35,15 @@ nlohmann::json cartridge_json() {
   return document;
 }
 
+/// The motor's heat goes through a body of its own into both.
+nlohmann::json motor_body_json(double heat_capacity_J_K) {
+  nlohmann::json document = cartridge_json();
+  document["effects"].push_back("heater_body");
+  document["effect_parameters"]["heater_body"] = {
+      {"component", "spindle"}, {"source", "motor"}, {"heat_capacity_J_K", heat_capacity_J_K}, {"contact_W_K", 6.0}};
+  return document;
+}
+
 void expect_conservation(const nlohmann::json& document) {
   const Machine machine = *machine_from_json(document, "m.json");
   const recording::Recording run = test::stepped_run();
@@ -139,6 +148,7 @@ TEST(InitialState, OffsetsAndNoiseMakeNoUnevenStart) {
 TEST(Simulator, ConservesHeat) {
   expect_conservation(coupled_json());
   expect_conservation(cartridge_json());
+  expect_conservation(motor_body_json(1500.0));
 }
 
 TEST(Simulator, TellsTheHeatThatComesFromOutside) {
@@ -149,6 +159,7 @@ TEST(Simulator, TellsTheHeatThatComesFromOutside) {
 TEST(Simulator, DerivativesAgreeWithCentralDifferences) {
   expect_exact_derivatives(coupled_json());
   expect_exact_derivatives(cartridge_json());
+  expect_exact_derivatives(motor_body_json(1500.0));
 }
 
 TEST(Simulator, AShaftTightInItsCartridgeIsOneBody) {
@@ -160,6 +171,13 @@ TEST(Simulator, AShaftTightInItsCartridgeIsOneBody) {
   EXPECT_GT(largest_difference(nominal(tight), nominal(one)), 0.5);
   inner["coupling_W_mK"] = 1e7;
   EXPECT_LT(largest_difference(nominal(tight), nominal(one)), 0.01);
+}
+
+/// Between a motor and its rod stands a contact: however badly it conducts, all heat comes through, where it did
+/// before.
+TEST(Simulator, AMotorsBodyWithoutCapacityChangesNothing) {
+  EXPECT_LT(largest_difference(nominal(motor_body_json(0.0)), nominal(cartridge_json())), 1e-7);
+  EXPECT_GT(largest_difference(nominal(motor_body_json(1500.0)), nominal(cartridge_json())), 0.1);
 }
 
 TEST(Simulator, TheInsideOfARodIsKeptInTheDescription) {

@@ -220,7 +220,7 @@ std::vector<TextEntry> texts_of_physics() {
       {"a wrong room sensor", "室温传感器有误"},
       {"a bracket that slipped", "支架滑移"},
       {"heat from a neighbouring part", "相邻部件传来的热"},
-      {"the heater's own body", "加热器自身的热容"},
+      {"the heat source's own body", "热源自身的热容"},
       {"a slow core behind the surface", "表面之下响应缓慢的芯部"},
       {"a heat that is there at rest as well", "静止时也存在的热源"},
       {"heat as a curve over speed", "发热量随转速的曲线"},
