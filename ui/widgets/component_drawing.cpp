@@ -107,15 +107,17 @@ void ComponentDrawing::paintEvent(QPaintEvent*) {
     painter.drawText(QRectF(x, 96, 300, 14), Qt::AlignVCenter, text);
     return x + painter.fontMetrics().horizontalAdvance(text) + 20.0;
   };
+  constexpr double short_mm = 100.0;
+  const auto mm = [&](double at_mm) { return QString::number(at_mm, 'f', m_component.length_mm < short_mm ? 1 : 0); };
   double x = left;
   if (m_component.regionTo_mm > m_component.regionFrom_mm) {
-    x = legend(colors().okText,
-               tr("recommended sensor region %1 to %2 mm").arg(m_component.regionFrom_mm).arg(m_component.regionTo_mm),
-               x);
+    x = legend(
+        colors().okText,
+        tr("recommended sensor region %1 to %2 mm").arg(mm(m_component.regionFrom_mm), mm(m_component.regionTo_mm)), x);
   }
   if (m_component.mismatchTo_mm > m_component.mismatchFrom_mm) {
-    legend(colors().badText, tr("mismatch %1 to %2 mm").arg(m_component.mismatchFrom_mm).arg(m_component.mismatchTo_mm),
-           x);
+    legend(colors().badText,
+           tr("mismatch %1 to %2 mm").arg(mm(m_component.mismatchFrom_mm), mm(m_component.mismatchTo_mm)), x);
   }
 }
 
