@@ -103,7 +103,7 @@ class Experimenter {
     const auto first = diagnose_files(folder, {"recording.csv"}, "diagnosis.json", m_context);
     if (!first) return {};  // refused: nothing to decide
     const json experiment = first->at("suggested_experiment");
-    if (!experiment.is_object() || first->at("ambiguous_with").empty()) return {};
+    if (!experiment.is_object() || !experiment.at("plan").is_object() || first->at("ambiguous_with").empty()) return {};
     ExperimentCase made;
     made.name = one.name;
     made.truth = one.truth.words();

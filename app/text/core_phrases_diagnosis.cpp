@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 121> diagnosis = {{
+constexpr std::array<const char*, 128> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -67,6 +67,17 @@ constexpr std::array<const char*, 121> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence "
                       "{evidence}), but leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}."),
+    QT_TRANSLATE_NOOP("core",
+                      "{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is "
+                      "named does not explain all of it either: it cannot be excluded."),
+    QT_TRANSLATE_NOOP("core", "full power for half of the time, then off, and record the cooling"),
+    QT_TRANSLATE_NOOP("core", "full power and off in turn, four equal parts"),
+    QT_TRANSLATE_NOOP("core", "25, 50, 75 and 100 % of full power, a quarter of the time each"),
+    QT_TRANSLATE_NOOP("core", "Beside what is named, {channels} show more that the library does not explain."),
+    QT_TRANSLATE_NOOP("core", "Nothing of the library explains {channels}."),
+    QT_TRANSLATE_NOOP("core",
+                      "The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in "
+                      "proportion to it, the times are not."),
     QT_TRANSLATE_NOOP("core", "; it brings {watts} on average while it acts"),
     QT_TRANSLATE_NOOP("core", "; it takes away {watts} on average while it acts"),
     QT_TRANSLATE_NOOP("core",

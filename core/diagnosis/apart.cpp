@@ -1,5 +1,8 @@
 #include "core/diagnosis/apart.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "core/diagnosis/contradiction.h"
@@ -22,7 +25,12 @@ Machine part_of(const Machine& whole, const std::string& id) {
   return part;
 }
 
-void merge(Diagnosis& all, Diagnosis part, std::size_t described) {
+/// Channels that stay unexplained, with nothing named of their part and beside something.
+struct Unexplained {
+  std::vector<std::string> without, beside;
+};
+
+void merge(Diagnosis& all, Diagnosis part, std::size_t described, Unexplained& left) {
   for (std::size_t i = described; i < part.refined.effects.size(); ++i)
     all.refined.effects.push_back(part.refined.effects[i]);
   for (auto& component : all.refined.components) {
@@ -31,7 +39,10 @@ void merge(Diagnosis& all, Diagnosis part, std::size_t described) {
     }
   }
   if (part.verdict == Verdict::unexplained) {
-    for (const auto& channel : part.mismatch.channels) all.notes.push_back("unexplained:" + channel);
+    for (const auto& channel : part.mismatch.channels) {
+      all.notes.push_back("unexplained:" + channel);
+      (part.effects.empty() ? left.without : left.beside).push_back(channel);
+    }
     for (const auto& note : part.notes) {
       if (note.starts_with("heat_falls_with_speed")) all.notes.push_back(note);
     }
@@ -72,6 +83,8 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
   Diagnosis all;
   all.refined = machine;
   int unexplained = 0;
+  Unexplained left;
+  std::vector<std::string> assumed;
   for (std::size_t i = 0; i < machine.components.size(); ++i) {
     const Machine part = part_of(machine, machine.components[i].id);
     if (part.sensors.empty()) continue;
@@ -86,7 +99,10 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
       found = settled(std::move(*found), part, recordings, brief, quiet);
     ZD_TRY(Diagnosis result, std::move(found));
     unexplained += result.verdict == Verdict::unexplained ? 1 : 0;
-    merge(all, std::move(result), part.effects.size());
+    for (const auto& note : result.notes) {
+      if (note.starts_with("capacity_unknown:")) assumed.push_back(machine.components[i].id);
+    }
+    merge(all, std::move(result), part.effects.size(), left);
     context.progress(static_cast<double>(i + 1) / static_cast<double>(machine.components.size()), "parts");
     if (context.cancelled()) return fail(ErrorCode::cancelled);
   }
@@ -94,6 +110,12 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
                 : unexplained > 0    ? Verdict::unexplained
                                      : Verdict::consistent;
   all.sentences.insert(all.sentences.begin(), explain_verdict(all));
+  const auto tell = [&](const char* id, const char* fact, const std::vector<std::string>& names) {
+    if (!names.empty()) all.sentences.push_back(explain_note(id, {{fact, fmt::format("{}", fmt::join(names, ", "))}}));
+  };
+  if (!all.effects.empty()) tell("lumps_unexplained", "channels", left.without);
+  tell("lumps_left", "channels", left.beside);
+  if (!all.effects.empty()) tell("capacity_unknown", "parts", assumed);
   return all;
 }
 

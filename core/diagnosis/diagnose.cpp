@@ -243,8 +243,11 @@ void Diagnoser::judge() {
     // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
     // imitated less well. The proof has the distribution of both.
     m_out.refuted = refuted();
-    const bool wrong =
-        m_out.refuted || m_selection.falling_heat > 0.0 || !m_selection.settling.empty() || only_comes_and_goes();
+    const std::vector<std::size_t> named = m_selection.effects();
+    const bool stands = std::any_of(named.begin(), named.end(),
+                                    [&](std::size_t index) { return stands_still(*m_selection.best, index); });
+    const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0 || !m_selection.settling.empty() || stands ||
+                       only_comes_and_goes();
     // What stands for many parts as one lump each is a guess, and leaves what it leaves.
     const double left = leftover(of_best);
     const bool by_far = !m_lumps_only && left > most_left_widths;
@@ -333,6 +336,29 @@ void Diagnoser::tell_place(FoundEffect& found, std::size_t index) {
   found.between_mm = {std::max(0.0, from_mm), std::min(rod->length_mm, to_mm)};
 }
 
+/// Two parts touch each other: the one that is warmed is told first.
+void Diagnoser::turn_to_the_colder(FoundEffect& found) const {
+  std::string& neighbour = found.words["neighbour"];
+  const physics::Component* other = m_machine.find(neighbour);
+  if (other == nullptr || other->prescribed || !other->lump) return;
+  const auto mean_C = [&](const std::string& part) {
+    double sum_C = 0.0;
+    int count = 0;
+    for (std::size_t c = 0; c < m_default_data->channels.size(); ++c) {
+      const MeasuredChannel& channel = m_default_data->channels[c];
+      const physics::Sensor* sensor = m_machine.sensor(channel.name);
+      if (sensor == nullptr || sensor->component != part) continue;
+      for (std::size_t k = 0; k < channel.values.size(); ++k) {
+        if (channel.present[k]) sum_C += channel.values[k], ++count;
+      }
+    }
+    return count > 0 ? sum_C / count : std::nan("");
+  };
+  if (!(mean_C(found.component) > mean_C(neighbour))) return;
+  std::swap(found.component, neighbour);
+  found.words["component"] = found.component;
+}
+
 void Diagnoser::effects() {
   if (m_out.verdict == Verdict::unexplained && m_used == m_selection.base) return;
   const Model& best = *m_selection.best;
@@ -346,6 +372,7 @@ void Diagnoser::effects() {
     found.component = spec.word_or("component", "");
     found.channel = spec.word_or("channel", "");
     found.words = spec.words;
+    if (found.id == "neighbour_heat") turn_to_the_colder(found);
     found.parameters = spec.numbers;
     found.at_rpm = speeds_of_figures(spec.numbers, spec.words, best.network().full_speed_rpm);
     if (spec.numbers.count("position_mm") != 0) {

@@ -206,7 +206,15 @@ void Diagnoser::place_from_effect() {
 void Diagnoser::details() {
   if (!m_options.details) return;
   std::map<std::string, Detectable> least;
-  for (const auto& candidate : m_selection.screened) {
+  std::vector<Candidate> asked = m_selection.screened;
+  if (m_out.verdict == Verdict::missing_effect) {  // what could not be there before something else was
+    std::vector<Candidate> beside = screen(*m_selection.best, m_facts);
+    std::erase_if(beside, [&](const Candidate& one) {
+      return std::any_of(asked.begin(), asked.end(), [&](const auto& had) { return had.spec.id == one.spec.id; });
+    });
+    asked.insert(asked.end(), beside.begin(), beside.end());
+  }
+  for (const auto& candidate : asked) {
     if (candidate.detectable <= 0.0) continue;
     const auto& parameters = physics::find_effect(candidate.spec.id)->parameters;
     std::string key;

@@ -39,6 +39,7 @@ class Diagnoser {
   bool correct_description();
   std::shared_ptr<Model> without_kind(std::size_t i) const;
   bool names_a_sensor() const;
+  void turn_to_the_colder(FoundEffect& found) const;
   void tell_place(FoundEffect& found, std::size_t index);
   struct Shown {
     std::string channel;

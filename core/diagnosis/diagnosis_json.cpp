@@ -70,10 +70,11 @@ json to_json(const Diagnosis& diagnosis) {
                                      {"position_mm", rival.position_mm ? json(*rival.position_mm) : json()},
                                      {"behind", rival.behind}});
   }
-  if (diagnosis.suggested && !diagnosis.suggested->plan_json.empty()) {
+  if (diagnosis.suggested && !diagnosis.suggested->text.english.empty()) {
+    const std::string& plan = diagnosis.suggested->plan_json;
     out["suggested_experiment"] = {{"text", diagnosis.suggested->text.english},
                                    {"said", to_json(diagnosis.suggested->text)},
-                                   {"plan", json::parse(diagnosis.suggested->plan_json)}};
+                                   {"plan", plan.empty() ? json() : json::parse(plan)}};
   }
   json rmse = {{"before", json::object()},          {"refitted", json::object()},
                {"after", json::object()},           {"noise", json::object()},

@@ -14,8 +14,10 @@ bool happened_once(const Model& model);
 /// loses more when it turns, and oil that thins by a thousandth a kelvin is what its sheet says. Two recordings
 /// together may well show so little.
 bool worth_naming(const Model& model);
+/// Whether an effect is a chiller that does not come and go: a heat, whatever else.
+bool stands_still(const Model& model, std::size_t effect);
 /// Whether the last effect is no more than a sound part may have: the gain of a sensor within 1 %, the proportional
-/// part of IEC 60751's class C, its widest.
+/// part of IEC 60751's class C, its widest; or is a chiller that stands still.
 bool within_tolerance(const Model& model);
 
 /// Sets for each model the log evidence that the other recordings, in turn, have beside `without`: of each recording

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/json.h"
@@ -53,6 +54,41 @@ const std::vector<Run>& library() {
        "half speed, no cutting and cutting in turn, four equal parts",
        {{0.25, 0.5, false, 0}, {0.25, 0.5, false, 2000}, {0.25, 0.5, false, 0}, {0.25, 0.5, false, 2000}}}};
   return runs;
+}
+
+/// Where no spindle turns: shares of the most that was given of what heats.
+const std::vector<Run>& library_of_heaters() {
+  static const std::vector<Run> runs = {
+      {"heat_then_stop",
+       "full power for half of the time, then off, and record the cooling",
+       {{0.5, 1.0, false, 0}, {0.5, 0.0, false, 0}}},
+      {"heat_on_off",
+       "full power and off in turn, four equal parts",
+       {{0.25, 1.0, false, 0}, {0.25, 0.0, false, 0}, {0.25, 1.0, false, 0}, {0.25, 0.0, false, 0}}},
+      {"heat_staircase",
+       "25, 50, 75 and 100 % of full power, a quarter of the time each",
+       {{0.25, 0.25, false, 0}, {0.25, 0.5, false, 0}, {0.25, 0.75, false, 0}, {0.25, 1.0, false, 0}}}};
+  return runs;
+}
+
+bool turns(const Model& model) {
+  return model.data().recording->find("spindle_rpm") != nullptr;
+}
+
+/// The columns that heat a machine without a spindle, and the most of each.
+std::map<std::string, double> heaters_of(const Model& model) {
+  std::map<std::string, double> most;
+  for (const auto& component : model.machine().components) {
+    for (const auto& source : component.sources) {
+      const auto* seen =
+          source.kind == physics::SourceKind::input ? model.data().recording->find(source.channel) : nullptr;
+      if (seen == nullptr) continue;
+      for (const double value : seen->values) {
+        if (std::isfinite(value)) most[source.channel] = std::max(most[source.channel], value);
+      }
+    }
+  }
+  return most;
 }
 
 constexpr std::array lengths_min{30, 45, 60, 90, 120, 180, 210};
@@ -113,6 +149,13 @@ recording::Recording inputs_of(const Run& run, int minutes, const Model& model) 
     }
   }
   r.channels.insert(r.channels.end(), {rpm, coolant, load});
+  if (!turns(model)) {
+    for (const auto& [column, most] : heaters_of(model)) {
+      recording::Channel& heats = r.ensure(column);
+      heats.values.clear();
+      for (const double share_rpm : rpm.values) heats.values.push_back(most * share_rpm / full_rpm);
+    }
+  }
   return r;
 }
 
@@ -257,8 +300,10 @@ SuggestedExperiment suggest_experiment(const Model& best, const std::vector<cons
   models.insert(models.end(), rivals.begin(), rivals.end());
   SuggestedExperiment suggestion;
   double told = 0.0;
+  const bool spindle = turns(best);
+  if (!spindle && heaters_of(best).empty()) return suggestion;
   for (const int minutes : lengths_min) {
-    for (const auto& run : library()) {
+    for (const auto& run : spindle ? library() : library_of_heaters()) {
       const Contest contest = contest_in(run, minutes, models);
       // Where all is decided, the surer one.
       const double worth = contest.told + 1e-3 * std::min(contest.least, 1e3 * decisive);
@@ -266,7 +311,8 @@ SuggestedExperiment suggest_experiment(const Model& best, const std::vector<cons
       told = worth;
       suggestion.distance = contest.least;
       suggestion.id = run.id;
-      suggestion.plan_json = json_text(plan_of(run, minutes, best.network().full_speed_rpm));
+      // A warm-up plan gives speeds; what heats a machine without a spindle its owner switches.
+      if (spindle) suggestion.plan_json = json_text(plan_of(run, minutes, best.network().full_speed_rpm));
       suggestion.text = explain_experiment(questioned(*contest.first), questioned(*contest.second), run.text, minutes);
     }
     if (suggestion.distance > decisive) break;

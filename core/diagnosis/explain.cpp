@@ -267,7 +267,8 @@ Sentence explain_misstated(const std::string& effect, const FarParameter& number
 
 Sentence explain_rival(const Rival& rival) {
   Sentence s;
-  s.id = rival.behind < 0.0 ? "rival_hidden" : "rival_left";
+  constexpr double hardly = 10.0;
+  s.id = rival.behind < 0.0 ? "rival_hidden" : rival.behind < hardly ? "rival_left" : "rival_behind";
   s.facts = {{"name", rival.id}, {"behind", fmt::format("{:.1f}", rival.behind)}};
   put_place(s, rival.channel, rival.position_mm, rival.component);
   return finished(std::move(s));

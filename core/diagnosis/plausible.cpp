@@ -268,9 +268,26 @@ static Status check_millimetres(const physics::Machine& machine, const Dataset& 
   return {};
 }
 
+namespace {
+
+/// Whatever is off by a factor has noise that is off by it.
+Status check_noise(const Dataset& data) {
+  constexpr double absurd_um = 50.0;  // cameras and gauges have 0.05 to 5
+  for (const MeasuredChannel& channel : data.channels) {
+    if (channel.temperature || channel.samples == 0 || channel.white < absurd_um) continue;
+    return fail(ErrorCode::data_does_not_fit, {{"what", data.recording->name + ", channel " + channel.name},
+                                               {"found", fmt::format("noise of {:.3g} um", channel.white)},
+                                               {"expected", "less than 50 um: is it in nm?"}});
+  }
+  return {};
+}
+
+}  // namespace
+
 Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal) {
   if (has_unknown_heat(machine)) return {};  // nothing to compare with
   ZD_CHECK(check_millimetres(machine, data, nominal));
+  ZD_CHECK(check_noise(data));
   for (const bool temperature : {true, false}) {
     Movement largest;
     std::string name;

@@ -139,9 +139,12 @@ std::string proof_html(const physics::Machine& machine, const Diagnosis& d) {
   if (!d.detectable.empty()) {
     body +=
         "<h2>Could have detected</h2><p>The smallest size of each effect that this recording would have shown:</p><ul>";
-    for (const auto& one : d.detectable)
-      body += fmt::format("<li>{}: {}</li>", escaped(plain_name(one.id)),
-                          escaped(parameter_in_words(one.key, one.value, 0.0, one.at_rpm)));
+    for (const auto& one : d.detectable) {
+      const bool never = !one.key.empty() && one.value > physics::find_effect(one.id)->parameter(one.key).high;
+      std::string least = parameter_in_words(one.key, one.value, 0.0, one.at_rpm);
+      if (least.empty()) least = fmt::format("{:.2g} W", one.value);  // of a chiller's swing
+      body += fmt::format("<li>{}: {}</li>", escaped(plain_name(one.id)), escaped(never ? "-" : least));
+    }
     body += "</ul>";
   }
   return "<!doctype html><html><head><meta charset='utf-8'><title>Zerodrift diagnosis</title><style>"

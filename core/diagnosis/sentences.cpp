@@ -47,6 +47,10 @@ constexpr std::array catalogue{
     Entry{"rival_left",
           "This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
           "excluded."},
+    Entry{
+        "rival_behind",
+        "{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is named does not "
+        "explain all of it either: it cannot be excluded."},
     Entry{"rival_hidden", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."},
     Entry{
         "cannot_show",
@@ -140,6 +144,11 @@ constexpr std::array catalogue{
     Entry{"no_excitation", "Nothing drives the machine in this recording: little can be learned from it."},
     Entry{"sign_turned", "With its sign turned, {channel} is as described: check which way it counts as positive."},
     Entry{"experiment_show", "To see whether there is {@rival}, {minutes} min in all: {@run}."},
+    Entry{"lumps_left", "Beside what is named, {channels} show more that the library does not explain."},
+    Entry{"lumps_unexplained", "Nothing of the library explains {channels}."},
+    Entry{"capacity_unknown",
+          "The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in proportion to it, "
+          "the times are not."},
     Entry{"experiment_run", "To tell {@best} from {@rival}, {minutes} min in all: {@run}."},
     Entry{"nothing_to_simulate", "The profile holds no machine description, so there is nothing to simulate."},
     Entry{"simulation_differs",

@@ -3206,6 +3206,34 @@
         <translation>{@regime}，计入{@where}{@name}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 {before} {unit}（rms）{@heat}。典型特征：{@fingerprint}。</translation>
     </message>
     <message>
+        <source>{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is named does not explain all of it either: it cannot be excluded.</source>
+        <translation>{@where}{@name}对本次记录的解释较差（对数证据低 {behind}），但已命名的效应也未能完全解释：不能排除。</translation>
+    </message>
+    <message>
+        <source>full power for half of the time, then off, and record the cooling</source>
+        <translation>一半时间全功率，然后关闭并记录冷却过程</translation>
+    </message>
+    <message>
+        <source>full power and off in turn, four equal parts</source>
+        <translation>全功率与关闭交替，共四个等长阶段</translation>
+    </message>
+    <message>
+        <source>25, 50, 75 and 100 % of full power, a quarter of the time each</source>
+        <translation>满功率的 25、50、75 和 100 %，各占四分之一时间</translation>
+    </message>
+    <message>
+        <source>Beside what is named, {channels} show more that the library does not explain.</source>
+        <translation>除已命名的效应外，{channels} 还有效应库无法解释的偏差。</translation>
+    </message>
+    <message>
+        <source>Nothing of the library explains {channels}.</source>
+        <translation>效应库中没有任何效应能解释 {channels}。</translation>
+    </message>
+    <message>
+        <source>The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in proportion to it, the times are not.</source>
+        <translation>{parts} 的热容未给出，采用了假定值：W、W/K 和 J/K 与其成正比，时间常数则不受影响。</translation>
+    </message>
+    <message>
         <source>{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}.</source>
         <translation>{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} 倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。</translation>
     </message>

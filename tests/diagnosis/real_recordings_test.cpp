@@ -62,6 +62,21 @@ TEST(RealRecordings, AluminiumRodLosesHeatToTheRoom) {
   EXPECT_GT(largest(d.held_out[0].refitted), 4.0);
 }
 
+/// Radiation is a part of the film that no such rise tells apart; and what is proposed is a run that this rod can do.
+TEST(RealRecordings, AluminiumRodSaysWhatItCannotTellAndWhichRunWould) {
+  NEEDS("aluminium-rod");
+  const auto machine = physics::read_machine(data_folder() / "aluminium-rod" / "machine.json");
+  const auto run = recording::read_recording(data_folder() / "aluminium-rod" / "rod_6_7.csv");
+  const auto d = diagnose(*machine, {*run});
+  ASSERT_TRUE(d.has_value()) << describe(d.error());
+  EXPECT_TRUE(std::any_of(d->sentences.begin(), d->sentences.end(), [](const Sentence& said) {
+    return said.english.find("cannot tell whether there is radiation") != std::string::npos;
+  }));
+  ASSERT_TRUE(d->suggested.has_value());
+  EXPECT_NE(d->suggested->text.english.find("full power"), std::string::npos) << d->suggested->text.english;
+  EXPECT_TRUE(d->suggested->plan_json.empty());
+}
+
 TEST(RealRecordings, HeaterBoardHasThreeEffects) {
   NEEDS("heater-board");
   const Diagnosis d = diagnosed("heater-board", {"board_step_first_400s.csv", "board_step_rest.csv"});
@@ -69,6 +84,9 @@ TEST(RealRecordings, HeaterBoardHasThreeEffects) {
   EXPECT_TRUE(names(d, "neighbour_heat"));
   EXPECT_TRUE(names(d, "sensor_lag"));
   EXPECT_LT(largest(d.held_out[0].explained), 1.0);
+  const auto heat = std::find_if(d.effects.begin(), d.effects.end(), [](auto& e) { return e.id == "neighbour_heat"; });
+  EXPECT_EQ(heat->component, "heater2");
+  EXPECT_EQ(heat->words.at("neighbour"), "heater1");
 }
 
 TEST(RealRecordings, GantryLosesHeatAndFollowsBedAndFrame) {

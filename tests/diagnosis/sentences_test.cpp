@@ -85,6 +85,15 @@ TEST(Sentences, WhatDoesNotComeNearerIsNotSaidToBeRemoved) {
   EXPECT_EQ(s.english.find('{'), std::string::npos) << s.english;
 }
 
+TEST(Sentences, ARivalFarBehindIsNotSaidToExplainAlmostAsWell) {
+  Rival rival;
+  rival.id = "contact_resistance";
+  rival.behind = 3.0;
+  EXPECT_NE(explain_rival(rival).english.find("almost as well"), std::string::npos);
+  rival.behind = 83.0;
+  EXPECT_EQ(explain_rival(rival).english.find("almost as well"), std::string::npos);
+}
+
 TEST(Sentences, HeatThatIsTooMuchIsToldAsSuch) {
   Diagnosis answer;
   answer.verdict = Verdict::unexplained;

@@ -177,6 +177,19 @@ std::vector<TextEntry> texts_of_physics() {
        "leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}.",
        "{@regime}，加入{@name}{@where}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 "
        "{before} {unit}（均方根）{@heat}。其典型表现：{@fingerprint}。"},
+      {"{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is named does not "
+       "explain all of it either: it cannot be excluded.",
+       "{@name}{@where}对本次记录的解释较差（对数证据低 {behind}），但已命名的效应也未能完全解释：不能排除。"},
+      {"full power for half of the time, then off, and record the cooling", "一半时间全功率，然后关闭并记录冷却过程"},
+      {"full power and off in turn, four equal parts", "全功率与关闭交替，共四个等长阶段"},
+      {"25, 50, 75 and 100 % of full power, a quarter of the time each",
+       "满功率的 25、50、75 和 100 %，各占四分之一时间"},
+      {"Beside what is named, {channels} show more that the library does not explain.",
+       "除已命名的效应外，{channels} 还有效应库无法解释的偏差。"},
+      {"Nothing of the library explains {channels}.", "效应库中没有任何效应能解释 {channels}。"},
+      {"The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in proportion to it, the "
+       "times are not.",
+       "{parts} 的热容未给出，采用了假定值：W、W/K 和 J/K 与其成正比，时间常数则不受影响。"},
       {"; it brings {watts} on average while it acts", "；起作用期间平均带入 {watts}"},
       {"; it takes away {watts} on average while it acts", "；起作用期间平均带走 {watts}"},
       {"This recording is explained almost as well by {@name}{@where} (log evidence {behind} behind): it cannot be "
