@@ -2590,6 +2590,14 @@
         <translation>在不规则的时段</translation>
     </message>
     <message>
+        <source>noise of %1 um</source>
+        <translation>噪声 %1 um</translation>
+    </message>
+    <message>
+        <source>less than 50 um: is it in nm?</source>
+        <translation>小于 50 um：数据单位是否为 nm？</translation>
+    </message>
+    <message>
         <source>a movement of %1 %2</source>
         <translation>%1 %2 的移动</translation>
     </message>
