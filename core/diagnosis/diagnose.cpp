@@ -336,11 +336,13 @@ void Diagnoser::tell_place(FoundEffect& found, std::size_t index) {
   found.between_mm = {std::max(0.0, from_mm), std::min(rod->length_mm, to_mm)};
 }
 
-/// Two parts touch each other: the one that is warmed is told first.
+/// Two lumps touch each other: the one that is warmed is told first.
 void Diagnoser::turn_to_the_colder(FoundEffect& found) const {
   std::string& neighbour = found.words["neighbour"];
-  const physics::Component* other = m_machine.find(neighbour);
-  if (other == nullptr || other->prescribed || !other->lump) return;
+  for (const std::string& part : {found.component, neighbour}) {
+    const physics::Component* known = m_machine.find(part);
+    if (known == nullptr || known->prescribed || !known->lump) return;
+  }
   const auto mean_C = [&](const std::string& part) {
     double sum_C = 0.0;
     int count = 0;

@@ -234,9 +234,8 @@ void Diagnoser::worse_elsewhere() {
       worst = &channel;
     }
     if (worst == nullptr || (with <= clearly * without && !one_is_worse)) continue;
-    if (m_lumps_only && !once &&
-        with >
-            clearly * without) {  // whose other runs refute nothing (borne_out_elsewhere): doubt is all that they leave
+    // Other runs refute nothing of lumps (borne_out_elsewhere): doubt is all that they leave.
+    if (m_lumps_only && !once && with > clearly * without) {
       for (FoundEffect& found : m_out.effects) found.confidence *= doubted;
     }
     m_out.notes.push_back("held_out_worse:" + other.recording + ":" + worst->channel);

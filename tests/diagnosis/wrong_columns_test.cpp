@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/diagnosis/answered.h"
 
@@ -117,14 +118,17 @@ TEST(WrongColumns, ACutOfTheFittedRunIsNoSecondOne) {
   EXPECT_NE(describe(answer.error()).find("60 of its rows"), std::string::npos) << describe(answer.error());
 }
 
-TEST(WrongColumns, OneDisplacementInMillimetresIsRefusedByName) {
-  proof::Case one = proof::make_case(309, "none");
-  for (double& value : one.recordings[0].find("dZ_um")->values) value *= 0.001;
-  const auto answer = answer_with_details(one);
-  ASSERT_FALSE(answer.has_value());
-  EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
-  EXPECT_NE(describe(answer.error()).find("dZ_um"), std::string::npos);
-  EXPECT_NE(describe(answer.error()).find("mm"), std::string::npos);
+/// What is too small is told by its movement, what is too large by its noise.
+TEST(WrongColumns, OneDisplacementInAnotherUnitIsRefusedByName) {
+  for (const auto& [channel, factor, unit] : {std::tuple{"dZ_um", 0.001, "mm"}, std::tuple{"dY_um", 1000.0, "nm"}}) {
+    proof::Case one = proof::make_case(309, "none");
+    for (double& value : one.recordings[0].find(channel)->values) value *= factor;
+    const auto answer = answer_with_details(one);
+    ASSERT_FALSE(answer.has_value()) << channel;
+    EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+    EXPECT_NE(describe(answer.error()).find(channel), std::string::npos);
+    EXPECT_NE(describe(answer.error()).find(unit), std::string::npos);
+  }
 }
 
 TEST(WrongColumns, AColumnSpeltOtherwiseIsNamedAndATakenOutOneIsNotCalledMissing) {
