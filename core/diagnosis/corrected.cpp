@@ -6,16 +6,14 @@
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/misstated.h"
+#include "core/diagnosis/refine.h"
 
 namespace zerodrift::diagnosis {
 
 /// Of the same hypothesis under the ordinary noise.
 static double evidence_on(const std::shared_ptr<const Dataset>& data, const Model& model) {
   if (model.shared_data() == data) return model.log_evidence();
-  Model there(model.machine(), data);
-  there.start_from(model, false);
-  there.fit({12, 0.05, true});
-  return there.log_evidence();
+  return refitted_under(model, data)->log_evidence();
 }
 
 /// What a wrong number of the description has bent is sought again with that number as the fit would have it; kept
@@ -35,9 +33,8 @@ bool Diagnoser::correct_description() {
     }
   }
   if (!number) return false;
-  physics::Machine machine = number->fit->machine();
-  std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate; });
-  Result<Selection> again = select_effects(machine, m_default_data, m_facts, m_limits, m_context);
+  Result<Selection> again =
+      select_effects(without_candidates(number->fit->machine()), m_default_data, m_facts, m_limits, m_context);
   if (!again || excess_of(*again->best).largest > least_evident || !far_from_description(*again->best).empty() ||
       evidence_on(m_default_data, *again->best) < evidence_on(m_default_data, best) + clearly) {
     return false;

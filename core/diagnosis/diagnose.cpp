@@ -38,13 +38,6 @@ constexpr double sharp = 0.005;          // of the length: a peak so narrow stan
 constexpr double hardly_any = 0.1;       // of a mismatch: the fit without an effect bends what is described instead
 constexpr double widest_point_mm = 6.0;  // what is known worse is told as a stretch
 
-/// Excess of a prediction under other noise assumptions.
-Excess excess_under(const physics::Prediction& prediction, const Dataset& data) {
-  Eigen::VectorXd residual;
-  whiten(data, prediction, &residual);
-  return excess_of(data, residual);
-}
-
 /// What is fitted to this recording keeps its meaning in others.
 Machine told_at(Machine machine, const Recording& recording) {
   if (!machine.reference_temperature_C) {
@@ -114,9 +107,10 @@ Result<Diagnosis> Diagnoser::run() {
   const bool blind = shows_too_little();
   if (blind) m_out.notes.emplace_back("shows_too_little");
   std::vector<Sentence> far = far_parameters();
+  if (m_overlong) m_out.notes.push_back(note_of(*m_overlong));
   if (m_misplaced) m_out.notes.push_back(note_of(*m_misplaced));
   m_out.sentences.push_back(explain_verdict(m_out));
-  if (m_misplaced) tell_misplaced();
+  tell_wrong_set_up();
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show();
@@ -169,145 +163,6 @@ Status Diagnoser::choose_drift() {
   m_wide = true;
   ZD_TRY(m_selection, reconsider(m_selection, m_data, m_facts, m_limits, m_context));
   return {};
-}
-
-/// What a fitted model leaves, in noise widths of the channel where it is largest.
-double Diagnoser::leftover(const physics::Prediction& prediction) const {
-  double largest = 0.0;
-  for (std::size_t c = 0; c < m_default_data->channels.size(); ++c) {
-    const MeasuredChannel& channel = m_default_data->channels[c];
-    double sum = 0.0;
-    for (std::size_t k = 0; k < m_default_data->rows(); ++k) {
-      const double e = channel.present[k] ? channel.values[k] - prediction.channels[c].values[k] : 0.0;
-      sum += e * e;
-    }
-    const double white2 = channel.white * channel.white;
-    const double slow2 = channel.samples == 0 ? 0.0 : std::max(0.0, sum / channel.samples - white2);
-    largest = std::max(largest, std::sqrt(slow2 / std::max(1e-30, white2 + channel.drift * channel.drift)));
-  }
-  return largest;
-}
-
-void Diagnoser::tell_tried() {
-  struct Tried {
-    std::string form;
-    std::string id;
-    double size = 0.0;
-  };
-  const Model& best = *m_selection.best;
-  std::vector<Tried> list;
-  for (const std::size_t index : m_selection.effects()) {
-    const physics::EffectSpec& spec = best.machine().effects[index];
-    Tried tried{spec.id, spec.id};
-    for (const auto& [key, word] : spec.words) tried.form += fmt::format(" {}={}", key, word);
-    for (std::size_t i = best.unknowns(); i-- > 0;) {
-      const physics::Parameter& unknown = best.unknown(i);
-      if (unknown.effect != static_cast<int>(index)) continue;
-      if (unknown.amplitude) tried.size = best.value(i);
-      const double off = std::abs(best.z()[static_cast<Eigen::Index>(i)]);
-      if (unknown.per_recording) m_out.unusual_start = std::max(m_out.unusual_start, off);
-    }
-    list.push_back(std::move(tried));
-  }
-  std::sort(list.begin(), list.end(), [](const Tried& a, const Tried& b) { return a.form < b.form; });
-  for (Tried& tried : list) {
-    m_out.tried.push_back(std::move(tried.id));
-    m_out.forms.push_back(std::move(tried.form));
-    m_out.sizes.push_back(tried.size);
-  }
-}
-
-void Diagnoser::judge() {
-  const physics::Prediction of_base = m_selection.base->prediction();
-  const physics::Prediction of_best = m_selection.best->prediction();
-  const Excess before = excess_under(of_base, *m_default_data);
-  const Excess after = excess_under(of_best, *m_default_data);
-  bool asked = false;  // for more discrepancy than a right model shows
-  for (const auto& channel : likely_discrepancy(*m_default_data, of_best)) {
-    m_out.drift_factor = std::max(m_out.drift_factor, m_wide ? channel.factor : 1.0);
-    asked = asked || channel.asks_for_more();
-  }
-  m_out.excess_before = before.largest;
-  m_out.excess_after = after.largest;
-  m_warmth_left = after.warmest;
-  tell_tried();
-  const bool found = !m_selection.effects().empty();
-  if (!found) {
-    m_out.verdict = after.largest > least_evident ? Verdict::unexplained : Verdict::consistent;
-    if (m_out.verdict == Verdict::consistent && !m_lumps_only && m_selection.settling.empty()) {
-      m_moved_elsewhere = moved_elsewhere(*m_selection.base, m_limits.others);
-    }
-    if (!m_moved_elsewhere.empty() || !m_selection.settling.empty()) m_out.verdict = Verdict::unexplained;
-    m_used = m_selection.base;
-  } else {
-    // A listed effect whose law differs a little leaves a few hundredths of the mismatch; what is not listed is
-    // imitated less well. The proof has the distribution of both.
-    m_out.refuted = refuted();
-    const std::vector<std::size_t> named = m_selection.effects();
-    const bool stands = std::any_of(named.begin(), named.end(),
-                                    [&](std::size_t index) { return stands_still(*m_selection.best, index); });
-    const bool wrong = m_out.refuted || m_selection.falling_heat > 0.0 || !m_selection.settling.empty() || stands ||
-                       only_comes_and_goes();
-    // What stands for many parts as one lump each is a guess, and leaves what it leaves.
-    const double left = leftover(of_best);
-    const bool by_far = !m_lumps_only && left > most_left_widths;
-    const bool poor = wrong || by_far || (asked && left > most_left * leftover(of_base));
-    m_out.verdict = poor ? Verdict::unexplained : Verdict::missing_effect;
-    // A wrong effect can worsen the prediction of another run: it is used only if it really helps.
-    const bool helps = !wrong && after.mean < 0.7 * before.mean;
-    m_used = poor && !helps ? m_selection.base : m_selection.best;
-  }
-  m_far = far_from_description(*m_used);
-}
-
-void Diagnoser::decide() {
-  judge();
-  // A sensor at another place leaves temperatures off, not a displacement alone.
-  const bool anywhere = m_warmth_left > least_evident || names_a_sensor() || !m_far.empty();
-  m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
-                                 anywhere ? Reach::anywhere : Reach::aside, m_context);
-  if (!m_misplaced && correct_description()) judge();
-  const auto beyond_belief = [this] {
-    return is_beyond_belief(m_far) || (m_corrected && is_beyond_belief({*m_corrected}));
-  };
-  const bool unbelievable =
-      m_selection.effects().empty() ? m_out.verdict == Verdict::consistent && beyond_belief() : is_doubtful(m_far);
-  if (m_misplaced || unbelievable) {
-    m_out.verdict = Verdict::unexplained;
-    m_out.doubtful = true;
-    m_used = m_selection.base;
-  }
-  if (m_misplaced) m_far.clear();  // the numbers moved to suit the wrong place
-  if (m_used == m_selection.base) {
-    for (auto& other : m_out.held_out) other.explained = other.refitted;
-  }
-  if (m_corrected) m_far.insert(m_far.begin(), *m_corrected);
-  m_out.refined = refined_machine(*m_used);
-  if (!m_from_each_start || m_used == m_selection.base) return;
-  m_out.refined.reference_temperature_C.reset();
-  m_out.notes.emplace_back("counts_from_each_start");
-}
-
-bool Diagnoser::names_a_sensor() const {
-  const std::vector<std::size_t> named = m_selection.effects();
-  return std::any_of(named.begin(), named.end(), [&](std::size_t index) {
-    return m_selection.best->machine().effects[index].id.starts_with("sensor_");
-  });
-}
-
-/// An open door and bearings that run in have to explain more than a heat that comes and goes at one place, and to
-/// leave nothing of one: whatever wanders there looks like something that happened once.
-bool Diagnoser::only_comes_and_goes() const {
-  constexpr double least_that_counts = 3.0;  // twenty to one; right answers left 1 at most
-  const std::vector<std::size_t> named = m_selection.effects();
-  const Model& best = *m_selection.best;
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    const std::string& id = best.machine().effects[named[i]].id;
-    if (id != "draught" && id != "bearing_run_in") continue;
-    if (evidence_of_wandering_heat(*m_selection.without[i]) > m_selection.shown[i]) return true;
-    if (evidence_of_wandering_heat(best) > least_that_counts) return true;
-  }
-  return false;
 }
 
 /// The others know the place too, each with offsets and a start of its own. What is fitted stays the first's alone.

@@ -254,7 +254,14 @@ double Diagnoser::start_above_room_K(const physics::Component& component) const 
   return component.lump || fault ? 0.0 : physics::start_above_room_K(m_machine, component.id, recording());
 }
 
-void Diagnoser::tell_misplaced() {
+void Diagnoser::tell_wrong_set_up() {
+  if (m_overlong) {
+    m_out.sentences.push_back(explain_note("overlong", {{"component", m_overlong->component},
+                                                        {"described", fmt::format("{:.0f}", m_overlong->described_mm)},
+                                                        {"bare", fmt::format("{:.0f}", m_overlong->bare_mm)},
+                                                        {"fits", fmt::format("{:.0f}", m_overlong->fits_mm)}}));
+  }
+  if (!m_misplaced) return;
   const std::string other = m_misplaced->exchanged_with;
   const char* id = !m_misplaced->all_in.empty() ? "places_in" : other.empty() ? "misplaced" : "exchanged";
   m_out.sentences.push_back(explain_note(id, {{"channel", m_misplaced->channel},

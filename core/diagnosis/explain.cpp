@@ -287,7 +287,8 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     s.id += "_bent";
   }
   if (diagnosis.doubtful) {
-    s.id += noted("misplaced:") || noted("exchanged:") || noted("places_in:") ? "_misplaced" : "_doubtful";
+    const bool elsewhere = noted("misplaced:") || noted("exchanged:") || noted("places_in:");
+    s.id += noted("overlong:") ? "_overlong" : elsewhere ? "_misplaced" : "_doubtful";
   } else if (diagnosis.verdict == Verdict::unexplained) {
     constexpr double told_W = 0.5;  // less would read "about 0 W"
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();

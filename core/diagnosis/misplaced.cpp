@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/diagnosis/parallel.h"
+#include "core/diagnosis/refine.h"
 #include "core/diagnosis/selection.h"
 
 namespace zerodrift::diagnosis {
@@ -223,11 +224,6 @@ physics::Machine without_sensor_faults(physics::Machine machine) {
 
 physics::Machine without_joints(physics::Machine machine) {
   std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate && spec.id == joint_id; });
-  return machine;
-}
-
-physics::Machine without_candidates(physics::Machine machine) {
-  std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate; });
   return machine;
 }
 

@@ -233,4 +233,16 @@ ModelPtr with_places_tried(const ModelPtr& model) {
   return best;
 }
 
+ModelPtr refitted_under(const Model& model, const std::shared_ptr<const Dataset>& data) {
+  auto again = std::make_shared<Model>(model.machine(), data);
+  again->start_from(model, false);
+  again->fit({12, 0.05, true});
+  return again;
+}
+
+physics::Machine without_candidates(physics::Machine machine) {
+  std::erase_if(machine.effects, [](const auto& spec) { return spec.candidate; });
+  return machine;
+}
+
 }  // namespace zerodrift::diagnosis

@@ -44,4 +44,9 @@ ModelPtr in_the_valley_of(const Model& fit, const Model& other);
 /// more than one valley. The best of them, or the model itself.
 ModelPtr with_places_tried(const ModelPtr& model);
 
+/// The same hypothesis fitted under other noise.
+ModelPtr refitted_under(const Model& model, const std::shared_ptr<const Dataset>& data);
+/// As described: without hypotheses.
+physics::Machine without_candidates(physics::Machine machine);
+
 }  // namespace zerodrift::diagnosis

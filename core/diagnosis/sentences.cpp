@@ -72,6 +72,12 @@ constexpr std::array catalogue{
           "stops."},
     Entry{"verdict_unexplained_misplaced",
           "Nothing can be named: the sensors are not where the description has them. Correct that first."},
+    Entry{"verdict_unexplained_overlong",
+          "Nothing can be named: the machine is not as long as described. Correct that first."},
+    Entry{
+        "overlong",
+        "{component} is described {described} mm long, with nothing on its last {bare} mm: a length of about {fits} mm "
+        "explains the recording far better. Measure it."},
     Entry{"misplaced",
           "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
           "check its place, and that it is in millimetres."},

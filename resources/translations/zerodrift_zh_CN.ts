@@ -3554,6 +3554,14 @@
         <translation>无法指明任何效应：传感器的位置与描述不符。请先更正。</translation>
     </message>
     <message>
+        <source>{component} is described {described} mm long, with nothing on its last {bare} mm: a length of about {fits} mm explains the recording far better. Measure it.</source>
+        <translation>{component} 描述为长 {described} mm，其末端 {bare} mm 上没有任何东西：若长约 {fits} mm，则能好得多地解释本次记录。请实测其长度。</translation>
+    </message>
+    <message>
+        <source>Nothing can be named: the machine is not as long as described. Correct that first.</source>
+        <translation>无法指明任何效应：机床部件的长度与描述不符。请先更正。</translation>
+    </message>
+    <message>
         <source>{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: check its place, and that it is in millimetres.</source>
         <translation>{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm 处的：请检查其位置以及单位是否为毫米。</translation>
     </message>

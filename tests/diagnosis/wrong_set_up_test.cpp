@@ -160,6 +160,26 @@ TEST(WrongSetUp, AllPlacesInInchesAreNamed) {
   EXPECT_TRUE(says(*answer, "places_in"));
 }
 
+/// Cut off from what is not there, the rest looks as if it ended in a joint that conducts nothing.
+TEST(WrongSetUp, ARodDescribedTooLongIsNamedAndItsLengthTold) {
+  for (const auto& [seed, id] : {std::pair{327U, "none"}, std::pair{328U, "coolant"}}) {
+    proof::Case one = proof::make_case(seed, id);
+    auto& length = one.machine["components"][0]["length_mm"];
+    const double length_mm = length;
+    length = 1.7 * length_mm;
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_EQ(answer->verdict, Verdict::unexplained) << id;
+    EXPECT_TRUE(answer->effects.empty()) << id << " and " << answer->effects.front().id;
+    EXPECT_TRUE(notes(*answer, "overlong:")) << id;
+    EXPECT_TRUE(says(*answer, "verdict_unexplained_overlong")) << id;
+    const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
+                                   [](const auto& sentence) { return sentence.id == "overlong"; });
+    ASSERT_NE(told, answer->sentences.end()) << id;
+    EXPECT_NEAR(std::stod(told->facts.at("fits")), length_mm, 0.06 * length_mm) << id;
+  }
+}
+
 TEST(WrongSetUp, AStartThatIsNotAtRestIsToldAndNothingIsInventedForIt) {
   int warm_starts = 0;
   for (const unsigned seed : {315U, 316U, 317U, 318U}) {

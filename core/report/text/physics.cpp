@@ -86,6 +86,12 @@ std::vector<TextEntry> texts_of_physics() {
        "，并包含多个转速和停机。"},
       {"Nothing can be named: the sensors are not where the description has them. Correct that first.",
        "无法指明任何效应：传感器的位置与描述不符。请先更正。"},
+      {"{component} is described {described} mm long, with nothing on its last {bare} mm: a length of about {fits} mm "
+       "explains the recording far better. Measure it.",
+       "{component} 描述为长 {described} mm，其末端 {bare} mm 上没有任何东西：若长约 {fits} "
+       "mm，则能好得多地解释本次记录。请实测其长度。"},
+      {"Nothing can be named: the machine is not as long as described. Correct that first.",
+       "无法指明任何效应：机床部件的长度与描述不符。请先更正。"},
       {"{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "
