@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 130> diagnosis = {{
+constexpr std::array<const char*, 132> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -154,6 +154,8 @@ constexpr std::array<const char*, 130> diagnosis = {{
         "stops."),
     QT_TRANSLATE_NOOP("core",
                       "Nothing can be named: the sensors are not where the description has them. Correct that first."),
+    QT_TRANSLATE_NOOP("core", "As heat it would come in between {from} and {to} mm of {component}."),
+    QT_TRANSLATE_NOOP("core", "It shows most at {+spans} min."),
     QT_TRANSLATE_NOOP("core",
                       "{component} is described {described} mm long, with nothing on its last {bare} mm: a length of "
                       "about {fits} mm explains the recording far better. Measure it."),

@@ -162,7 +162,8 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
     const HeldOut& missed_one = first.held_out[worst - 1];
     if (fails_where_it_explains(first, missed_one) || hides_a_movement(first, missed_one)) {
       first.verdict = Verdict::unexplained;
-      first.sentences = {explain_verdict(first)};
+      first.sentences = explain_unexplained(first);
+      first.sentences.insert(first.sentences.begin(), explain_verdict(first));
     }
     first.seconds = other.seconds;
     return first;

@@ -110,6 +110,7 @@ Result<Diagnosis> Diagnoser::run() {
   if (m_overlong) m_out.notes.push_back(note_of(*m_overlong));
   if (m_misplaced) m_out.notes.push_back(note_of(*m_misplaced));
   m_out.sentences.push_back(explain_verdict(m_out));
+  for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
   tell_wrong_set_up();
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());

@@ -140,6 +140,11 @@ void Diagnoser::mismatch() {
   }
   locate();
   times();
+  // What only moves a displacement is no heat, and does not follow what heat does.
+  const auto first = std::find_if(m_out.channels.begin(), m_out.channels.end(),
+                                  [&](const auto& channel) { return channel.channel == m.channels.front(); });
+  if (m.channels.empty() || first == m_out.channels.end() || first->temperature || m_lumps_only) return;
+  m.regime = regime_of(history_of(recording(), first->measured, first->refitted), recording(), driver_of_first());
 }
 
 void Diagnoser::locate() {
@@ -156,7 +161,7 @@ void Diagnoser::locate() {
     m.best_position_mm = scan.best_mm;
     m.scan_position_mm = scan.position_mm;
     m.scan_evidence = scan.evidence;
-    m.regime = regime_of(scan, recording(), driver_of_first());
+    m.regime = regime_of({scan.time_s, scan.watts}, recording(), driver_of_first());
     double sum = 0.0;
     double net = 0.0;
     for (const double w : scan.watts) {
@@ -168,17 +173,36 @@ void Diagnoser::locate() {
   }
 }
 
-/// Stretches of at least a block in which the mismatch is above a third of its largest.
+/// Means over a block about each time: of single rows most is noise.
+static std::vector<double> over_blocks(const std::vector<double>& size, const std::vector<double>& time_s,
+                                       double block_s) {
+  std::vector<double> sum(size.size() + 1, 0.0);
+  for (std::size_t k = 0; k < size.size(); ++k) sum[k + 1] = sum[k] + size[k];
+  std::vector<double> mean(size.size(), 0.0);
+  std::size_t first = 0, last = 0;
+  for (std::size_t k = 0; k < size.size(); ++k) {
+    while (time_s[k] - time_s[first] > 0.5 * block_s) ++first;
+    while (last < size.size() && time_s[last] - time_s[k] <= 0.5 * block_s) ++last;
+    mean[k] = (sum[last] - sum[first]) / static_cast<double>(last - first);
+  }
+  return mean;
+}
+
+/// Stretches, no nearer to each other than a block, in which the mismatch is above a third of its largest.
 void Diagnoser::times() {
+  constexpr double block_s = 900.0;
   std::vector<double> size = m_contribution_in_time;
   if (size.empty()) {
     size.assign(recording().rows(), 0.0);
     for (const auto& channel : m_out.channels) {
+      const auto& named = m_out.mismatch.channels;
+      if (std::count(named.begin(), named.end(), channel.channel) == 0) continue;
       for (std::size_t k = 0; k < size.size(); ++k) {
         const double d = (channel.measured[k] - channel.refitted[k]) / std::max(1e-9, channel.noise);
-        if (std::isfinite(d)) size[k] += d * d;
+        if (std::isfinite(d)) size[k] += d * d - 1.0;
       }
     }
+    size = over_blocks(size, m_out.time_s, block_s);
   }
   const double largest = *std::max_element(size.begin(), size.end());
   bool inside = false;
@@ -186,7 +210,7 @@ void Diagnoser::times() {
     const bool above = size[k] > largest / 9.0;
     if (above && !inside) m_out.mismatch.time_s.emplace_back(m_out.time_s[k], m_out.time_s[k]);
     if (above) m_out.mismatch.time_s.back().second = m_out.time_s[k];
-    inside = above || (inside && m_out.time_s[k] - m_out.mismatch.time_s.back().second < 900.0);
+    inside = above || (inside && m_out.time_s[k] - m_out.mismatch.time_s.back().second < block_s);
   }
 }
 

@@ -324,6 +324,38 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
   return finished(std::move(s));
 }
 
+std::vector<Sentence> explain_unexplained(const Diagnosis& diagnosis) {
+  constexpr double all_the_time = 0.85;
+  constexpr double all_along = 0.5;
+  constexpr std::size_t most_spans = 4;
+  constexpr double worth_telling_s = 600.0;
+  const Mismatch& off = diagnosis.mismatch;
+  std::vector<Sentence> told;
+  if (diagnosis.verdict != Verdict::unexplained || diagnosis.doubtful || diagnosis.time_s.empty()) return told;
+  double off_s = 0.0;
+  std::vector<std::string> spans;
+  for (const auto& [from_s, to_s] : off.time_s) {
+    if (to_s - from_s < worth_telling_s) continue;
+    off_s += to_s - from_s;
+    spans.push_back(fmt::format("{:.0f}–{:.0f}", from_s / 60.0, to_s / 60.0));
+  }
+  const double whole_s = diagnosis.time_s.back() - diagnosis.time_s.front();
+  if (!spans.empty() && spans.size() <= most_spans && off_s < all_the_time * whole_s) {
+    told.push_back(explain_note("unexplained_when", {{"spans", fmt::format("{}", fmt::join(spans, ","))}}));
+  }
+  const auto worst = std::find_if(diagnosis.channels.begin(), diagnosis.channels.end(), [&](const auto& channel) {
+    return !off.channels.empty() && channel.channel == off.channels.front();
+  });
+  const bool warm = worst != diagnosis.channels.end() && worst->temperature;
+  if (!warm || !off.position_mm || off.scan_position_mm.empty() || off.component.empty()) return told;
+  const auto [from_mm, to_mm] = *off.position_mm;
+  if (to_mm - from_mm > all_along * off.scan_position_mm.back()) return told;
+  told.push_back(explain_note(
+      "unexplained_where",
+      {{"from", fmt::format("{:.0f}", from_mm)}, {"to", fmt::format("{:.0f}", to_mm)}, {"component", off.component}}));
+  return told;
+}
+
 Sentence explain_note(const std::string& id, std::map<std::string, std::string> facts) {
   return finished({id, std::move(facts), ""});
 }

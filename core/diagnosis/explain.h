@@ -18,6 +18,8 @@ Sentence explain_misstated(const std::string& effect, const FarParameter& number
 std::string regime_of_effect(const FoundEffect& effect, double end_s);
 Sentence explain_rival(const Rival& rival);
 Sentence explain_verdict(const Diagnosis& diagnosis);
+/// When and where what is unexplained shows, as far as that is known better than "all along" and "all the time".
+std::vector<Sentence> explain_unexplained(const Diagnosis& diagnosis);
 /// "h = 12.7 ± 0.7 W/m²K": a parameter of an effect with a sign that is the same in every language; sigma 0: unknown.
 /// Empty for what is not shown (cosines, logarithms). A figure that holds at one speed says so: "P(8000 rpm) = 26 W".
 std::string parameter_in_words(const std::string& key, double value, double sigma, double at_rpm = 0.0);

@@ -194,6 +194,19 @@ double evidence_of_wandering_heat(const Model& model) {
 
 namespace {
 
+/// Over a block; none where no sample is there.
+std::optional<double> mean_about(const recording::Recording& recording, const std::vector<double>& values,
+                                 double at_s) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < recording.rows(); ++k) {
+    if (!std::isfinite(values[k]) || std::abs(recording.time_s[k] - at_s) > 0.5 * block_s) continue;
+    sum += values[k];
+    ++count;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
 /// The load of a spindle that only turns follows its speed: a recording in which it does says nothing of cutting.
 bool cuts(const recording::Recording& recording) {
   const recording::Channel* load = recording.find("spindle_load_W");
@@ -221,7 +234,19 @@ bool cuts(const recording::Recording& recording) {
 
 }  // namespace
 
-std::string regime_of(const SourceScan& scan, const recording::Recording& recording, const std::string& driven_by) {
+History history_of(const recording::Recording& recording, const std::vector<double>& one,
+                   const std::vector<double>& other) {
+  History history;
+  std::vector<double> off(recording.rows());
+  for (std::size_t k = 0; k < off.size(); ++k) off[k] = one[k] - other[k];
+  for (double t = recording.time_s.front(); t <= recording.time_s.back(); t += block_s) {
+    history.time_s.push_back(t);
+    history.value.push_back(mean_about(recording, off, t).value_or(0.0));
+  }
+  return history;
+}
+
+std::string regime_of(const History& missing, const recording::Recording& recording, const std::string& driven_by) {
   struct Driver {
     const char* channel;
     double power;
@@ -234,10 +259,10 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
                                        {"spindle_load_W", 1.0, "while the machine cuts"},
                                        {"ambient_C", 1.0, "as the room changes"}};
   const double mean =
-      std::accumulate(scan.watts.begin(), scan.watts.end(), 0.0) / static_cast<double>(scan.watts.size());
+      std::accumulate(missing.value.begin(), missing.value.end(), 0.0) / static_cast<double>(missing.value.size());
   double spread = 0.0;
-  for (const double w : scan.watts) spread += (w - mean) * (w - mean);
-  spread = std::sqrt(spread / static_cast<double>(scan.watts.size()));
+  for (const double w : missing.value) spread += (w - mean) * (w - mean);
+  spread = std::sqrt(spread / static_cast<double>(missing.value.size()));
   if (spread < 0.35 * std::abs(mean)) return "all the time";
   std::string best = "at irregular times";
   constexpr double least = 0.55;
@@ -250,19 +275,15 @@ std::string regime_of(const SourceScan& scan, const recording::Recording& record
     if (channel == nullptr) continue;
     const bool load = std::string_view(driver.channel) == "spindle_load_W";
     if (load && !cuts(recording)) continue;
-    std::vector<double> level;
-    for (const double t : scan.time_s) {
-      double sum = 0.0;
-      int count = 0;
-      for (std::size_t k = 0; k < recording.rows(); ++k) {
-        const double v = channel->values[k];
-        if (!std::isfinite(v) || std::abs(recording.time_s[k] - t) > 0.5 * block_s) continue;
-        sum += driver.power == 0.0 ? (v > 1.0 ? 1.0 : 0.0) : std::pow(std::max(0.0, v), driver.power);
-        ++count;
-      }
-      level.push_back(count > 0 ? sum / count : 0.0);
+    std::vector<double> acts = channel->values;
+    for (double& v : acts) {
+      if (std::isfinite(v)) v = driver.power == 0.0 ? (v > 1.0 ? 1.0 : 0.0) : std::pow(std::max(0.0, v), driver.power);
     }
-    const double r = std::abs(correlation(level, scan.watts));
+    std::vector<double> level;
+    for (const double t : missing.time_s) {
+      level.push_back(mean_about(recording, acts, t).value_or(0.0));
+    }
+    const double r = std::abs(correlation(level, missing.value));
     if (driven_by == driver.channel && r > largest_of_the_named) {
       largest_of_the_named = r;
       words_of_the_named = driver.words;

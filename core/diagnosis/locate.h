@@ -24,8 +24,16 @@ struct SourceScan {
 SourceScan scan_sources(const Model& nominal, const std::string& component);
 /// Log evidence of a heat that comes and goes as it likes at one place of a rod, over the fitted model alone.
 double evidence_of_wandering_heat(const Model& model);
-/// "while the spindle turns", "while the coolant runs" ... the input that the missing heat follows best. `driven_by`:
-/// the channel that the named effect follows, empty: none; it is the one where the heat follows it at all.
-std::string regime_of(const SourceScan& scan, const recording::Recording& recording, const std::string& driven_by);
+/// What changes with time: the mean over a block about each of the times.
+struct History {
+  std::vector<double> time_s;
+  std::vector<double> value;
+};
+/// How a channel of a recording, or a simulation of it, differs from another: in blocks.
+History history_of(const recording::Recording& recording, const std::vector<double>& one,
+                   const std::vector<double>& other);
+/// "while the spindle turns", "while the coolant runs" ... the input that what is missing follows best. `driven_by`:
+/// the channel that the named effect follows, empty: none; it is the one where the history follows it at all.
+std::string regime_of(const History& missing, const recording::Recording& recording, const std::string& driven_by);
 
 }  // namespace zerodrift::diagnosis

@@ -27,6 +27,8 @@ constexpr std::array catalogue{
     Entry{"verdict_unexplained_elsewhere",
           "Something is missing that the library does not explain: what fits {channel} in this recording misses the "
           "machine's other recording by {um} µm (rms)."},
+    Entry{"unexplained_when", "It shows most at {+spans} min."},
+    Entry{"unexplained_where", "As heat it would come in between {from} and {to} mm of {component}."},
     Entry{"verdict_missing_effect", "The simulation left out {+effects}."},
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "

@@ -3554,6 +3554,14 @@
         <translation>无法指明任何效应：传感器的位置与描述不符。请先更正。</translation>
     </message>
     <message>
+        <source>As heat it would come in between {from} and {to} mm of {component}.</source>
+        <translation>若视为热量，则由 {component} 的 {from} 至 {to} mm 处进入。</translation>
+    </message>
+    <message>
+        <source>It shows most at {+spans} min.</source>
+        <translation>在第 {+spans} 分钟最为明显。</translation>
+    </message>
+    <message>
         <source>{component} is described {described} mm long, with nothing on its last {bare} mm: a length of about {fits} mm explains the recording far better. Measure it.</source>
         <translation>{component} 描述为长 {described} mm，其末端 {bare} mm 上没有任何东西：若长约 {fits} mm，则能好得多地解释本次记录。请实测其长度。</translation>
     </message>

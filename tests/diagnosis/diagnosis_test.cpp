@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/explain.h"
 #include "core/diagnosis/locate.h"
 #include "core/diagnosis/screening.h"
 #include "core/physics/simulate.h"
@@ -159,10 +160,40 @@ TEST(Diagnosis, ARecordingWithoutExcitationIsNeverAConfidentEffect) {
   EXPECT_NE(std::find(d.notes.begin(), d.notes.end(), "no_excitation"), d.notes.end());
 }
 
+/// A displacement that went its own way for a while: when is told, and no place, as no heat moved it.
+TEST(Diagnosis, WhatIsUnexplainedIsToldWithItsTimesAndHeatWithItsPlace) {
+  Diagnosis answer;
+  answer.verdict = Verdict::unexplained;
+  for (int minute = 0; minute <= 300; ++minute) answer.time_s.push_back(60.0 * minute);
+  answer.channels.resize(2);
+  answer.channels[0].channel = "T1_C";
+  answer.channels[1].channel = "dZ_um";
+  answer.channels[1].temperature = false;
+  Mismatch& off = answer.mismatch;
+  off.component = "spindle";
+  off.scan_position_mm = {0.0, 200.0, 400.0};
+  off.position_mm = {150.0, 190.0};
+  off.time_s = {{1200.0, 3600.0}, {7200.0, 7260.0}, {9000.0, 12000.0}};
+  off.channels = {"dZ_um"};
+  std::vector<Sentence> told = explain_unexplained(answer);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].english, "It shows most at 20–60 and 150–200 min.");
+  off.channels = {"T1_C"};
+  told = explain_unexplained(answer);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[1].english, "As heat it would come in between 150 and 190 mm of spindle.");
+  off.position_mm = {0.0, 390.0};
+  off.time_s = {{0.0, 18000.0}};
+  EXPECT_TRUE(explain_unexplained(answer).empty());
+  answer.verdict = Verdict::missing_effect;
+  off.time_s = {{1200.0, 3600.0}};
+  EXPECT_TRUE(explain_unexplained(answer).empty());
+}
+
 /// In a plan where coolant and speed go together the effect that was named says which of them it was; a load that
 /// follows the speed is no cutting.
 TEST(Diagnosis, TheRegimeIsThatOfTheNamedEffect) {
-  SourceScan scan;
+  History heat;
   recording::Recording run;
   recording::Channel speed{"spindle_rpm", {}}, coolant{"coolant_on", {}}, load{"spindle_load_W", {}};
   for (int minute = 0; minute < 360; ++minute) {
@@ -172,14 +203,14 @@ TEST(Diagnosis, TheRegimeIsThatOfTheNamedEffect) {
     coolant.values.push_back(rpm > 0.0 ? 1.0 : 0.0);
     load.values.push_back(30.0 + 0.1 * rpm);
     if (minute % 30 == 0) {
-      scan.time_s.push_back(60.0 * minute);
-      scan.watts.push_back(-1e-6 * rpm * rpm);
+      heat.time_s.push_back(60.0 * minute);
+      heat.value.push_back(-1e-6 * rpm * rpm);
     }
   }
   run.channels = {speed, coolant, load};
-  EXPECT_NE(regime_of(scan, run, "").find("spindle speed"), std::string::npos);
-  EXPECT_EQ(regime_of(scan, run, "coolant_on"), "while the coolant runs");
-  EXPECT_NE(regime_of(scan, run, "spindle_load_W"), "while the machine cuts");
+  EXPECT_NE(regime_of(heat, run, "").find("spindle speed"), std::string::npos);
+  EXPECT_EQ(regime_of(heat, run, "coolant_on"), "while the coolant runs");
+  EXPECT_NE(regime_of(heat, run, "spindle_load_W"), "while the machine cuts");
 }
 
 }  // namespace zerodrift::diagnosis

@@ -366,6 +366,7 @@ void PhysicsPage::renderExplanations() {
   m_experiment->setTitle(tr("Shortest run that decides"));
   m_experimentText->setText(m_state.nextExperiment);
   m_experimentButton->setText(tr("Put it into the plan"));
+  m_experimentButton->setVisible(m_state.nextIsWarmupRun);
   m_experiment->setVisible(!m_state.nextExperiment.isEmpty());
 }
 

@@ -111,7 +111,8 @@ struct PhysicsState {
   HeatMapData missingHeat{};  // of the chosen component
   QVector<SimulatedChannel> channels{};
   QVector<Explanation> explanations{};
-  QString nextExperiment{};  // one sentence; empty: none needed
+  QString nextExperiment{};     // one sentence; empty: none needed
+  bool nextIsWarmupRun = true;  // can go into the plan editor; else it is done by hand
   QVector<TrialScore> trials{};
   BlindTrial trial{};
   double rmse_K = std::numeric_limits<double>::quiet_NaN();

@@ -49,8 +49,10 @@ void fill_search(const json& body, ui::PhysicsState& state) {
   state.verdict = verdict_of(diagnosis.value("verdict", ""));
   state.verdictSentence = sentences_of(diagnosis);
   const json experiment = diagnosis.value("suggested_experiment", json());
-  if (experiment.is_object())
+  if (experiment.is_object()) {
     state.nextExperiment = sentence_of(experiment.value("said", json()), experiment.value("text", ""));
+    state.nextIsWarmupRun = experiment.value("plan", json()).is_object();
+  }
   const json rmse = diagnosis.value("rmse", json::object());
   state.noise_K = over_temperatures(rmse.value("noise", json::object()));
   const bool adopted = !body.value("adopted", json::array()).empty();

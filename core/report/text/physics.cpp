@@ -86,6 +86,9 @@ std::vector<TextEntry> texts_of_physics() {
        "，并包含多个转速和停机。"},
       {"Nothing can be named: the sensors are not where the description has them. Correct that first.",
        "无法指明任何效应：传感器的位置与描述不符。请先更正。"},
+      {"As heat it would come in between {from} and {to} mm of {component}.",
+       "若视为热量，则由 {component} 的 {from} 至 {to} mm 处进入。"},
+      {"It shows most at {+spans} min.", "在第 {+spans} 分钟最为明显。"},
       {"{component} is described {described} mm long, with nothing on its last {bare} mm: a length of about {fits} mm "
        "explains the recording far better. Measure it.",
        "{component} 描述为长 {described} mm，其末端 {bare} mm 上没有任何东西：若长约 {fits} "
