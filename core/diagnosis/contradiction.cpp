@@ -137,7 +137,7 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   std::vector<recording::Recording> turned = recordings;
   std::swap(turned[0], turned[worst]);
   Diagnoser diagnoser(machine, turned, options, context);
-  Result<Diagnosis> turned_round = diagnoser.run();
+  Result<Diagnosis> turned_round = diagnoser.run(Diagnoser::Of::what_is_named);
   if (!turned_round) {  // held out it did no harm: what is wrong with it does not spoil the first one's answer
     if (turned_round.error().code == ErrorCode::cancelled) return turned_round;
     return first;

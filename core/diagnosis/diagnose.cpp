@@ -59,7 +59,8 @@ Diagnoser::Diagnoser(const Machine& machine, const std::vector<Recording>& recor
   for (std::size_t i = 1; i < recordings.size(); ++i) m_other_rows.push_back(thinned(recordings[i], most_rows));
 }
 
-Result<Diagnosis> Diagnoser::run() {
+Result<Diagnosis> Diagnoser::run(Of use) {
+  m_use = use;
   const auto start = std::chrono::steady_clock::now();
   constexpr double shortest_s = 60.0;  // nothing of a machine warms up in less
   const double whole_s = recording().time_s.back() - recording().time_s.front();

@@ -18,7 +18,9 @@ class Diagnoser {
  public:
   Diagnoser(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
             const DiagnoseOptions& options, const TaskContext& context);
-  Result<Diagnosis> run();
+  /// What the answer is for. Where only one that names something is of use, others are not looked into any further.
+  enum class Of { any, what_is_named };
+  Result<Diagnosis> run(Of use = Of::any);
   /// Once run: do the others bear the answer out (elsewhere.h)?
   bool borne_out_elsewhere() const;
 
@@ -37,6 +39,8 @@ class Diagnoser {
   void tell_tried();
   void judge();
   void decide();
+  bool of_use() const { return m_use == Of::any || m_out.verdict == Verdict::missing_effect; }
+  void check_set_up();
   bool correct_description();
   std::shared_ptr<Model> without_kind(std::size_t i) const;
   bool names_a_sensor() const;
@@ -94,6 +98,7 @@ class Diagnoser {
   const recording::Recording m_fitted;
   std::vector<recording::Recording> m_other_rows;  // thinned alike
   DiagnoseOptions m_options;
+  Of m_use = Of::any;
   const TaskContext& m_context;
   SelectionOptions m_limits;
   std::vector<std::shared_ptr<const Dataset>> m_other_sets;  // as m_limits.others at first

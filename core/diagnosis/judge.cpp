@@ -109,18 +109,26 @@ void Diagnoser::judge() {
   m_far = far_from_description(*m_used);
 }
 
-void Diagnoser::decide() {
-  judge();
+/// Is something described that is not so: a length, a place, two cables?
+void Diagnoser::check_set_up() {
   // A sensor at another place leaves temperatures off, not a displacement alone.
   const bool anywhere = m_warmth_left > least_evident || names_a_sensor() || !m_far.empty();
   if (anywhere || !m_selection.effects().empty()) {
     m_overlong = overlong_rod(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits, m_context);
   }
-  if (!m_overlong) {
-    m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
-                                   anywhere ? Reach::anywhere : Reach::aside, m_context);
+  if (m_overlong) return;
+  m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
+                                 anywhere ? Reach::anywhere : Reach::aside, m_context);
+}
+
+void Diagnoser::decide() {
+  judge();
+  const bool checked = of_use();
+  if (checked) check_set_up();
+  if (!wrong_set_up() && correct_description()) {
+    judge();
+    if (!checked && of_use()) check_set_up();
   }
-  if (!wrong_set_up() && correct_description()) judge();
   const auto beyond_belief = [this] {
     return is_beyond_belief(m_far) || (m_corrected && is_beyond_belief({*m_corrected}));
   };
