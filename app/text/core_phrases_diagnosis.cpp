@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 132> diagnosis = {{
+constexpr std::array<const char*, 136> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -154,12 +154,25 @@ constexpr std::array<const char*, 132> diagnosis = {{
         "stops."),
     QT_TRANSLATE_NOOP("core",
                       "Nothing can be named: the sensors are not where the description has them. Correct that first."),
+    QT_TRANSLATE_NOOP("core",
+                      "{component} is described {described} mm thick: about {fits} mm explains the recording far "
+                      "better. Measure its outer diameter."),
+    QT_TRANSLATE_NOOP("core",
+                      "The sensors of {component} read as if all of them sat about {fits} mm nearer to the fixed end "
+                      "than described: check from where their places are told."),
+    QT_TRANSLATE_NOOP("core",
+                      "The sensors of {component} read as if all of them sat about {fits} mm farther from the fixed "
+                      "end than described: check from where their places are told."),
+    QT_TRANSLATE_NOOP("core",
+                      "The sensors of {component} read as if their places were told from the other end than those of "
+                      "its heat sources: count both from the fixed end."),
     QT_TRANSLATE_NOOP("core", "As heat it would come in between {from} and {to} mm of {component}."),
     QT_TRANSLATE_NOOP("core", "It shows most at {+spans} min."),
     QT_TRANSLATE_NOOP("core",
                       "{component} is described {described} mm long, with nothing on its last {bare} mm: a length of "
                       "about {fits} mm explains the recording far better. Measure it."),
-    QT_TRANSLATE_NOOP("core", "Nothing can be named: the machine is not as long as described. Correct that first."),
+    QT_TRANSLATE_NOOP("core",
+                      "Nothing can be named: the machine does not have the sizes described. Correct that first."),
     QT_TRANSLATE_NOOP(
         "core",
         "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "

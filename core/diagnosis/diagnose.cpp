@@ -108,7 +108,7 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   const bool blind = shows_too_little();
   if (blind) m_out.notes.emplace_back("shows_too_little");
   std::vector<Sentence> far = far_parameters();
-  if (m_overlong) m_out.notes.push_back(note_of(*m_overlong));
+  if (m_wrong_geometry) m_out.notes.push_back(note_of(*m_wrong_geometry));
   if (m_misplaced) m_out.notes.push_back(note_of(*m_misplaced));
   m_out.sentences.push_back(explain_verdict(m_out));
   for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));

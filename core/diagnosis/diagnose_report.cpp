@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -279,11 +280,15 @@ double Diagnoser::start_above_room_K(const physics::Component& component) const 
 }
 
 void Diagnoser::tell_wrong_set_up() {
-  if (m_overlong) {
-    m_out.sentences.push_back(explain_note("overlong", {{"component", m_overlong->component},
-                                                        {"described", fmt::format("{:.0f}", m_overlong->described_mm)},
-                                                        {"bare", fmt::format("{:.0f}", m_overlong->bare_mm)},
-                                                        {"fits", fmt::format("{:.0f}", m_overlong->fits_mm)}}));
+  if (m_wrong_geometry) {
+    constexpr std::array ids{"overlong", "other_end", "datum", "diameter"};
+    const WrongGeometry& wrong = *m_wrong_geometry;
+    const bool nearer = wrong.what == WrongGeometry::What::datum && wrong.fits_mm < 0.0;
+    const char* id = nearer ? "datum_nearer" : ids.at(static_cast<std::size_t>(wrong.what));
+    m_out.sentences.push_back(explain_note(id, {{"component", wrong.component},
+                                                {"described", fmt::format("{:.0f}", wrong.described_mm)},
+                                                {"bare", fmt::format("{:.0f}", wrong.bare_mm)},
+                                                {"fits", fmt::format("{:.0f}", std::abs(wrong.fits_mm))}}));
   }
   if (!m_misplaced) return;
   const std::string other = m_misplaced->exchanged_with;

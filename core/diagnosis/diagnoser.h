@@ -4,9 +4,9 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/misplaced.h"
-#include "core/diagnosis/overlong.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/selection.h"
+#include "core/diagnosis/wrong_geometry.h"
 
 namespace zerodrift::diagnosis {
 
@@ -58,7 +58,7 @@ class Diagnoser {
   void rivals();
   bool shows_too_little() const;
   void tell_wrong_set_up();
-  bool wrong_set_up() const { return m_overlong || m_misplaced; }
+  bool wrong_set_up() const { return m_wrong_geometry || m_misplaced; }
   double start_above_room_K(const physics::Component& component) const;
   bool steady_inputs() const;
   void hidden_by_steadiness();
@@ -113,7 +113,7 @@ class Diagnoser {
   std::shared_ptr<Model> m_used;
   std::vector<FarParameter> m_far;          // of what explains best
   std::optional<FarParameter> m_corrected;  // the description is taken with this number changed
-  std::optional<Overlong> m_overlong;
+  std::optional<WrongGeometry> m_wrong_geometry;
   std::optional<Misplaced> m_misplaced;
   std::vector<Sentence> m_misstated;     // of what is named beside them
   std::optional<SeenByAll> m_of_others;  // the best in the others, where it fits them; once asked

@@ -160,7 +160,8 @@ struct DiagnoseOptions {
 /// recording shows that something moves the nose that the description has not. Note "shows_too_little": nothing is
 /// found missing, but most effects of usual size would not have shown. Note "misplaced:CHANNEL",
 /// "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the sensors are not where the description has them (misplaced.h).
-/// Note "overlong:COMPONENT": it is not as long as described (overlong.h).
+/// "overlong:COMPONENT", "other_end:COMPONENT", "datum:COMPONENT" or "diameter:COMPONENT": nor is that part of the
+/// shape described (wrong_geometry.h).
 /// Note "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much (clock_jumps.h). Note
 /// "load_in_other_unit:RECORDING:UNIT": its load would be one in kW or %, and is next to nothing in W. Note
 /// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that

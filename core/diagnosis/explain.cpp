@@ -287,8 +287,12 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     s.id += "_bent";
   }
   if (diagnosis.doubtful) {
-    const bool elsewhere = noted("misplaced:") || noted("exchanged:") || noted("places_in:");
-    s.id += noted("overlong:") ? "_overlong" : elsewhere ? "_misplaced" : "_doubtful";
+    const auto any_of = [&](std::initializer_list<const char*> notes) {
+      return std::any_of(notes.begin(), notes.end(), noted);
+    };
+    s.id += any_of({"overlong:", "diameter:"})                                           ? "_misshapen"
+            : any_of({"misplaced:", "exchanged:", "places_in:", "other_end:", "datum:"}) ? "_misplaced"
+                                                                                         : "_doubtful";
   } else if (diagnosis.verdict == Verdict::unexplained) {
     constexpr double told_W = 0.5;  // less would read "about 0 W"
     const std::string channel = diagnosis.mismatch.channels.empty() ? "" : diagnosis.mismatch.channels.front();

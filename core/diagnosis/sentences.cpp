@@ -74,8 +74,20 @@ constexpr std::array catalogue{
           "stops."},
     Entry{"verdict_unexplained_misplaced",
           "Nothing can be named: the sensors are not where the description has them. Correct that first."},
-    Entry{"verdict_unexplained_overlong",
-          "Nothing can be named: the machine is not as long as described. Correct that first."},
+    Entry{"verdict_unexplained_misshapen",
+          "Nothing can be named: the machine does not have the sizes described. Correct that first."},
+    Entry{"other_end",
+          "The sensors of {component} read as if their places were told from the other end than those of its heat "
+          "sources: count both from the fixed end."},
+    Entry{"datum",
+          "The sensors of {component} read as if all of them sat about {fits} mm farther from the fixed end than "
+          "described: check from where their places are told."},
+    Entry{"datum_nearer",
+          "The sensors of {component} read as if all of them sat about {fits} mm nearer to the fixed end than "
+          "described: check from where their places are told."},
+    Entry{"diameter",
+          "{component} is described {described} mm thick: about {fits} mm explains the recording far better. Measure "
+          "its outer diameter."},
     Entry{
         "overlong",
         "{component} is described {described} mm long, with nothing on its last {bare} mm: a length of about {fits} mm "

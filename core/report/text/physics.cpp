@@ -86,6 +86,18 @@ std::vector<TextEntry> texts_of_physics() {
        "，并包含多个转速和停机。"},
       {"Nothing can be named: the sensors are not where the description has them. Correct that first.",
        "无法指明任何效应：传感器的位置与描述不符。请先更正。"},
+      {"{component} is described {described} mm thick: about {fits} mm explains the recording far better. Measure its "
+       "outer diameter.",
+       "{component} 描述为直径 {described} mm：若约为 {fits} mm，则能好得多地解释本次记录。请实测其外径。"},
+      {"The sensors of {component} read as if all of them sat about {fits} mm nearer to the fixed end than described: "
+       "check from where their places are told.",
+       "{component} 的各传感器读数表明它们全都比描述中离固定端近约 {fits} mm：请检查其位置从何处量起。"},
+      {"The sensors of {component} read as if all of them sat about {fits} mm farther from the fixed end than "
+       "described: check from where their places are told.",
+       "{component} 的各传感器读数表明它们全都比描述中离固定端远约 {fits} mm：请检查其位置从何处量起。"},
+      {"The sensors of {component} read as if their places were told from the other end than those of its heat "
+       "sources: count both from the fixed end.",
+       "{component} 的传感器读数表明其位置与热源位置是从相反的两端量起的：两者都应从固定端量起。"},
       {"As heat it would come in between {from} and {to} mm of {component}.",
        "若视为热量，则由 {component} 的 {from} 至 {to} mm 处进入。"},
       {"It shows most at {+spans} min.", "在第 {+spans} 分钟最为明显。"},
@@ -93,8 +105,8 @@ std::vector<TextEntry> texts_of_physics() {
        "explains the recording far better. Measure it.",
        "{component} 描述为长 {described} mm，其末端 {bare} mm 上没有任何东西：若长约 {fits} "
        "mm，则能好得多地解释本次记录。请实测其长度。"},
-      {"Nothing can be named: the machine is not as long as described. Correct that first.",
-       "无法指明任何效应：机床部件的长度与描述不符。请先更正。"},
+      {"Nothing can be named: the machine does not have the sizes described. Correct that first.",
+       "无法指明任何效应：机床的尺寸与描述不符。请先更正。"},
       {"{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "

@@ -1,0 +1,244 @@
+#include "core/diagnosis/wrong_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/diagnosis/bodies.h"
+#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/plausible.h"
+#include "core/diagnosis/refine.h"
+
+namespace zerodrift::diagnosis {
+namespace {
+
+using physics::Component;
+using physics::Machine;
+using What = WrongGeometry::What;
+
+constexpr double long_end = 0.25;       // of the length: what is nearer the end than that hardly feels it
+constexpr double worth_a_look = 25.0;   // in log evidence, before anything missing is sought beside it
+constexpr double most_left_over = 3.0;  // excess
+constexpr double slight_shift = 0.06;   // of the length
+constexpr double slight_factor = 1.4;   // of the diameter
+constexpr FitOptions shape_fit{12, 0.05, true};
+
+/// What may be wrong, and with which values: in mm, or as a factor of the diameter.
+struct Mistake {
+  What what = What::length;
+  std::vector<double> values;  // rising
+  double low = 0.0, high = 0.0;
+  double clearly = 25.0;  // in log evidence: descriptions are mostly right
+};
+
+struct Shape {
+  double value = 0.0;
+  std::shared_ptr<Model> fit;
+};
+
+bool less_likely(const Shape& a, const Shape& b) {
+  return a.fit->log_evidence() < b.fit->log_evidence();
+}
+
+/// The farthest place of a rod on which the description has anything.
+double last_known_mm(const Machine& machine, const Component& rod) {
+  double last_mm = 0.0;
+  const auto take = [&](double at_mm) { last_mm = std::max(last_mm, at_mm); };
+  for (const auto& source : rod.sources) take(source.to_mm);
+  for (const auto& sensor : machine.sensors) {
+    if (sensor.component == rod.id) take(sensor.position_mm);
+  }
+  for (const auto& coupling : machine.couplings) {
+    for (const auto* end : {&coupling.first, &coupling.second}) {
+      if (end->component == rod.id) take(end->position_mm);
+    }
+  }
+  for (const auto& spec : machine.effects) {
+    if (spec.word_or("component", rod.id) != rod.id) continue;
+    for (const char* place : {"position_mm", "to_mm"}) take(spec.number_or(place, 0.0));
+  }
+  return last_mm;
+}
+
+/// First and last sensor.
+std::pair<double, double> sensors_between(const Machine& machine, const std::string& rod) {
+  double first_mm = 1e300, last_mm = -1e300;
+  for (const auto& sensor : machine.sensors) {
+    if (sensor.component != rod) continue;
+    first_mm = std::min(first_mm, sensor.position_mm);
+    last_mm = std::max(last_mm, sensor.position_mm);
+  }
+  return {first_mm, last_mm};
+}
+
+std::vector<Mistake> mistakes_of(const Machine& machine, const Component& rod, bool any) {
+  std::vector<Mistake> list;
+  const double last_mm = last_known_mm(machine, rod);
+  const double bare_mm = rod.length_mm - last_mm;
+  if (bare_mm > long_end * rod.length_mm && last_mm > 0.0) {
+    Mistake length{What::length, {}, last_mm, rod.length_mm, 10.0};
+    for (const double share : {0.02, 0.08, 0.2, 0.4, 0.65}) length.values.push_back(last_mm + share * bare_mm);
+    list.push_back(std::move(length));
+  }
+  if (!any) return list;
+  const auto [first_sensor_mm, last_sensor_mm] = sensors_between(machine, rod.id);
+  if (last_sensor_mm <= first_sensor_mm) return list;
+  list.push_back({What::other_end, {0.0}, 0.0, 0.0, 10.0});
+  Mistake datum{What::datum, {}, -first_sensor_mm, rod.length_mm - last_sensor_mm};
+  for (const double share : {-0.2, -0.13, -0.08, 0.08, 0.13, 0.2}) {
+    const double by_mm = share * rod.length_mm;
+    if (by_mm >= datum.low && by_mm <= datum.high) datum.values.push_back(by_mm);
+  }
+  if (!datum.values.empty()) list.push_back(std::move(datum));
+  list.push_back({What::diameter, {0.5, 0.65, 1.5, 2.0}, 0.45, 2.2});
+  return list;
+}
+
+Machine with_mistake(Machine machine, const std::string& rod, What what, double value) {
+  Component& component =
+      *std::find_if(machine.components.begin(), machine.components.end(), [&](const auto& c) { return c.id == rod; });
+  if (what == What::length) component.length_mm = value;
+  if (what == What::diameter) {
+    component.outer_diameter_mm *= value;
+    component.bore_diameter_mm = std::min(component.bore_diameter_mm, 0.9 * component.outer_diameter_mm);
+  }
+  for (physics::Sensor& sensor : machine.sensors) {
+    if (sensor.component != rod) continue;
+    if (what == What::other_end) sensor.position_mm = component.length_mm - sensor.position_mm;
+    if (what == What::datum) sensor.position_mm = std::clamp(sensor.position_mm + value, 0.0, component.length_mm);
+  }
+  return with_inner_bodies(std::move(machine));
+}
+
+/// Without what a wrong shape passes for.
+std::vector<physics::EffectSpec> without_imitations(std::vector<physics::EffectSpec> effects) {
+  constexpr std::array imitations{"contact_resistance", "extra_heat_source", "standing_heat",
+                                  "structure_ambient",  "sensor_gain",       "bearing_preload"};
+  std::erase_if(effects, [&](const auto& spec) {
+    return spec.candidate && std::count(imitations.begin(), imitations.end(), spec.id) != 0;
+  });
+  return effects;
+}
+
+/// One mistake in one rod, and what stands there without it.
+class Corrected {
+ public:
+  Corrected(const Machine& described, std::string rod, Mistake mistake, std::shared_ptr<const Dataset> data)
+      : m_described(described), m_rod(std::move(rod)), m_mistake(std::move(mistake)), m_data(std::move(data)) {}
+
+  /// The value that suits the recording best beside some effects. `like`: fitted to one not far off; null: each starts
+  /// from the description, as what was fitted to the wrong shape is bent.
+  Shape best_with(const std::vector<physics::EffectSpec>& effects, const Model* like) const {
+    std::vector<Shape> shapes;
+    for (const double value : m_mistake.values) shapes.push_back({value, {}});
+    fit_all(shapes, effects, like);
+    const auto best = std::max_element(shapes.begin(), shapes.end(), less_likely);
+    if (shapes.size() == 1) return *best;
+    const double before = best == shapes.begin() ? m_mistake.low : std::prev(best)->value;
+    const double after = std::next(best) == shapes.end() ? m_mistake.high : std::next(best)->value;
+    std::vector<Shape> nearer;
+    for (const double share : {0.33, 0.67}) {
+      nearer.push_back({std::lerp(before, best->value, share), {}});
+      nearer.push_back({std::lerp(best->value, after, share), {}});
+    }
+    // None that is hardly a mistake: what it would be good for is other than that.
+    std::erase_if(nearer, [&](const Shape& one) { return is_slight(one.value); });
+    fit_all(nearer, effects, like);
+    nearer.push_back(*best);
+    return *std::max_element(nearer.begin(), nearer.end(), less_likely);
+  }
+
+  const Mistake& mistake() const { return m_mistake; }
+
+ private:
+  bool is_slight(double value) const {
+    switch (m_mistake.what) {
+      case What::datum:
+        return std::abs(value) < slight_shift * m_described.find(m_rod)->length_mm;
+      case What::diameter:
+        return std::abs(std::log(value)) < std::log(slight_factor);
+      case What::length:
+      case What::other_end:
+        break;
+    }
+    return false;
+  }
+  void fit_all(std::vector<Shape>& shapes, const std::vector<physics::EffectSpec>& effects, const Model* like) const {
+    in_parallel(shapes.size(), [&](std::size_t i) {
+      Machine machine = with_mistake(m_described, m_rod, m_mistake.what, shapes[i].value);
+      machine.effects = effects;
+      shapes[i].fit = std::make_shared<Model>(std::move(machine), m_data);
+      if (like != nullptr) shapes[i].fit->start_from(*like, false);
+      shapes[i].fit->fit(shape_fit);
+    });
+  }
+
+  const Machine& m_described;
+  std::string m_rod;
+  Mistake m_mistake;
+  std::shared_ptr<const Dataset> m_data;
+};
+
+std::size_t candidates_of(const Model& model) {
+  const auto& effects = model.machine().effects;
+  return static_cast<std::size_t>(
+      std::count_if(effects.begin(), effects.end(), [](const auto& spec) { return spec.candidate; }));
+}
+
+}  // namespace
+
+std::string note_of(const WrongGeometry& found) {
+  constexpr std::array names{"overlong:", "other_end:", "datum:", "diameter:"};
+  return names[static_cast<std::size_t>(found.what)] + found.component;
+}
+
+std::optional<WrongGeometry> wrong_geometry(const GeometryAsked& asked, const physics::RunFacts& facts,
+                                            SelectionOptions limits, const TaskContext& context) {
+  limits.others.clear();
+  const auto& [as_written, base, best, stands, data] = asked;
+  Machine described = as_written;
+  described.reference_temperature_C = base.machine().reference_temperature_C;
+  // One effect that explains everything is no sign of a wrong shape.
+  const bool any = !stands || candidates_of(best) > 1;
+  ModelPtr none, named;
+  for (const Component& rod : described.components) {
+    if (rod.lump || rod.prescribed) continue;
+    for (Mistake& mistake : mistakes_of(described, rod, any)) {
+      if (none == nullptr) {
+        none = refitted_under(base, data);
+        named = refitted_under(best, data);
+      }
+      const Corrected corrected(described, rod.id, std::move(mistake), data);
+      Shape found = corrected.best_with(none->machine().effects, nullptr);
+      const std::vector<physics::EffectSpec> kept = without_imitations(named->machine().effects);
+      if (kept.size() > none->machine().effects.size()) {
+        Shape beside = corrected.best_with(kept, nullptr);
+        if (less_likely(found, beside)) std::swap(found, beside);
+      }
+      if (found.fit->log_evidence() < none->log_evidence() + worth_a_look) continue;
+      const auto wins = [&](const Shape& shape) {
+        const bool simpler =
+            corrected.mistake().what == What::length || !stands || candidates_of(*shape.fit) < candidates_of(best);
+        return simpler && shape.fit->log_evidence() > named->log_evidence() + corrected.mistake().clearly &&
+               excess_of(*shape.fit).largest <= most_left_over && far_from_description(*shape.fit).empty();
+      };
+      if (!wins(found)) {
+        const auto selected = select_effects(without_candidates(found.fit->machine()), data, facts, limits, context);
+        if (!selected || selected->effects().empty()) continue;
+        found = corrected.best_with(selected->best->machine().effects, selected->best.get());
+        if (!wins(found)) continue;
+      }
+      WrongGeometry told{corrected.mistake().what, rod.id, rod.length_mm, found.value, 0.0};
+      if (told.what == What::length) told.bare_mm = rod.length_mm - corrected.mistake().low;
+      if (told.what == What::diameter) {
+        told.described_mm = rod.outer_diameter_mm;
+        told.fits_mm = found.value * rod.outer_diameter_mm;
+      }
+      return told;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace zerodrift::diagnosis
