@@ -19,6 +19,7 @@ using What = WrongGeometry::What;
 
 constexpr double long_end = 0.25;       // of the length: what is nearer the end than that hardly feels it
 constexpr double worth_a_look = 25.0;   // in log evidence, before anything missing is sought beside it
+constexpr double much = 0.3;            // of what imitations explain
 constexpr double most_left_over = 3.0;  // excess
 constexpr double slight_shift = 0.06;   // of the length
 constexpr double slight_factor = 1.4;   // of the diameter
@@ -111,14 +112,11 @@ Machine with_mistake(Machine machine, const std::string& rod, What what, double 
   return with_inner_bodies(std::move(machine));
 }
 
-/// Without what a wrong shape passes for.
-std::vector<physics::EffectSpec> without_imitations(std::vector<physics::EffectSpec> effects) {
-  constexpr std::array imitations{"contact_resistance", "extra_heat_source", "standing_heat",
-                                  "structure_ambient",  "sensor_gain",       "bearing_preload"};
-  std::erase_if(effects, [&](const auto& spec) {
-    return spec.candidate && std::count(imitations.begin(), imitations.end(), spec.id) != 0;
-  });
-  return effects;
+/// What a wrong shape passes for.
+bool is_imitation(const physics::EffectSpec& spec) {
+  constexpr std::array imitations{"contact_resistance", "extra_heat_source", "standing_heat",    "structure_ambient",
+                                  "sensor_gain",        "bearing_preload",   "bearing_viscosity"};
+  return spec.candidate && std::count(imitations.begin(), imitations.end(), spec.id) != 0;
 }
 
 /// One mistake in one rod, and what stands there without it.
@@ -186,6 +184,57 @@ std::size_t candidates_of(const Model& model) {
       std::count_if(effects.begin(), effects.end(), [](const auto& spec) { return spec.candidate; }));
 }
 
+/// What a shape has to do better than.
+struct Rivals {
+  bool stands = true;
+  ModelPtr named;         // with what is named
+  ModelPtr no_imitation;  // without what of that a wrong shape passes for
+  ModelPtr none;
+
+  bool lose_to(const Shape& shape, const Mistake& mistake) const {
+    const bool simpler = mistake.what == What::length || !stands || candidates_of(*shape.fit) < candidates_of(*named);
+    return simpler && shape.fit->log_evidence() > named->log_evidence() + mistake.clearly &&
+           excess_of(*shape.fit).largest <= most_left_over && far_from_description(*shape.fit).empty();
+  }
+  /// Does it do much of what the imitations do?
+  bool come_near(const Shape& shape, const Model& plain) const {
+    const double of_imitations = named->log_evidence() - plain.log_evidence();
+    return shape.fit->log_evidence() > plain.log_evidence() + std::max(worth_a_look, much * of_imitations);
+  }
+};
+
+/// The shape without the mistake that beats the rivals: as it is, beside what is no imitation, or with what is then
+/// found missing.
+std::optional<Shape> winner(const Corrected& corrected, const Rivals& rivals, const physics::RunFacts& facts,
+                            const SelectionOptions& limits, const TaskContext& context) {
+  std::vector<ModelPtr> plain = {rivals.no_imitation};
+  if (rivals.none != rivals.no_imitation) plain.push_back(rivals.none);
+  ModelPtr next;
+  for (const ModelPtr& without : plain) {
+    const Shape shape = corrected.best_with(without->machine().effects, nullptr);
+    if (rivals.lose_to(shape, corrected.mistake())) return shape;
+    if (next == nullptr && rivals.come_near(shape, *without)) next = shape.fit;
+  }
+  if (next == nullptr) return std::nullopt;
+  const auto selected =
+      select_effects(without_candidates(next->machine()), next->shared_data(), facts, limits, context);
+  if (!selected || selected->effects().empty()) return std::nullopt;
+  const Shape shape = corrected.best_with(selected->best->machine().effects, selected->best.get());
+  return rivals.lose_to(shape, corrected.mistake()) ? std::optional(shape) : std::nullopt;
+}
+
+Rivals rivals_of(const GeometryAsked& asked) {
+  Rivals rivals{asked.stands, refitted_under(asked.best, asked.data), nullptr, refitted_under(asked.base, asked.data)};
+  Machine machine = asked.best.machine();
+  std::erase_if(machine.effects, is_imitation);
+  rivals.no_imitation = rivals.none;
+  if (machine.effects.size() == rivals.none->machine().effects.size()) return rivals;
+  rivals.no_imitation = std::make_shared<Model>(std::move(machine), asked.data);
+  rivals.no_imitation->start_from(*rivals.none, false);
+  rivals.no_imitation->fit(shape_fit);
+  return rivals;
+}
+
 }  // namespace
 
 std::string note_of(const WrongGeometry& found) {
@@ -196,44 +245,25 @@ std::string note_of(const WrongGeometry& found) {
 std::optional<WrongGeometry> wrong_geometry(const GeometryAsked& asked, const physics::RunFacts& facts,
                                             SelectionOptions limits, const TaskContext& context) {
   limits.others.clear();
-  const auto& [as_written, base, best, stands, data] = asked;
-  Machine described = as_written;
-  described.reference_temperature_C = base.machine().reference_temperature_C;
+  Machine described = asked.described;
+  described.reference_temperature_C = asked.base.machine().reference_temperature_C;
+  const auto& effects = asked.best.machine().effects;
+  const bool imitated = std::any_of(effects.begin(), effects.end(), is_imitation);
   // One effect that explains everything is no sign of a wrong shape.
-  const bool any = !stands || candidates_of(best) > 1;
-  ModelPtr none, named;
+  const bool any = !asked.stands || (imitated && candidates_of(asked.best) > 1);
+  std::optional<Rivals> rivals;
   for (const Component& rod : described.components) {
     if (rod.lump || rod.prescribed) continue;
     for (Mistake& mistake : mistakes_of(described, rod, any)) {
-      if (none == nullptr) {
-        none = refitted_under(base, data);
-        named = refitted_under(best, data);
-      }
-      const Corrected corrected(described, rod.id, std::move(mistake), data);
-      Shape found = corrected.best_with(none->machine().effects, nullptr);
-      const std::vector<physics::EffectSpec> kept = without_imitations(named->machine().effects);
-      if (kept.size() > none->machine().effects.size()) {
-        Shape beside = corrected.best_with(kept, nullptr);
-        if (less_likely(found, beside)) std::swap(found, beside);
-      }
-      if (found.fit->log_evidence() < none->log_evidence() + worth_a_look) continue;
-      const auto wins = [&](const Shape& shape) {
-        const bool simpler =
-            corrected.mistake().what == What::length || !stands || candidates_of(*shape.fit) < candidates_of(best);
-        return simpler && shape.fit->log_evidence() > named->log_evidence() + corrected.mistake().clearly &&
-               excess_of(*shape.fit).largest <= most_left_over && far_from_description(*shape.fit).empty();
-      };
-      if (!wins(found)) {
-        const auto selected = select_effects(without_candidates(found.fit->machine()), data, facts, limits, context);
-        if (!selected || selected->effects().empty()) continue;
-        found = corrected.best_with(selected->best->machine().effects, selected->best.get());
-        if (!wins(found)) continue;
-      }
-      WrongGeometry told{corrected.mistake().what, rod.id, rod.length_mm, found.value, 0.0};
+      if (!rivals) rivals = rivals_of(asked);
+      const Corrected corrected(described, rod.id, std::move(mistake), asked.data);
+      const std::optional<Shape> found = winner(corrected, *rivals, facts, limits, context);
+      if (!found) continue;
+      WrongGeometry told{corrected.mistake().what, rod.id, rod.length_mm, found->value, 0.0};
       if (told.what == What::length) told.bare_mm = rod.length_mm - corrected.mistake().low;
       if (told.what == What::diameter) {
         told.described_mm = rod.outer_diameter_mm;
-        told.fits_mm = found.value * rod.outer_diameter_mm;
+        told.fits_mm = found->value * rod.outer_diameter_mm;
       }
       return told;
     }
