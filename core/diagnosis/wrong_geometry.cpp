@@ -25,9 +25,9 @@ constexpr double slight_shift = 0.06;   // of the length
 constexpr double slight_factor = 1.4;   // of the diameter
 constexpr FitOptions shape_fit{12, 0.05, true};
 
-/// What may be wrong, and with which values: in mm, or as a factor of the diameter.
+/// What may be wrong, and with which values: in mm, or as a factor of the diameter or of all its heat.
 struct Mistake {
-  What what = What::length;
+  std::optional<What> what;    // none: all heat, the rival of a diameter
   std::vector<double> values;  // rising
   double low = 0.0, high = 0.0;
   double clearly = 25.0;  // in log evidence: descriptions are mostly right
@@ -96,9 +96,12 @@ std::vector<Mistake> mistakes_of(const Machine& machine, const Component& rod, b
   return list;
 }
 
-Machine with_mistake(Machine machine, const std::string& rod, What what, double value) {
+Machine with_mistake(Machine machine, const std::string& rod, std::optional<What> what, double value) {
   Component& component =
       *std::find_if(machine.components.begin(), machine.components.end(), [&](const auto& c) { return c.id == rod; });
+  if (!what) {
+    for (physics::HeatSource& source : component.sources) source.scale *= value;
+  }
   if (what == What::length) component.length_mm = value;
   if (what == What::diameter) {
     component.outer_diameter_mm *= value;
@@ -151,16 +154,8 @@ class Corrected {
 
  private:
   bool is_slight(double value) const {
-    switch (m_mistake.what) {
-      case What::datum:
-        return std::abs(value) < slight_shift * m_described.find(m_rod)->length_mm;
-      case What::diameter:
-        return std::abs(std::log(value)) < std::log(slight_factor);
-      case What::length:
-      case What::other_end:
-        break;
-    }
-    return false;
+    if (m_mistake.what == What::datum) return std::abs(value) < slight_shift * m_described.find(m_rod)->length_mm;
+    return m_mistake.what == What::diameter && std::abs(std::log(value)) < std::log(slight_factor);
   }
   void fit_all(std::vector<Shape>& shapes, const std::vector<physics::EffectSpec>& effects, const Model* like) const {
     in_parallel(shapes.size(), [&](std::size_t i) {
@@ -223,6 +218,15 @@ std::optional<Shape> winner(const Corrected& corrected, const Rivals& rivals, co
   return rivals.lose_to(shape, corrected.mistake()) ? std::optional(shape) : std::nullopt;
 }
 
+/// A thinner rod is one with more heat, but for its film: which of them is wrong is told only where that decides.
+bool may_be_heat(const Machine& described, const std::string& rod, const Shape& thinner,
+                 const std::shared_ptr<const Dataset>& data) {
+  constexpr double decides = 3.0;
+  const Corrected heat(described, rod, {std::nullopt, {0.25, 0.4, 0.63, 1.6, 2.5, 4.0}, 0.15, 6.0}, data);
+  const Shape rival = heat.best_with(thinner.fit->machine().effects, nullptr);
+  return rival.fit->log_evidence() > thinner.fit->log_evidence() - decides;
+}
+
 Rivals rivals_of(const GeometryAsked& asked) {
   Rivals rivals{asked.stands, refitted_under(asked.best, asked.data), nullptr, refitted_under(asked.base, asked.data)};
   Machine machine = asked.best.machine();
@@ -259,7 +263,9 @@ std::optional<WrongGeometry> wrong_geometry(const GeometryAsked& asked, const ph
       const Corrected corrected(described, rod.id, std::move(mistake), asked.data);
       const std::optional<Shape> found = winner(corrected, *rivals, facts, limits, context);
       if (!found) continue;
-      WrongGeometry told{corrected.mistake().what, rod.id, rod.length_mm, found->value, 0.0};
+      const What what = *corrected.mistake().what;
+      if (what == What::diameter && may_be_heat(described, rod.id, *found, asked.data)) continue;
+      WrongGeometry told{what, rod.id, rod.length_mm, found->value, 0.0};
       if (told.what == What::length) told.bare_mm = rod.length_mm - corrected.mistake().low;
       if (told.what == What::diameter) {
         told.described_mm = rod.outer_diameter_mm;
