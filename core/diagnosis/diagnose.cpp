@@ -245,7 +245,7 @@ void Diagnoser::effects() {
     // One effect alone: what the table of the channels calls re-fitted is the simulation without it.
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
     const Shown shown = show_best(found, other);
-    found.confidence = confidence_of(found);
+    found.confidence = confidence_of(found, shown);
     doubt_description(found, *without_kind(i));
     end_within_the_run(found);
     const std::vector<FarParameter> far = far_from_description(*without);
@@ -291,7 +291,7 @@ void Diagnoser::end_within_the_run(FoundEffect& found) const {
 }
 
 /// Evidence of the best family of the last level against the other families, tempered (see the proof's reliability).
-double Diagnoser::confidence_of(const FoundEffect& found) const {
+double Diagnoser::confidence_of(const FoundEffect& found, const Shown& shown) const {
   constexpr double temperature = 3.0;
   double others = std::exp(-(found.log_evidence_gain - m_limits.first) / temperature);
   std::map<std::string, double> seen;
@@ -318,7 +318,10 @@ double Diagnoser::confidence_of(const FoundEffect& found) const {
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });
   const bool overshadowed = warm && m_out.time_s.back() - m_out.time_s.front() < outlasted_s;
   const double guessed = !moves() || overshadowed ? 0.7 : m_corrected ? 0.8 : room_guessed || warm ? 0.9 : 1.0;
-  const double poor = (m_out.excess_after > 3.0 ? 0.8 : 1.0) * guessed;
+  // What else is missing does not put in doubt what explains nearly all.
+  constexpr double hardly_any_left = 0.1;
+  const bool nearly_all = m_out.verdict == Verdict::missing_effect && shown.after < hardly_any_left * shown.before;
+  const double poor = (m_out.excess_after > 3.0 && !nearly_all ? 0.8 : 1.0) * guessed;
   return poor * 0.99 / (1.0 + others);
 }
 

@@ -53,7 +53,7 @@ class Diagnoser {
   void effects();
   Shown show_best(FoundEffect& found, const physics::Prediction& without) const;
   void end_within_the_run(FoundEffect& found) const;
-  double confidence_of(const FoundEffect& found) const;
+  double confidence_of(const FoundEffect& found, const Shown& shown) const;
   void doubt_description(FoundEffect& found, const Model& without);
   void rivals();
   bool shows_too_little() const;
