@@ -220,6 +220,18 @@ void fillPhysics(Page* page, const QString& scene) {
               {"radiation", "radiation", true, 71},
               {"sensor_lag", "sensor_lag", true, 88},
               {"contact_resistance", "extra_heat_source", false, 12}};
+  if (scene == "unexplained") {
+    s.verdict = PhysicsVerdict::unexplained;
+    s.verdictSentence =
+        "Something is missing that the library does not explain: worst at T3, while the spindle turns, about "
+        "36 W.\nIt shows most at 30–180 min.\nAs heat it would come in between 150 and 195 mm of "
+        "spindle.";
+    s.explanations.clear();
+    s.nextExperiment =
+        "To tell a sensor that answers late from a joint that conducts badly, switch the heater off and read both by "
+        "hand for 10 min.";
+    s.nextIsWarmupRun = false;
+  }
   if (scene == "trial") {
     s.trial.stage = TrialStage::opened;
     s.trial.seal = "9f2c41d7a0be6e35c8f4b1d20763ac59e1f08b7d5a6c3e94210f7d8b6ac5e3f1";
