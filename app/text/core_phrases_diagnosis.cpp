@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 136> diagnosis = {{
+constexpr std::array<const char*, 137> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -96,6 +96,7 @@ constexpr std::array<const char*, 136> diagnosis = {{
     QT_TRANSLATE_NOOP("core", " between {from} and {to} mm"),
     QT_TRANSLATE_NOOP("core", " of {component}"),
     QT_TRANSLATE_NOOP("core", " and "),
+    QT_TRANSLATE_NOOP("core", " or "),
     QT_TRANSLATE_NOOP("core", "convection to the room"),
     QT_TRANSLATE_NOOP("core", "convection that grows with speed"),
     QT_TRANSLATE_NOOP("core", "radiation to the room"),
@@ -134,7 +135,7 @@ constexpr std::array<const char*, 136> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."),
     QT_TRANSLATE_NOOP(
         "core",
-        "This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
+        "This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have "
         "shown here."),
     QT_TRANSLATE_NOOP("core",
                       "No effect of the library is missing, but the simulation agrees with the recording only with "
@@ -207,7 +208,7 @@ constexpr std::array<const char*, 136> diagnosis = {{
                       "Recording {recording}: the machine description does not name {columns}, which was not used."),
     QT_TRANSLATE_NOOP("core", "about {:.3g} um for {} (is it in mm?)"),
     QT_TRANSLATE_NOOP("core",
-                      "This recording cannot tell whether there is {+effects}: what drives that never acted in it."),
+                      "This recording cannot tell whether there is {|effects}: what drives that never acted in it."),
     QT_TRANSLATE_NOOP(
         "core",
         "The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: "

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/physics/skyline.h"
+
 namespace zerodrift::diagnosis {
 namespace {
 
@@ -259,28 +261,40 @@ double whiten(const Dataset& data, const physics::Prediction& prediction, Eigen:
   return log_determinant;
 }
 
+/// One row of a channel's filter, all columns side by side.
+ZERODRIFT_WIDE static void whiten_row(const Gain& gain, std::size_t columns, const double* __restrict by,
+                                      const double* __restrict slopes, double* __restrict mean,
+                                      double* __restrict out) {
+  for (std::size_t p = 0; p < columns; ++p) {
+    const double expected = mean[p] * gain.fade;
+    const double innovation = by[p] - expected;
+    out[p] = innovation * gain.inverse * slopes[p];
+    mean[p] = expected + gain.update * innovation;
+  }
+}
+
 void whiten_columns(const Dataset& data, const physics::Prediction& prediction, const std::vector<double>& slopes,
                     RowMatrix& jacobian, const std::vector<int>& target_columns) {
   const std::size_t count = prediction.columns;
-  std::vector<double> mean(count);
+  if (count == 0) return;
+  const bool in_order = std::adjacent_find(target_columns.begin(), target_columns.end(),
+                                           [](int a, int b) { return b != a + 1; }) == target_columns.end();
+  std::vector<double> mean(count), row(count);
   for (std::size_t c = 0; c < data.channels.size(); ++c) {
     const MeasuredChannel& channel = data.channels[c];
     std::fill(mean.begin(), mean.end(), 0.0);
     for (std::size_t k = 0; k < data.rows(); ++k) {
       double* out = jacobian.row(static_cast<Eigen::Index>(c * data.rows() + k)).data();
       const bool measured = channel.samples > 0;
-      for (std::size_t p = 0; measured && p < count; ++p) mean[p] *= channel.gains[k].fade;
       if (!measured || !channel.gains[k].present) {
+        for (std::size_t p = 0; measured && p < count; ++p) mean[p] *= channel.gains[k].fade;
         for (const int target : target_columns) out[target] = 0.0;
         continue;
       }
-      const Gain& g = channel.gains[k];
       const double* by = prediction.channels[c].derivatives.data() + k * count;
-      for (std::size_t p = 0; p < count; ++p) {
-        const double innovation = by[p] - mean[p];
-        out[target_columns[p]] = innovation * g.inverse * slopes[p];
-        mean[p] += g.update * innovation;
-      }
+      double* to = in_order ? out + target_columns.front() : row.data();
+      whiten_row(channel.gains[k], count, by, slopes.data(), mean.data(), to);
+      for (std::size_t p = 0; !in_order && p < count; ++p) out[target_columns[p]] = row[p];
     }
   }
 }

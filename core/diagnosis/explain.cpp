@@ -1,6 +1,7 @@
 #include "core/diagnosis/explain.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -70,6 +71,19 @@ std::string with_sigma(double value, double sigma) {
   return number_of(value, sigma) + (sigma > 0.0 ? " ± " + number_of(sigma, sigma) : "");
 }
 
+/// Heat over speed: its ramps in sum, at each quarter of full speed.
+std::string curve_in_words(const FoundEffect& effect) {
+  std::vector<std::string> watts;
+  double sum_W = 0.0;
+  for (const char* ramp : {"watts_to_25", "watts_25_to_50", "watts_50_to_75", "watts_75_to_100"}) {
+    const auto at = effect.parameters.find(ramp);
+    if (at == effect.parameters.end()) return {};
+    sum_W += at->second;
+    watts.push_back(number_of(sum_W, 0.0));
+  }
+  return fmt::format("P(25, 50, 75, 100 %) = {} W", fmt::join(watts, ", "));
+}
+
 double rpm_of(const std::map<std::string, double>& at_rpm, const std::string& key) {
   const auto at = at_rpm.find(key);
   return at == at_rpm.end() ? 0.0 : at->second;
@@ -78,7 +92,7 @@ double rpm_of(const std::map<std::string, double>& at_rpm, const std::string& ke
 /// The neighbour's name, then all parameters in the order of the table: amplitudes before times.
 std::string parameters_in_words(const FoundEffect& effect) {
   const auto neighbour = effect.words.find("neighbour");
-  std::string text = neighbour == effect.words.end() ? "" : neighbour->second;
+  std::string text = neighbour == effect.words.end() ? curve_in_words(effect) : neighbour->second;
   for (const Shown& shown : shown_parameters) {
     const auto at = effect.parameters.find(std::string(shown.key));
     if (at == effect.parameters.end()) continue;
@@ -235,7 +249,7 @@ void put_far(Sentence& s, const FarParameter& far) {
 Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
                         const std::string& worst_channel) {
   Sentence s = about_effect(effect, end_s, worst_channel);
-  constexpr double told = 0.01;  // how it goes can be explained where how far it is off is not
+  constexpr double told = 0.05;  // how it goes can be explained where how far it is off is not
   const double removed = 1.0 - after / std::max(before, 1e-12);
   s.id = removed < told ? "effect_found_course" : "effect_found";
   s.facts["before"] = fmt::format("{:.2g}", before);

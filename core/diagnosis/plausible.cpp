@@ -289,34 +289,37 @@ Status check_scale(const physics::Machine& machine, const Dataset& data, const p
   ZD_CHECK(check_millimetres(machine, data, nominal));
   ZD_CHECK(check_noise(data));
   for (const bool temperature : {true, false}) {
-    Movement largest;
-    std::string name;
+    struct Named {
+      std::string channel;
+      Movement movement;
+    };
+    Named moved, expected;  // the channel that moved most, and that of which most was expected
     for (std::size_t c = 0; c < data.channels.size(); ++c) {
       const MeasuredChannel& channel = data.channels[c];
       if (channel.samples == 0 || channel.temperature != temperature) continue;
       const Movement here = movement(channel, nominal.channels[c].values);
-      if (here.measured > largest.measured) name = channel.name;
-      largest.measured = std::max(largest.measured, here.measured);
-      largest.simulated = std::max(largest.simulated, here.simulated);
+      if (here.measured > moved.movement.measured) moved = {channel.name, here};
+      if (here.simulated > expected.movement.simulated) expected = {channel.name, here};
     }
     // Both have to move by more than noise and a changing room would explain.
     constexpr double little = 0.01;
     const double much = temperature ? 5.0 : 20.0;
-    const bool too_large = largest.measured > much && largest.simulated > little &&
-                           largest.measured > beyond_any_effect * largest.simulated;
+    const double measured = moved.movement.measured, simulated = expected.movement.simulated;
+    const bool too_large = measured > much && simulated > little && measured > beyond_any_effect * simulated;
     // No machine tool warms by so much: less than a hundredfold tells then (sizes in cm heat by ninety times as much).
     constexpr double absurd_K = 150.0;
     constexpr double beyond_most_effects = 20.0;
-    const bool absurd = temperature && largest.simulated > absurd_K;
-    const bool too_small = largest.simulated > much &&
-                           largest.simulated > largest.measured * (absurd ? beyond_most_effects : beyond_any_effect);
+    const bool absurd = temperature && simulated > absurd_K;
+    const bool too_small =
+        simulated > much && simulated > measured * (absurd ? beyond_most_effects : beyond_any_effect);
     if (!too_large && !too_small) continue;
     const char* unit = temperature ? "K" : "um";
+    const Named& told = too_large ? moved : expected;
     return fail(ErrorCode::data_does_not_fit,
-                {{"what", data.recording->name + (name.empty() ? "" : ", channel " + name)},
-                 {"found", fmt::format("a movement of {:.3g} {}", largest.measured, unit)},
-                 {"expected", fmt::format("about {:.3g} {} for {}; check units, geometry and powers", largest.simulated,
-                                          unit, machine.file)}});
+                {{"what", data.recording->name + (told.channel.empty() ? "" : ", channel " + told.channel)},
+                 {"found", fmt::format("a movement of {:.3g} {}", told.movement.measured, unit)},
+                 {"expected", fmt::format("about {:.3g} {} for {}; check units, geometry and powers", simulated, unit,
+                                          machine.file)}});
   }
   return {};
 }

@@ -19,10 +19,13 @@ bool many_forms(const std::string& id) {
 /// The best-scored forms, at most a few a family, and not two neighbouring places of one law.
 std::vector<Candidate> leaders(const Model& base, const std::vector<Candidate>& screened,
                                const RefineOptions& options) {
+  // A fit finds up to seven times what the score promised: what stays far behind even so is not refitted.
+  constexpr double far_behind = 0.03;
+  const double best = screened.empty() ? 0.0 : screened.front().gain;
   std::map<std::string, int> count;
   std::vector<Candidate> chosen;
   for (const auto& candidate : screened) {
-    if (candidate.gain < options.least_gain || chosen.size() >= options.most) break;
+    if (candidate.gain < std::max(options.least_gain, far_behind * best) || chosen.size() >= options.most) break;
     const std::string& id = candidate.spec.id;
     if (count[id] >= options.per_family + (many_forms(id) ? 1 : 0)) continue;
     const physics::Component* component = base.machine().find(candidate.spec.word_or("component", ""));
@@ -152,6 +155,27 @@ std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const p
   if (!own_family) std::erase_if(screened, [&](const Candidate& candidate) { return candidate.spec.id == own; });
   if (screened.size() > 40) screened.resize(40);
   return refine(without, screened, {1, 6.0, own_family ? 8u : 6u});
+}
+
+bool may_catch_up(const Model& model, double behind, std::span<const ModelPtr> before,
+                  const std::vector<Candidate>& screened) {
+  constexpr double beyond_the_score = 20.0;  // and the whole score, where a step that is one saves half of it
+  static constexpr const char* same[] = {"component", "channel", "law"};
+  const auto ends = [](const ModelPtr& one, const physics::EffectSpec& spec) {
+    const physics::EffectSpec& last = last_effect(*one);
+    return last.id == spec.id && std::all_of(std::begin(same), std::end(same), [&](const char* word) {
+             return last.word_or(word, "") == spec.word_or(word, "");
+           });
+  };
+  // From another valley it is not the same.
+  const bool elsewhere = std::any_of(before.begin(), before.end(),
+                                     [&](const auto& one) { return last_effect(*one).id == last_effect(model).id; });
+  for (const Candidate& candidate : screened) {
+    const bool tried = !elsewhere && std::any_of(before.begin(), before.end(),
+                                                 [&](const auto& one) { return ends(one, candidate.spec); });
+    if (!tried) return behind <= candidate.gain + beyond_the_score;  // the best comes first
+  }
+  return behind <= beyond_the_score;
 }
 
 std::vector<ModelPtr> in_other_forms(const Model& model, std::size_t effect, const physics::RunFacts& facts) {

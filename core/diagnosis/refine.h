@@ -2,6 +2,7 @@
 // Candidates made models: the best-scored forms refitted and polished, and the same models started elsewhere.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/diagnosis/screening.h"
@@ -25,6 +26,11 @@ std::vector<ModelPtr> refine(const ModelPtr& base, const std::vector<Candidate>&
 /// The best forms in the place of one effect, fitted, best first; its own family only if `own_family`.
 std::vector<ModelPtr> in_place_of(const Model& best, std::size_t effect, const physics::RunFacts& facts,
                                   bool own_family);
+
+/// Could a model that is `behind` the front of a beam, in log evidence, get there with one more of what was screened
+/// beside it? What ends the models before it in the beam is not counted: the two together were tried from there.
+bool may_catch_up(const Model& model, double behind, std::span<const ModelPtr> before,
+                  const std::vector<Candidate>& screened);
 
 /// One effect in its other forms - another law, bearing or driver; at the same place - fitted from where the model
 /// stands; without those that stay far behind it. Another effect's place found beside a wrong form, and the form chosen

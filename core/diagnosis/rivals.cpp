@@ -7,6 +7,7 @@
 
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/explain.h"
+#include "core/diagnosis/refine.h"
 #include "core/diagnosis/refined.h"
 
 namespace zerodrift::diagnosis {
@@ -52,7 +53,7 @@ void Diagnoser::rivals() {
   const bool one_by_one = m_options.details && (m_out.effects.size() > 1 || m_out.drift_factor > 1.0);
   if (one_by_one) {
     for (const std::size_t index : m_selection.effects()) {
-      for (auto& fit : rivals_of(*m_selection.best, index, m_facts)) others.push_back(std::move(fit));
+      for (auto& fit : in_place_of(*m_selection.best, index, m_facts, false)) others.push_back(std::move(fit));
     }
   } else {
     const std::size_t size = m_selection.best->machine().effects.size();

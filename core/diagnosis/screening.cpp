@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/diagnosis/parallel.h"
 
@@ -193,6 +194,18 @@ void find_pair(const Scores& scores, const std::vector<Candidate>& group, double
   }
 }
 
+/// a' b, its columns side by side: of long matrices, the one thing beside the simulation that takes time.
+Eigen::MatrixXd products(const RowMatrix& a, const RowMatrix& b) {
+  constexpr Index width = 32;
+  Eigen::MatrixXd result(a.cols(), b.cols());
+  in_parallel(static_cast<std::size_t>((b.cols() + width - 1) / width), [&](std::size_t i) {
+    const Index first = static_cast<Index>(i) * width;
+    const Index count = std::min(width, b.cols() - first);
+    result.middleCols(first, count).noalias() = a.transpose() * b.middleCols(first, count);
+  });
+  return result;
+}
+
 /// Scores a group of candidates that may stand side by side.
 void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::vector<Candidate>& group,
            HiddenPair* pair = nullptr, double least = 0.0) {
@@ -209,7 +222,7 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
   std::vector<int> targets(columns.parameters.size());
   for (std::size_t i = 0; i < targets.size(); ++i) targets[i] = static_cast<int>(i);
   whiten_columns(base.data(), prediction, columns.slopes, s, targets);
-  const Eigen::MatrixXd js = base.jacobian().transpose() * s;
+  const Eigen::MatrixXd js = products(base.jacobian(), s);
   const Eigen::MatrixXd solved = factors.solve(js);
   const Eigen::VectorXd base_gradient = base.jacobian().transpose() * base.residual() - base.z();
   const Eigen::VectorXd gradient = s.transpose() * base.residual() - solved.transpose() * base_gradient;
@@ -232,7 +245,7 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
   }
   if (pair == nullptr) return;
   const Eigen::MatrixXd information =
-      s.transpose() * s + Eigen::MatrixXd::Identity(s.cols(), s.cols()) - js.transpose() * solved;
+      products(s, s) + Eigen::MatrixXd::Identity(s.cols(), s.cols()) - js.transpose() * solved;
   find_pair({wide.network(), columns, gradient, information}, group, least, *pair);
 }
 
@@ -277,8 +290,10 @@ physics::RunFacts facts_of(const Machine& machine, const recording::Recording& r
 }
 
 std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts, HiddenPair* pair, double least) {
-  std::vector<Candidate> together;
-  std::vector<std::vector<Candidate>> alone;
+  // What is simulated side by side: in two halves, each on a processor, unless pairs of all are looked through.
+  std::vector<std::vector<Candidate>> groups(pair == nullptr ? 2 : 1);
+  const std::size_t halves = groups.size();
+  std::size_t count = 0;
   const auto measured = [&](const EffectSpec& spec) {
     const std::string channel = spec.word_or("channel", "");
     if (channel.empty()) return true;
@@ -295,21 +310,20 @@ std::vector<Candidate> screen(const Model& base, const physics::RunFacts& facts,
       const bool taken = std::any_of(base.machine().effects.begin(), base.machine().effects.end(),
                                      [&](const EffectSpec& have) { return conflicts(base.machine(), have, spec); });
       if (taken || !measured(spec) || premature(base.machine(), spec) || of_a_fluid(base.machine(), spec)) continue;
-      if (stands_alone(spec)) {
-        alone.push_back({Candidate{std::move(spec), 0, 0, {}}});
+      Candidate candidate{std::move(spec), 0, 0, {}};
+      if (stands_alone(candidate.spec)) {
+        groups.push_back({std::move(candidate)});
       } else {
-        together.push_back({std::move(spec), 0, 0, {}});
+        groups[count++ % halves].push_back(std::move(candidate));
       }
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> factors(base.hessian());
-  score(base, factors, together, pair, least);
-  for (auto& one : alone) {
-    score(base, factors, one);
-    together.push_back(one.front());
-  }
-  std::stable_sort(together.begin(), together.end(), [](auto& a, auto& b) { return a.gain > b.gain; });
-  return together;
+  in_parallel(groups.size(), [&](std::size_t i) { score(base, factors, groups[i], i == 0 ? pair : nullptr, least); });
+  std::vector<Candidate> all;
+  for (auto& group : groups) std::move(group.begin(), group.end(), std::back_inserter(all));
+  std::stable_sort(all.begin(), all.end(), [](auto& a, auto& b) { return a.gain > b.gain; });
+  return all;
 }
 
 bool doubles_a_joint(const Model& model) {

@@ -367,19 +367,19 @@ bool Selector::found_together(const ModelPtr& two) const {
 void Selector::add_one(const std::vector<ModelPtr>& beam, const ModelPtr& pair) {
   std::vector<ModelPtr> fits;
   if (pair != nullptr) fits.push_back(pair);
-  for (const auto& start : beam) {
+  for (std::size_t b = 0; b < beam.size(); ++b) {
+    const ModelPtr& start = beam[b];
     start->fit({2, 0.05, true});
     auto screened = screen(*start, m_facts);
+    const double behind = total_gain(*beam.front(), *start);
+    if (!may_catch_up(*start, behind, std::span(beam).first(b), screened)) continue;
     if (screened.size() > 60) screened.resize(60);
     for (auto& fit : refine(start, screened, {1, m_options.second_screen, 7})) fits.push_back(std::move(fit));
   }
   std::sort(fits.begin(), fits.end(), by_total);
   m_result.levels.push_back(fits);
-  std::vector<ModelPtr> leading;
-  for (const auto& fit : fits) {
-    if (leading.size() == 2) break;
-    leading.push_back(with_ordinary(fit));
-  }
+  std::vector<ModelPtr> leading(fits.begin(), fits.begin() + std::min<std::ptrdiff_t>(2, std::ssize(fits)));
+  in_parallel(leading.size(), [&](std::size_t i) { leading[i] = with_ordinary(leading[i]); });
   std::sort(leading.begin(), leading.end(), by_total);
   const Excess before = excess_of(*m_result.best);
   for (const auto& fit : leading) {
@@ -437,13 +437,16 @@ void Selector::eliminate() {
 bool Selector::remove_one() {
   const std::size_t count = m_result.best->machine().effects.size();
   if (count <= m_result.described + 1) return false;
-  for (std::size_t i = m_result.described; i < count; ++i) {
-    ModelPtr without = reduced(*m_result.best, i);
-    without->fit({15, 0.05, true});
-    without = with_ordinary(without);
-    const double so_far = total_gain(*without, *m_result.base);
-    if (total_gain(*m_result.best, *without) >= least_gain(so_far)) continue;
-    m_result.best = without;
+  std::vector<ModelPtr> without(count - m_result.described);
+  in_parallel(without.size(), [&](std::size_t i) {
+    without[i] = reduced(*m_result.best, m_result.described + i);
+    without[i]->fit({15, 0.05, true});
+    without[i] = with_ordinary(without[i]);
+  });
+  for (const ModelPtr& less : without) {
+    const double so_far = total_gain(*less, *m_result.base);
+    if (total_gain(*m_result.best, *less) >= least_gain(so_far)) continue;
+    m_result.best = less;
     return true;
   }
   return false;
@@ -485,10 +488,6 @@ Result<Selection> grow_effects(const physics::Machine& machine, std::shared_ptr<
                                const physics::RunFacts& facts, const SelectionOptions& options,
                                const TaskContext& context) {
   return Selector(facts, options, context).grow(machine, data);
-}
-
-std::vector<std::shared_ptr<Model>> rivals_of(const Model& best, std::size_t effect, const physics::RunFacts& facts) {
-  return in_place_of(best, effect, facts, false);
 }
 
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,

@@ -67,7 +67,5 @@ Result<Selection> grow_effects(const physics::Machine& machine, std::shared_ptr<
 Result<Selection> reconsider(const Selection& selection, const std::shared_ptr<const Dataset>& data,
                              const physics::RunFacts& facts, const SelectionOptions& options,
                              const TaskContext& context);
-/// Rivals of one effect: the best other families in its place, fitted, best first.
-std::vector<std::shared_ptr<Model>> rivals_of(const Model& best, std::size_t effect, const physics::RunFacts& facts);
 
 }  // namespace zerodrift::diagnosis

@@ -56,14 +56,14 @@ constexpr std::array catalogue{
     Entry{"rival_hidden", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."},
     Entry{
         "cannot_show",
-        "This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
+        "This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have "
         "shown here."},
     Entry{"coarse_rows",
           "The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a "
           "row "
           "every 60 s or more often to be surer."},
     Entry{"never_driven",
-          "This recording cannot tell whether there is {+effects}: what drives that never acted in it."},
+          "This recording cannot tell whether there is {|effects}: what drives that never acted in it."},
     Entry{
         "verdict_consistent_bent",
         "No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
@@ -183,6 +183,7 @@ constexpr std::array catalogue{
     Entry{"where_between", " between {from} and {to} mm"},
     Entry{"where_component", " of {component}"},
     Entry{"and", " and "},
+    Entry{"or", " or "},
     Entry{"comma", ", "},
     Entry{"convection", "convection to the room"},
     Entry{"speed_convection", "convection that grows with speed"},
@@ -256,7 +257,8 @@ class Speaker {
 
   std::string fact(const std::string& name) const {
     const bool entry = name.front() == '@';
-    const bool list = name.front() == '+';
+    const bool either = name.front() == '|';
+    const bool list = name.front() == '+' || either;
     const auto found = m_facts.find(entry || list ? name.substr(1) : name);
     if (found == m_facts.end()) return {};
     if (entry) return say(found->second);
@@ -266,7 +268,11 @@ class Speaker {
     while (from < found->second.size()) {
       const std::size_t comma = std::min(found->second.find(',', from), found->second.size());
       const bool last = comma == found->second.size();
-      joined += (joined.empty() ? "" : say(last ? "and" : "comma")) + say(found->second.substr(from, comma - from));
+      joined += (joined.empty() ? ""
+                                : say(!last    ? "comma"
+                                      : either ? "or"
+                                               : "and")) +
+                say(found->second.substr(from, comma - from));
       from = comma + 1;
     }
     return joined;

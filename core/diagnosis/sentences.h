@@ -1,7 +1,8 @@
 #pragma once
 // The catalogue of sentences: what is stored is an id and its facts; the words are made where they are read, in the
 // reader's language. A fact in braces is put in as it is; {@fact} is itself an entry of the catalogue or a text in
-// English to be said in the reader's language; {+fact} is a list of such entries, joined by "and".
+// English to be said in the reader's language; {+fact} is a list of such entries, joined by "and",
+// {|fact} one joined by "or".
 
 #include <functional>
 #include <string>

@@ -175,7 +175,9 @@ Result<Placement> place_sensor(const Machine& machine, const recording::Recordin
     placement.along.push_back(
         score(field.mean_over(i * step_mm, (i + 1) * step_mm), error, inputs.time_s, (i + 0.5) * step_mm));
   }
-  if (std::all_of(placement.along.begin(), placement.along.end(), [](auto& s) { return s.um_per_K == 0.0; })) {
+  constexpr double rounding_um = 1e-6;
+  const auto [lowest, highest] = std::minmax_element(error.begin(), error.end());
+  if (*highest - *lowest < rounding_um) {
     return fail(ErrorCode::no_variation, {{"what", options.error + " against the simulated temperatures"}});
   }
   double from_mm = 0.0;

@@ -79,25 +79,32 @@ void Skyline::factor() {
   }
 }
 
-void Skyline::solve_chain(double* x) const {
-  const int n = static_cast<int>(m_first.size());
-  const int middle = n / 2;
+/// The last row of each half stays in a register: written and read again it would be waited for.
+ZERODRIFT_WIDE void Skyline::solve_chain(double* x) const {
+  const std::size_t n = m_first.size();
+  const std::size_t middle = n / 2;
   const double* f = m_factor.data();
+  const double* inverse = m_inverse.data();
+  double up = middle > 0 ? x[0] : 0.0;
+  double down = n > middle + 1 ? x[n - 1] : 0.0;
   // The upper half has as many rows as the lower or one more; the rows that both have go side by side.
-  const int lower = n - 1 - middle;
-  if (middle > lower) x[1] -= f[0] * x[0];
-  for (int i = middle - lower, k = n - 1; i < middle; ++i, --k) {
-    if (i + 1 < middle) x[i + 1] -= f[i] * x[i];
-    if (k - 1 > middle) x[k - 1] -= f[k] * x[k];
+  std::size_t i = 1;
+  for (std::size_t k = n - 2; k + 1 > middle + 1; ++i, --k) {
+    x[i] = up = x[i] - f[i - 1] * up;
+    x[k] = down = x[k] - f[k + 1] * down;
   }
-  if (middle > 0 && n > 2) x[middle] -= f[middle - 1] * x[middle - 1];
-  if (middle + 1 < n) x[middle] -= f[middle + 1] * x[middle + 1];
-  for (int i = 0; i < n; ++i) x[i] *= m_inverse[i];
-  for (int i = middle - 1, k = middle + 1; k < n; --i, ++k) {
-    x[i] -= f[i] * x[i + 1];
-    x[k] -= f[k] * x[k - 1];
+  if (i < middle) x[i] = up = x[i] - f[i - 1] * up;
+  double centre = x[middle];
+  if (middle > 0) centre -= f[middle - 1] * up;
+  if (middle + 1 < n) centre -= f[middle + 1] * down;
+  up = down = x[middle] = centre * inverse[middle];
+  i = middle;
+  for (std::size_t k = middle + 1; k < n; ++k) {
+    --i;
+    x[i] = up = x[i] * inverse[i] - f[i] * up;
+    x[k] = down = x[k] * inverse[k] - f[k] * down;
   }
-  if (middle > lower) x[0] -= f[0] * x[1];
+  if (i > 0) x[0] = x[0] * inverse[0] - f[0] * up;
 }
 
 ZERODRIFT_WIDE void Skyline::solve_lanes_of_chain(double* x) const {

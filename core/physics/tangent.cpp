@@ -76,7 +76,7 @@ void Tangent::prepare_pushes(std::size_t term, const std::vector<int>& column) {
   push(of.place_parameter, Slot::place, 0);
 }
 
-void Tangent::evaluate_unit(std::size_t term, const StepTaken& step) {
+ZERODRIFT_WIDE void Tangent::evaluate_unit(std::size_t term, const StepTaken& step) {
   const Term& of = m_net.terms[term];
   const TermNow& now = m_assembly.now(term);
   Unit& unit = m_units[term];

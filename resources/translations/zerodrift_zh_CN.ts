@@ -3298,6 +3298,10 @@
         <translation>和</translation>
     </message>
     <message>
+        <source> or </source>
+        <translation>或</translation>
+    </message>
+    <message>
         <source>convection to the room</source>
         <translation>向环境的对流散热</translation>
     </message>
@@ -3514,8 +3518,8 @@
         <translation>本次单一转速的运行几乎无法显示{@where}{@name}，不能排除。</translation>
     </message>
     <message>
-        <source>This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have shown here.</source>
-        <translation>本次记录无法判断是否存在{+effects}：即使它达到可能的最大强度，在本次记录中也不会显现。</translation>
+        <source>This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have shown here.</source>
+        <translation>本次记录无法判断是否存在{|effects}：即使它达到可能的最大强度，在本次记录中也不会显现。</translation>
     </message>
     <message>
         <source>No effect of the library is missing, but the simulation agrees with the recording only with numbers far from those described.</source>
@@ -3622,8 +3626,8 @@
         <translation>记录 {recording}：机床描述中没有 {columns}，未予使用。</translation>
     </message>
     <message>
-        <source>This recording cannot tell whether there is {+effects}: what drives that never acted in it.</source>
-        <translation>本次记录无法判断是否存在{+effects}：驱动它的输入从未动作。</translation>
+        <source>This recording cannot tell whether there is {|effects}: what drives that never acted in it.</source>
+        <translation>本次记录无法判断是否存在{|effects}：驱动它的输入从未动作。</translation>
     </message>
     <message>
         <source>The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a row every 60 s or more often to be surer.</source>

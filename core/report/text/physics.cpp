@@ -49,9 +49,9 @@ std::vector<TextEntry> texts_of_physics() {
        "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {rms} {unit}（均方根），{@regime}。"},
       {"This run at one speed would hardly show {@name}{@where}: it cannot be excluded.",
        "本次单一转速的运行几乎不会显示{@name}{@where}：不能排除。"},
-      {"This recording cannot tell whether there is {+effects}: even as strong as it can be at all, it would not have "
+      {"This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have "
        "shown here.",
-       "本次记录无法判断是否存在{+effects}：即使它达到可能的最大强度，在本次记录中也不会显现。"},
+       "本次记录无法判断是否存在{|effects}：即使它达到可能的最大强度，在本次记录中也不会显现。"},
       {"No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
        "those described.",
        "没有缺少效应库中的效应，但只有在参数与描述相差很大时，仿真才与记录一致。"},
@@ -66,8 +66,8 @@ std::vector<TextEntry> texts_of_physics() {
       {"In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
        "{unit}?",
        "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？"},
-      {"This recording cannot tell whether there is {+effects}: what drives that never acted in it.",
-       "本次记录无法判断是否存在{+effects}：驱动它的输入从未动作。"},
+      {"This recording cannot tell whether there is {|effects}: what drives that never acted in it.",
+       "本次记录无法判断是否存在{|effects}：驱动它的输入从未动作。"},
       {"The rows are {seconds} s apart, and when speed or coolant switched in between is known no better: record a row "
        "every 60 s or more often to be surer.",
        "各行相隔 {seconds} s，其间转速或冷却切换的时刻无法知道得更准：要更可靠，请至少每 60 s 记录一行。"},
@@ -231,6 +231,7 @@ std::vector<TextEntry> texts_of_physics() {
       {" between {from} and {to} mm", "（{from} 至 {to} mm 之间）"},
       {" of {component}", "（{component}）"},
       {" and ", "、"},
+      {" or ", "或"},
       {"convection to the room", "向环境的对流散热"},
       {"convection that grows with speed", "随转速增大的对流散热"},
       {"radiation to the room", "向环境的辐射散热"},
