@@ -322,9 +322,10 @@ double Diagnoser::confidence_of(const FoundEffect& found, const Shown& shown) co
   constexpr double hardly_any_left = 0.1;
   const bool nearly_all = m_out.verdict == Verdict::missing_effect && shown.after < hardly_any_left * shown.before;
   const double poor = (m_out.excess_after > 3.0 && !nearly_all ? 0.8 : 1.0) * guessed;
-  // What the library does not explain is imitated as well as it can be: such names are mostly wrong.
+  // What the library does not explain is imitated as well as it can be: such names are mostly wrong. A lump that stands
+  // for a whole part is never all explained.
   constexpr double imitated = 0.4;
-  if (m_out.verdict == Verdict::unexplained) return imitated * poor / (1.0 + others);
+  if (m_out.verdict == Verdict::unexplained && !m_lumps_only) return imitated * poor / (1.0 + others);
   return poor * 0.99 / (1.0 + others);
 }
 

@@ -237,7 +237,8 @@ void LivePlot::updateView() {
     xAxis()->setRange(m_window_s > 0.0 ? std::max(0.0, last - m_window_s) : 0.0, last);
   }
   const QCPRange range = xAxis()->range();
-  const int columns = std::max(100, plot()->axisRect()->width());
+  // Each column holds its smallest and largest value: as wide as a line is thick it shows the same, in less time.
+  const int columns = std::max(100, plot()->axisRect()->width() * 2 / 3);
   QVector<double> times;
   QVector<double> values;
   bool any = false;
