@@ -38,6 +38,14 @@ constexpr double sharp = 0.005;          // of the length: a peak so narrow stan
 constexpr double hardly_any = 0.1;       // of a mismatch: the fit without an effect bends what is described instead
 constexpr double widest_point_mm = 6.0;  // what is known worse is told as a stretch
 
+// What the library does not explain is imitated as well as it can be: such names are mostly wrong. Of a lump that
+// stands for a whole part never all is explained.
+constexpr double imitated = 0.4;
+
+bool of_lumps_alone(const Machine& machine) {
+  return std::all_of(machine.components.begin(), machine.components.end(), [](const auto& one) { return one.lump; });
+}
+
 /// What is fitted to this recording keeps its meaning in others.
 Machine told_at(Machine machine, const Recording& recording) {
   if (!machine.reference_temperature_C) {
@@ -145,8 +153,7 @@ Status Diagnoser::prepare() {
   }
   m_other_sets = m_limits.others;
   m_facts = facts_of(m_bodies, recording());
-  m_lumps_only = std::all_of(m_machine.components.begin(), m_machine.components.end(),
-                             [](const auto& component) { return component.lump; });
+  m_lumps_only = of_lumps_alone(m_machine);
   if (m_lumps_only) {
     m_limits.most_effects = 5;
     m_limits.second_clean = 10.0;
@@ -322,10 +329,6 @@ double Diagnoser::confidence_of(const FoundEffect& found, const Shown& shown) co
   constexpr double hardly_any_left = 0.1;
   const bool nearly_all = m_out.verdict == Verdict::missing_effect && shown.after < hardly_any_left * shown.before;
   const double poor = (m_out.excess_after > 3.0 && !nearly_all ? 0.8 : 1.0) * guessed;
-  // What the library does not explain is imitated as well as it can be: such names are mostly wrong. A lump that stands
-  // for a whole part is never all explained.
-  constexpr double imitated = 0.4;
-  if (m_out.verdict == Verdict::unexplained && !m_lumps_only) return imitated * poor / (1.0 + others);
   return poor * 0.99 / (1.0 + others);
 }
 
@@ -346,6 +349,9 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
                                    : Diagnoser(machine, runs.recordings, options, context).run();
   if (result && !apart) result = settled(std::move(*result), machine, runs.recordings, options, context);
   if (!result) return result;
+  if (result->verdict == Verdict::unexplained && !of_lumps_alone(machine)) {
+    for (FoundEffect& effect : result->effects) effect.confidence *= imitated;
+  }
   if (const auto& raised = machine.tolerances.raised; !raised.empty()) {
     result->notes.push_back(fmt::format("tolerances_raised:{}", fmt::join(raised, ",")));
     result->sentences.push_back(explain_raised(machine.tolerances));

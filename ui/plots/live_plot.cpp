@@ -237,8 +237,7 @@ void LivePlot::updateView() {
     xAxis()->setRange(m_window_s > 0.0 ? std::max(0.0, last - m_window_s) : 0.0, last);
   }
   const QCPRange range = xAxis()->range();
-  // Each column holds its smallest and largest value: as wide as a line is thick it shows the same, in less time.
-  const int columns = std::max(100, plot()->axisRect()->width() * 2 / 3);
+  const int columns = std::max(100, plot()->axisRect()->width());
   QVector<double> times;
   QVector<double> values;
   bool any = false;
