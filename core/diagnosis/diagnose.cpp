@@ -41,6 +41,7 @@ constexpr double widest_point_mm = 6.0;  // what is known worse is told as a str
 // What the library does not explain is imitated as well as it can be: such names are mostly wrong. Of a lump that
 // stands for a whole part never all is explained.
 constexpr double imitated = 0.4;
+constexpr double beside_far_numbers = 0.5;
 
 bool of_lumps_alone(const Machine& machine) {
   return std::all_of(machine.components.begin(), machine.components.end(), [](const auto& one) { return one.lump; });
@@ -253,6 +254,8 @@ void Diagnoser::effects() {
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
     const Shown shown = show_best(found, other);
     found.confidence = confidence_of(found, shown);
+    // Beside numbers that had to leave all tolerance something else is wrong, which it may stand for.
+    if (m_far.size() > (m_corrected ? 1 : 0)) found.confidence *= beside_far_numbers;
     doubt_description(found, *without_kind(i));
     end_within_the_run(found);
     const std::vector<FarParameter> far = far_from_description(*without);

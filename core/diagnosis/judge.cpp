@@ -135,7 +135,7 @@ void Diagnoser::decide() {
     return is_beyond_belief(m_far) || (m_corrected && is_beyond_belief({*m_corrected}));
   };
   const bool unbelievable =
-      m_selection.effects().empty() ? m_out.verdict == Verdict::consistent && beyond_belief() : is_doubtful(m_far);
+      m_selection.effects().empty() ? m_out.verdict == Verdict::consistent && beyond_belief() : is_beyond_belief(m_far);
   if (wrong_set_up() || unbelievable) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/physics/initial_state.h"
 
@@ -175,11 +176,62 @@ Status check_speed(const physics::Machine& machine, const recording::Recording& 
                  {"found", fmt::format("0 rpm all the time beside a load of up to {:.4g} W", load_W)},
                  {"expected", "the spindle's speed (was it logged?)"}});
   }
+  constexpr double beyond_any = 20.0;  // of the rated speed: no spindle is so much faster than its motor
+  if (rated_rpm > 0.0 && most_rpm > beyond_any * rated_rpm) {
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", recording.name + ", column spindle_rpm"},
+                 {"found", fmt::format("up to {:.4g} rpm", most_rpm)},
+                 {"expected", fmt::format("speeds of a motor rated at {:g} rpm", rated_rpm)}});
+  }
   if (most_rpm == 0.0 || most_rpm > hardly * rated_rpm) return {};
   return fail(ErrorCode::data_does_not_fit,
               {{"what", recording.name + ", column spindle_rpm"},
                {"found", fmt::format("at most {:.3g} rpm", most_rpm)},
                {"expected", fmt::format("speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)", rated_rpm)}});
+}
+
+/// Of all temperatures' movement, rms in K, what the machine as described leaves when it turns `times` as fast.
+double left_at_speed(const physics::Machine& machine, recording::Recording recording, double times) {
+  for (double& speed : recording.find("spindle_rpm")->values) speed *= times;
+  const physics::Network network = physics::build_network(machine, recording);
+  const Dataset data = make_dataset(recording, network);
+  const physics::Prediction nominal =
+      physics::predict(network, physics::make_inputs(network, recording), network.start_values());
+  double squares = 0.0, count = 0.0;
+  for (std::size_t c = 0; c < data.channels.size(); ++c) {
+    const MeasuredChannel& channel = data.channels[c];
+    for (std::size_t k = 0; channel.temperature && k < channel.values.size(); ++k) {
+      if (!channel.present[k]) continue;
+      squares += std::pow(channel.values[k] - nominal.channels[c].values[k], 2);
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// A machine that hardly turns, and warms as described if it turned as fast as in another unit.
+Status check_turns(const physics::Machine& machine, const recording::Recording& recording) {
+  struct Turns {
+    double rpm;
+    const char* symbol;
+  };
+  constexpr Turns others[] = {{60.0, "1/s"}, {30.0 / std::numbers::pi, "rad/s"}};
+  constexpr double over_rated = 1.2;
+  constexpr double like = 0.2;    // of what is left with the speeds as they are
+  constexpr double much_K = 1.0;  // that is left so: of less nothing can be said
+  const double rated_rpm = machine.rated_speed_rpm();
+  const double most_rpm = largest_of(recording, "spindle_rpm");
+  if (most_rpm == 0.0 || has_unknown_heat(machine) || physics::starts_warm(machine, recording)) return {};
+  for (const Turns& unit : others) {
+    if (unit.rpm * most_rpm > over_rated * rated_rpm) continue;
+    const double as_it_is_K = left_at_speed(machine, recording, 1.0);
+    if (as_it_is_K < much_K || left_at_speed(machine, recording, unit.rpm) > like * as_it_is_K) continue;
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", recording.name + ", column spindle_rpm"},
+                 {"found", fmt::format("at most {:.3g} rpm", most_rpm)},
+                 {"expected", fmt::format("the speed in rpm (by {} it is in {})", machine.file, unit.symbol)}});
+  }
+  return {};
 }
 
 /// Speeds of at most 100 that say how the machine warms if they are taken for percent of the rated one.
@@ -213,6 +265,7 @@ std::optional<LoadUnit> load_in_other_unit(const physics::Machine& machine, cons
 
 Status check_times(const physics::Machine& machine, const recording::Recording& recording) {
   ZD_CHECK(check_speed(machine, recording));
+  ZD_CHECK(check_turns(machine, recording));
   if (physics::starts_warm(machine, recording)) return {};  // what it was on its way to, nobody knows
   // A right description whose machine misses its main cooling leaves 0.8, times off by 60 leave more than 1.
   constexpr double nothing_like = 0.9;  // of the movement, rms

@@ -21,8 +21,9 @@ constexpr double long_end = 0.25;       // of the length: what is nearer the end
 constexpr double worth_a_look = 25.0;   // in log evidence, before anything missing is sought beside it
 constexpr double much = 0.3;            // of what imitations explain
 constexpr double most_left_over = 3.0;  // excess
-constexpr double slight_shift = 0.06;   // of the length
-constexpr double slight_factor = 1.4;   // of the diameter
+constexpr double least_shift = 0.015;   // of the length: what is less is a tape measure's error
+constexpr double most_shift = 0.25;
+constexpr double slight_factor = 1.4;  // of the diameter
 constexpr FitOptions shape_fit{12, 0.05, true};
 
 /// What may be wrong, and with which values: in mm, or as a factor of the diameter or of all its heat.
@@ -37,6 +38,35 @@ struct Shape {
   double value = 0.0;
   std::shared_ptr<Model> fit;
 };
+
+/// How far all sensors of a rod would rather sit from the fixed end, with everything else free: a step from the model.
+struct Shift {
+  double by_mm = 0.0;
+  double gain = 0.0;  // in log evidence
+};
+
+/// The score of a shift, as of a candidate's amplitude (screening.cpp): two simulations tell whether it is worth a fit.
+Shift shift_asked_by(const Model& model, const std::string& rod) {
+  constexpr double step_mm = 1.0;
+  const recording::Recording& seen = *model.data().recording;
+  const double length_mm = model.machine().find(rod)->length_mm;
+  const auto residual_at = [&](double by_mm) {
+    Machine machine = model.machine();
+    for (physics::Sensor& sensor : machine.sensors) {
+      if (sensor.component == rod) sensor.position_mm = std::clamp(sensor.position_mm + by_mm, 0.0, length_mm);
+    }
+    const physics::Network network = physics::build_network(machine, seen);
+    Eigen::VectorXd residual;
+    whiten(model.data(), physics::predict(network, physics::make_inputs(network, seen), model.values()), &residual);
+    return residual;
+  };
+  const Eigen::VectorXd column = (residual_at(step_mm) - residual_at(-step_mm)) / (2.0 * step_mm);
+  const Eigen::VectorXd shared = model.jacobian().transpose() * column;
+  const double own = column.squaredNorm() - shared.dot(model.hessian().llt().solve(shared));
+  const double score = column.dot(model.residual());
+  if (!(own > 0.0)) return {};
+  return {-score / own, 0.5 * score * score / own};
+}
 
 bool less_likely(const Shape& a, const Shape& b) {
   return a.fit->log_evidence() < b.fit->log_evidence();
@@ -73,6 +103,26 @@ std::pair<double, double> sensors_between(const Machine& machine, const std::str
   return {first_mm, last_mm};
 }
 
+/// From the shifts that ask for a look: beside what is named, or in its place.
+std::optional<Mistake> shifted(const GeometryAsked& asked, const Component& rod) {
+  constexpr double asked_for = 8.0;   // in log evidence
+  constexpr double comparable = 0.6;  // of what is named: a step from the model does not tell all
+  const auto [first_sensor_mm, last_sensor_mm] = sensors_between(asked.described, rod.id);
+  if (last_sensor_mm <= first_sensor_mm) return std::nullopt;
+  Mistake datum{What::datum, {}, -first_sensor_mm, rod.length_mm - last_sensor_mm, 10.0};
+  const double of_named = asked.best.log_evidence() - asked.base.log_evidence();
+  const auto take = [&](const Model& model, double least_gain) {
+    const Shift shift = shift_asked_by(model, rod.id);
+    const double share = std::abs(shift.by_mm) / rod.length_mm;
+    if (shift.gain < least_gain || share < least_shift || share > most_shift) return;
+    datum.values.push_back(std::clamp(shift.by_mm, datum.low, datum.high));
+  };
+  take(asked.base, std::max(asked_for, comparable * of_named));
+  if (asked.best.unknowns() != asked.base.unknowns()) take(asked.best, asked_for);
+  if (datum.values.empty()) return std::nullopt;
+  return datum;
+}
+
 std::vector<Mistake> mistakes_of(const Machine& machine, const Component& rod, bool any) {
   std::vector<Mistake> list;
   const double last_mm = last_known_mm(machine, rod);
@@ -86,12 +136,6 @@ std::vector<Mistake> mistakes_of(const Machine& machine, const Component& rod, b
   const auto [first_sensor_mm, last_sensor_mm] = sensors_between(machine, rod.id);
   if (last_sensor_mm <= first_sensor_mm) return list;
   list.push_back({What::other_end, {0.0}, 0.0, 0.0, 10.0});
-  Mistake datum{What::datum, {}, -first_sensor_mm, rod.length_mm - last_sensor_mm};
-  for (const double share : {-0.2, -0.13, -0.08, 0.08, 0.13, 0.2}) {
-    const double by_mm = share * rod.length_mm;
-    if (by_mm >= datum.low && by_mm <= datum.high) datum.values.push_back(by_mm);
-  }
-  if (!datum.values.empty()) list.push_back(std::move(datum));
   list.push_back({What::diameter, {0.5, 0.65, 1.5, 2.0}, 0.45, 2.2});
   return list;
 }
@@ -135,6 +179,7 @@ class Corrected {
     for (const double value : m_mistake.values) shapes.push_back({value, {}});
     fit_all(shapes, effects, like);
     const auto best = std::max_element(shapes.begin(), shapes.end(), less_likely);
+    if (m_mistake.what == What::datum) return settled(*best, effects);
     if (shapes.size() == 1) return *best;
     const double before = best == shapes.begin() ? m_mistake.low : std::prev(best)->value;
     const double after = std::next(best) == shapes.end() ? m_mistake.high : std::next(best)->value;
@@ -153,8 +198,22 @@ class Corrected {
   const Mistake& mistake() const { return m_mistake; }
 
  private:
+  /// A shift where the fit asks for no other.
+  Shape settled(Shape shape, const std::vector<physics::EffectSpec>& effects) const {
+    constexpr int most_steps = 3;
+    const double enough_mm = 0.003 * m_described.find(m_rod)->length_mm;
+    for (int step = 0; step < most_steps; ++step) {
+      const double at_mm =
+          std::clamp(shape.value + shift_asked_by(*shape.fit, m_rod).by_mm, m_mistake.low, m_mistake.high);
+      if (std::abs(at_mm - shape.value) < enough_mm) break;
+      std::vector<Shape> next = {{at_mm, {}}};
+      fit_all(next, effects, shape.fit.get());
+      if (!less_likely(shape, next.front())) break;
+      shape = std::move(next.front());
+    }
+    return shape;
+  }
   bool is_slight(double value) const {
-    if (m_mistake.what == What::datum) return std::abs(value) < slight_shift * m_described.find(m_rod)->length_mm;
     return m_mistake.what == What::diameter && std::abs(std::log(value)) < std::log(slight_factor);
   }
   void fit_all(std::vector<Shape>& shapes, const std::vector<physics::EffectSpec>& effects, const Model* like) const {
@@ -188,7 +247,9 @@ struct Rivals {
 
   bool lose_to(const Shape& shape, const Mistake& mistake) const {
     const bool simpler = mistake.what == What::length || !stands || candidates_of(*shape.fit) < candidates_of(*named);
-    return simpler && shape.fit->log_evidence() > named->log_evidence() + mistake.clearly &&
+    // Beside as much that is missing only a shift is told: right answers ask for less than 6.
+    const bool beside = mistake.what == What::datum && shape.fit->log_evidence() > named->log_evidence() + worth_a_look;
+    return (simpler || beside) && shape.fit->log_evidence() > named->log_evidence() + mistake.clearly &&
            excess_of(*shape.fit).largest <= most_left_over && far_from_description(*shape.fit).empty();
   }
   /// Does it do much of what the imitations do?
@@ -258,7 +319,9 @@ std::optional<WrongGeometry> wrong_geometry(const GeometryAsked& asked, const ph
   std::optional<Rivals> rivals;
   for (const Component& rod : described.components) {
     if (rod.lump || rod.prescribed) continue;
-    for (Mistake& mistake : mistakes_of(described, rod, any)) {
+    std::vector<Mistake> mistakes = mistakes_of(described, rod, any);
+    if (auto datum = shifted(asked, rod)) mistakes.push_back(std::move(*datum));
+    for (Mistake& mistake : mistakes) {
       if (!rivals) rivals = rivals_of(asked);
       const Corrected corrected(described, rod.id, std::move(mistake), asked.data);
       const std::optional<Shape> found = winner(corrected, *rivals, facts, limits, context);

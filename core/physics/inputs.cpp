@@ -21,16 +21,19 @@ double noise_width(const std::vector<double>& values, double floor) {
   }
   std::sort(second.begin(), second.end());
   constexpr std::size_t few = 30;  // one spike is in three of them, and a tenth must hold all three
+  const double resolution = step > 0.004 && step < 1e299 ? step / std::sqrt(12.0) : 0.0;
   double sigma = second[second.size() / 2] / (0.6745 * std::sqrt(6.0));
   if (second.size() >= few) {
     const std::size_t kept = second.size() * 9 / 10;
     double sum = 0.0;
     for (std::size_t i = 0; i < kept; ++i) sum += second[i] * second[i];
     // 1.267 restores what the trimming of a tenth of a normal sample takes away.
-    sigma = 1.267 * std::sqrt(sum / static_cast<double>(kept) / 6.0);
+    const double trimmed = 1.267 * std::sqrt(sum / static_cast<double>(kept) / 6.0);
+    // Where spikes are in more than a tenth only the median is free of them.
+    constexpr double spikes_alone = 8.0;
+    if (trimmed < spikes_alone * std::max({sigma, resolution, floor})) sigma = trimmed;
   }
-  if (step > 0.004 && step < 1e299) sigma = std::max(sigma, step / std::sqrt(12.0));
-  return std::max(sigma, floor);
+  return std::max({sigma, resolution, floor});
 }
 
 namespace {

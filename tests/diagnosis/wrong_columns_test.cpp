@@ -73,6 +73,19 @@ TEST(WrongColumns, SpeedsInPercentOrNotLoggedAreRefusedByName) {
   }
 }
 
+TEST(WrongColumns, SpeedsInAnotherUnitAreRefusedByName) {
+  for (const auto& [times, unit] :
+       {std::pair{1.0 / 60.0, "in 1/s"}, std::pair{0.10472, "in rad/s"}, std::pair{1000.0, "rated at"}}) {
+    proof::Case one = proof::make_case(324, "none");
+    for (double& value : one.recordings[0].find("spindle_rpm")->values) value *= times;
+    const auto answer = answer_with_details(one);
+    ASSERT_FALSE(answer.has_value()) << unit;
+    EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
+    EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
+    EXPECT_NE(describe(answer.error()).find(unit), std::string::npos) << describe(answer.error());
+  }
+}
+
 TEST(WrongColumns, LoadsInAnotherUnitAreTold) {
   proof::Case one = proof::make_case(325, "cutting_heat");
   one.recordings.resize(1);

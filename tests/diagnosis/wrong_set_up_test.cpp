@@ -198,6 +198,24 @@ TEST(WrongSetUp, PlacesToldFromTheOtherEndOrFromAnotherEdgeAreNamed) {
   }
 }
 
+TEST(WrongSetUp, AllSensorsAFewPerCentAsideAreNoMissingPhysics) {
+  for (const auto& [seed, id] : {std::pair{331U, "none"}, std::pair{332U, "extra_heat_source"}}) {
+    proof::Case one = proof::make_case(seed, id);
+    one.recordings.resize(1);
+    const double length_mm = one.machine["components"][0]["length_mm"];
+    for (auto& sensor : one.machine["sensors"]) {
+      if (!sensor.contains("position_mm")) continue;
+      const double at_mm = sensor["position_mm"];
+      sensor["position_mm"] = std::min(length_mm, at_mm + 0.04 * length_mm);
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    for (const FoundEffect& found : answer->effects) EXPECT_LT(found.confidence, 0.5) << id << ": " << found.id;
+    if (answer->effects.empty()) continue;
+    EXPECT_EQ(answer->verdict, Verdict::unexplained) << id;
+  }
+}
+
 TEST(WrongSetUp, ARadiusForADiameterIsNamed) {
   proof::Case one = proof::make_case(330, "none");
   auto& diameter = one.machine["components"][0]["outer_diameter_mm"];

@@ -26,6 +26,16 @@ std::vector<std::size_t> marked(const std::vector<double>& values) {
 
 }  // namespace
 
+TEST(Inputs, SpikesInEveryTwelfthSampleDoNotPassForNoise) {
+  std::vector<double> values = ramp_C();
+  std::vector<std::size_t> spiked;
+  for (std::size_t k = 7; k < values.size(); k += 12) {
+    values[k] = 85.0;
+    spiked.push_back(k);
+  }
+  EXPECT_EQ(marked(values), spiked);
+}
+
 TEST(Inputs, SpikesAreMarkedAloneAndTwoInARow) {
   std::vector<double> values = ramp_C();
   EXPECT_TRUE(marked(values).empty());
