@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 137> diagnosis = {{
+constexpr std::array<const char*, 141> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -64,6 +64,9 @@ constexpr std::array<const char*, 137> diagnosis = {{
         "core",
         "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
         "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."),
+    QT_TRANSLATE_NOOP("core",
+                      "{@regime}, adding {@name}{@where} ({parameters}) brings {channel} from {before} to {after} "
+                      "{unit} (rms), of which {noise} {unit} is its noise{@heat}. Typical of it: {@fingerprint}."),
     QT_TRANSLATE_NOOP("core",
                       "{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence "
                       "{evidence}), but leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}."),
@@ -215,6 +218,9 @@ constexpr std::array<const char*, 137> diagnosis = {{
         "record a row every 60 s or more often to be surer."),
     QT_TRANSLATE_NOOP("core", ", "),
     QT_TRANSLATE_NOOP("core", "at most {:.3g} rpm"),
+    QT_TRANSLATE_NOOP("core", "up to {:.4g} rpm"),
+    QT_TRANSLATE_NOOP("core", "the speed in rpm (by {} it is in {})"),
+    QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm"),
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is "
                       "spindle_load_W in {unit}?"),

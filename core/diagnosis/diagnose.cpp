@@ -42,9 +42,17 @@ constexpr double widest_point_mm = 6.0;  // what is known worse is told as a str
 // stands for a whole part never all is explained.
 constexpr double imitated = 0.4;
 constexpr double beside_far_numbers = 0.5;
+constexpr double of_an_unknown_machine = 0.7;  // lumps about its sensors take up whatever flows between them
 
 bool of_lumps_alone(const Machine& machine) {
   return std::all_of(machine.components.begin(), machine.components.end(), [](const auto& one) { return one.lump; });
+}
+
+/// Neither what heats it nor what touches what is described.
+bool is_unknown(const Machine& machine) {
+  return of_lumps_alone(machine) && machine.couplings.empty() &&
+         std::all_of(machine.components.begin(), machine.components.end(),
+                     [](const auto& one) { return one.sources.empty(); });
 }
 
 /// What is fitted to this recording keeps its meaning in others.
@@ -252,7 +260,7 @@ void Diagnoser::effects() {
     found.log_evidence_gain = m_selection.shown[i];
     // One effect alone: what the table of the channels calls re-fitted is the simulation without it.
     const physics::Prediction other = named.size() == 1 ? m_selection.base->prediction() : without->prediction();
-    const Shown shown = show_best(found, other);
+    const ShownBy shown = show_best(found, other);
     found.confidence = confidence_of(found, shown);
     // Beside numbers that had to leave all tolerance something else is wrong, which it may stand for.
     if (m_far.size() > (m_corrected ? 1 : 0)) found.confidence *= beside_far_numbers;
@@ -261,7 +269,7 @@ void Diagnoser::effects() {
     const std::vector<FarParameter> far = far_from_description(*without);
     const bool bent = !far.empty() && m_far.empty() && shown.before - shown.after < hardly_any * shown.before;
     found.explanation = bent ? explain_bent(found, m_out.time_s.back(), shown.channel, far.front())
-                             : explain_effect(found, m_out.time_s.back(), shown.before, shown.after, shown.channel);
+                             : explain_effect(found, m_out.time_s.back(), shown);
     m_out.effects.push_back(std::move(found));
   }
   std::stable_sort(m_out.effects.begin(), m_out.effects.end(),
@@ -272,8 +280,8 @@ void Diagnoser::effects() {
 
 /// Where an effect shows: the channel with the largest mismatch if it is the only one, else the one that it changes
 /// most in widths of noise.
-Diagnoser::Shown Diagnoser::show_best(FoundEffect& found, const physics::Prediction& without) const {
-  Shown best;
+ShownBy Diagnoser::show_best(FoundEffect& found, const physics::Prediction& without) const {
+  ShownBy best;
   double largest = 0.0;
   for (std::size_t c = 0; c < m_data->channels.size(); ++c) {
     const MeasuredChannel& channel = m_data->channels[c];
@@ -286,7 +294,7 @@ Diagnoser::Shown Diagnoser::show_best(FoundEffect& found, const physics::Predict
     const bool own = channel.name == found.channel;  // what is wrong with a channel shows in it
     const double weight = widths <= 1.0 ? widths : own ? 2e300 : named ? 1e300 : widths;
     if (weight < largest && !best.channel.empty()) continue;
-    best = {channel.name, before, after};
+    best = {channel.name, before, after, channel.white};
     largest = weight;
   }
   return best;
@@ -301,7 +309,7 @@ void Diagnoser::end_within_the_run(FoundEffect& found) const {
 }
 
 /// Evidence of the best family of the last level against the other families, tempered (see the proof's reliability).
-double Diagnoser::confidence_of(const FoundEffect& found, const Shown& shown) const {
+double Diagnoser::confidence_of(const FoundEffect& found, const ShownBy& shown) const {
   constexpr double temperature = 3.0;
   double others = std::exp(-(found.log_evidence_gain - m_limits.first) / temperature);
   std::map<std::string, double> seen;
@@ -354,6 +362,9 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
   if (!result) return result;
   if (result->verdict == Verdict::unexplained && !of_lumps_alone(machine)) {
     for (FoundEffect& effect : result->effects) effect.confidence *= imitated;
+  }
+  if (is_unknown(machine)) {
+    for (FoundEffect& effect : result->effects) effect.confidence *= of_an_unknown_machine;
   }
   if (const auto& raised = machine.tolerances.raised; !raised.empty()) {
     result->notes.push_back(fmt::format("tolerances_raised:{}", fmt::join(raised, ",")));

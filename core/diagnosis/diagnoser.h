@@ -3,6 +3,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/elsewhere.h"
+#include "core/diagnosis/explain.h"
 #include "core/diagnosis/misplaced.h"
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/selection.h"
@@ -46,14 +47,10 @@ class Diagnoser {
   bool names_a_sensor() const;
   void turn_to_the_colder(FoundEffect& found) const;
   void tell_place(FoundEffect& found, std::size_t index);
-  struct Shown {
-    std::string channel;
-    double before = 0.0, after = 0.0;  // rms, K or um
-  };
   void effects();
-  Shown show_best(FoundEffect& found, const physics::Prediction& without) const;
+  ShownBy show_best(FoundEffect& found, const physics::Prediction& without) const;
   void end_within_the_run(FoundEffect& found) const;
-  double confidence_of(const FoundEffect& found, const Shown& shown) const;
+  double confidence_of(const FoundEffect& found, const ShownBy& shown) const;
   void doubt_description(FoundEffect& found, const Model& without);
   void rivals();
   bool shows_too_little() const;

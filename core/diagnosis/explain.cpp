@@ -246,14 +246,16 @@ void put_far(Sentence& s, const FarParameter& far) {
 
 }  // namespace
 
-Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
-                        const std::string& worst_channel) {
-  Sentence s = about_effect(effect, end_s, worst_channel);
+Sentence explain_effect(const FoundEffect& effect, double end_s, const ShownBy& shown) {
+  Sentence s = about_effect(effect, end_s, shown.channel);
   constexpr double told = 0.05;  // how it goes can be explained where how far it is off is not
-  const double removed = 1.0 - after / std::max(before, 1e-12);
-  s.id = removed < told ? "effect_found_course" : "effect_found";
-  s.facts["before"] = fmt::format("{:.2g}", before);
-  s.facts["unit"] = unit_of(worst_channel);
+  constexpr double much = 0.3;   // of less the most is noise, which nothing removes
+  const double removed = 1.0 - shown.after / std::max(shown.before, 1e-12);
+  s.id = removed < told ? "effect_found_course" : removed < much ? "effect_found_weak" : "effect_found";
+  s.facts["before"] = fmt::format("{:.2g}", shown.before);
+  s.facts["after"] = fmt::format("{:.2g}", shown.after);
+  s.facts["noise"] = fmt::format("{:.2g}", shown.noise);
+  s.facts["unit"] = unit_of(shown.channel);
   s.facts["removed_percent"] = fmt::format("{:.0f}", 100.0 * removed);
   s.facts["evidence"] = fmt::format("{:.0f}", effect.log_evidence_gain);
   return finished(std::move(s));

@@ -6,9 +6,14 @@
 
 namespace zerodrift::diagnosis {
 
-/// `before`, `after`: rms that the simulation without and with it is off in that channel; `end_s`: of the recording.
-Sentence explain_effect(const FoundEffect& effect, double end_s, double before, double after,
-                        const std::string& channel);
+/// The channel that shows an effect best: rms without and with it, and of its noise, K or um.
+struct ShownBy {
+  std::string channel;
+  double before = 0.0, after = 0.0, noise = 0.0;
+};
+
+/// `end_s`: of the recording.
+Sentence explain_effect(const FoundEffect& effect, double end_s, const ShownBy& shown);
 /// Where the fit without it moved a number of the description instead of leaving a mismatch.
 Sentence explain_bent(const FoundEffect& effect, double end_s, const std::string& channel, const FarParameter& far);
 Sentence explain_far(const FarParameter& far);

@@ -33,6 +33,9 @@ constexpr std::array catalogue{
     Entry{"effect_found",
           "{@regime}, {channel} is {before} {unit} (rms) off the best simulation without it. Adding {@name}{@where} "
           "({parameters}) removes {removed_percent} % of that{@heat}. Typical of it: {@fingerprint}."},
+    Entry{"effect_found_weak",
+          "{@regime}, adding {@name}{@where} ({parameters}) brings {channel} from {before} to {after} {unit} (rms), of "
+          "which {noise} {unit} is its noise{@heat}. Typical of it: {@fingerprint}."},
     Entry{"effect_found_course",
           "{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence {evidence}), but "
           "leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}."},

@@ -3210,6 +3210,10 @@
         <translation>{@regime}，不计入该效应时 {channel} 与最佳仿真相差 {before} {unit}（rms）。计入{@where}{@name}（{parameters}）可消除其中的 {removed_percent} %{@heat}。典型特征：{@fingerprint}。</translation>
     </message>
     <message>
+        <source>{@regime}, adding {@name}{@where} ({parameters}) brings {channel} from {before} to {after} {unit} (rms), of which {noise} {unit} is its noise{@heat}. Typical of it: {@fingerprint}.</source>
+        <translation>{@regime}，计入{@where}{@name}（{parameters}）可使 {channel} 的偏差由 {before} 降至 {after} {unit}（rms），其中 {noise} {unit} 为其噪声{@heat}。典型特征：{@fingerprint}。</translation>
+    </message>
+    <message>
         <source>{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence {evidence}), but leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}.</source>
         <translation>{@regime}，计入{@where}{@name}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 {before} {unit}（rms）{@heat}。典型特征：{@fingerprint}。</translation>
     </message>
@@ -3636,6 +3640,18 @@
     <message>
         <source>, </source>
         <translation>、</translation>
+    </message>
+    <message>
+        <source>up to {:.4g} rpm</source>
+        <translation>高达 {:.4g} rpm</translation>
+    </message>
+    <message>
+        <source>the speed in rpm (by {} it is in {})</source>
+        <translation>以 rpm 为单位的转速（按 {}，其单位为 {}）</translation>
+    </message>
+    <message>
+        <source>speeds of a motor rated at {:g} rpm</source>
+        <translation>额定 {:g} rpm 电机的转速</translation>
     </message>
     <message>
         <source>at most {:.3g} rpm</source>

@@ -38,7 +38,7 @@ TEST(Sentences, AnEffectIsToldWithUnitsAndUncertainty) {
   effect.id = "coolant";
   effect.parameters = {{"h_W_m2K", 78.62}, {"temperature_C", 20.36}, {"from_mm", 296.0}, {"to_mm", 379.0}};
   effect.sigma = {{"h_W_m2K", 4.1}, {"temperature_C", 0.22}};
-  const Sentence s = explain_effect(effect, 3600.0, 3.1, 0.124, "T1_C");
+  const Sentence s = explain_effect(effect, 3600.0, {"T1_C", 3.1, 0.124, 0.05});
   EXPECT_EQ(s.english.find("While the coolant runs, T1_C is 3.1 K (rms) off the best simulation without it. Adding "
                            "cooling by the coolant between 296 and 379 mm (h = 78.6 ± 4.1 W/m²K, T = 20.36 ± 0.22 °C) "
                            "removes 96 % of that."),
@@ -56,7 +56,7 @@ TEST(Sentences, AFigureThatGrowsWithTheSpeedSaysAtWhich) {
   effect.parameters = {{"power_W", 26.0}};
   effect.sigma = {{"power_W", 2.0}};
   effect.at_rpm = speeds_of_figures(effect.parameters, effect.words, 8000.0);
-  const Sentence s = explain_effect(effect, 3600.0, 0.5, 0.1, "T1_C");
+  const Sentence s = explain_effect(effect, 3600.0, {"T1_C", 0.5, 0.1, 0.05});
   EXPECT_NE(s.english.find("(P(8000 rpm) = 26.0 ± 2.0 W)"), std::string::npos) << s.english;
   EXPECT_EQ(s.english.find("In step with the spindle speed"), 0U) << s.english;
   effect.words = {{"law", "constant"}};
@@ -70,8 +70,17 @@ TEST(Sentences, ANeighbourIsToldByItsName) {
   effect.words = {{"component", "spindle"}, {"neighbour", "gearbox"}};
   effect.parameters = {{"conductance_W_K", 1.33}};
   effect.sigma = {{"conductance_W_K", 0.12}};
-  const Sentence s = explain_effect(effect, 3600.0, 0.5, 0.1, "T1_C");
+  const Sentence s = explain_effect(effect, 3600.0, {"T1_C", 0.5, 0.1, 0.05});
   EXPECT_NE(s.english.find("(gearbox, G = 1.33 ± 0.12 W/K)"), std::string::npos) << s.english;
+}
+
+TEST(Sentences, WhatIsMostlyNoiseIsNotSaidToBeLeft) {
+  FoundEffect effect;
+  effect.id = "convection";
+  effect.parameters = {{"h_W_m2K", 12.0}};
+  const Sentence s = explain_effect(effect, 3600.0, {"T2_C", 0.062, 0.051, 0.05});
+  EXPECT_NE(s.english.find("brings T2_C from 0.062 to 0.051 K (rms), of which 0.05 K is its noise"), std::string::npos)
+      << s.english;
 }
 
 TEST(Sentences, WhatDoesNotComeNearerIsNotSaidToBeRemoved) {
@@ -79,7 +88,7 @@ TEST(Sentences, WhatDoesNotComeNearerIsNotSaidToBeRemoved) {
   effect.id = "convection";
   effect.parameters = {{"h_W_m2K", 12.0}};
   effect.log_evidence_gain = 34.0;
-  const Sentence s = explain_effect(effect, 3600.0, 0.069, 0.082, "t2_C");
+  const Sentence s = explain_effect(effect, 3600.0, {"t2_C", 0.069, 0.082, 0.05});
   EXPECT_EQ(s.id, "effect_found_course");
   EXPECT_NE(s.english.find("log evidence 34"), std::string::npos) << s.english;
   EXPECT_EQ(s.english.find('{'), std::string::npos) << s.english;
@@ -115,8 +124,9 @@ TEST(Sentences, ASlipIsSaidToLookLikeAGaugeSetToZero) {
   slip.id = "bracket_slip";
   slip.channel = "dZ_um";
   slip.parameters = {{"step_um", -64.0}, {"time_s", 9300.0}};
-  EXPECT_NE(explain_effect(slip, 18000.0, 20.0, 0.2, "dZ_um").english.find("A gauge that was set to zero again"),
-            std::string::npos);
+  EXPECT_NE(
+      explain_effect(slip, 18000.0, {"dZ_um", 20.0, 0.2, 0.05}).english.find("A gauge that was set to zero again"),
+      std::string::npos);
 }
 
 TEST(Sentences, WhatHappenedOnceIsToldWithItsMoment) {
@@ -131,7 +141,7 @@ TEST(Sentences, WhatHappenedOnceIsToldWithItsMoment) {
   EXPECT_EQ(regime_of_effect(door, 18000.0), "from 160 to 200 min");
   EXPECT_EQ(regime_of_effect(door, 12000.0), "from 160 min on");
   door.sigma.clear();  // it was still open when the recording ended
-  EXPECT_EQ(explain_effect(door, 12000.0, 1.0, 0.1, "T1_C").english.find(", to ="), std::string::npos);
+  EXPECT_EQ(explain_effect(door, 12000.0, {"T1_C", 1.0, 0.1, 0.05}).english.find(", to ="), std::string::npos);
 }
 
 }  // namespace zerodrift::diagnosis

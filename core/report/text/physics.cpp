@@ -194,6 +194,10 @@ std::vector<TextEntry> texts_of_physics() {
        "{@regime}，不含该效应时 {channel} 与最佳仿真相差 {before} "
        "{unit}（均方根）。加入{@name}{@where}（{parameters}）后消除其中的 {removed_percent} "
        "%{@heat}。其典型表现：{@fingerprint}。"},
+      {"{@regime}, adding {@name}{@where} ({parameters}) brings {channel} from {before} to {after} {unit} (rms), of "
+       "which {noise} {unit} is its noise{@heat}. Typical of it: {@fingerprint}.",
+       "{@regime}，加入{@name}{@where}（{parameters}）后，{channel} 的偏差由 {before} 降至 {after} "
+       "{unit}（均方根），其中 {noise} {unit} 为其噪声{@heat}。其典型表现：{@fingerprint}。"},
       {"{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence {evidence}), but "
        "leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}.",
        "{@regime}，加入{@name}{@where}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 "
