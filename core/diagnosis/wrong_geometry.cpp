@@ -50,17 +50,24 @@ Shift shift_asked_by(const Model& model, const std::string& rod) {
   constexpr double step_mm = 1.0;
   const recording::Recording& seen = *model.data().recording;
   const double length_mm = model.machine().find(rod)->length_mm;
-  const auto residual_at = [&](double by_mm) {
+  const std::vector<double> values = model.values();
+  // Nothing where the network has other unknowns for sensors that sit there.
+  const auto residual_at = [&](double by_mm) -> std::optional<Eigen::VectorXd> {
     Machine machine = model.machine();
     for (physics::Sensor& sensor : machine.sensors) {
       if (sensor.component == rod) sensor.position_mm = std::clamp(sensor.position_mm + by_mm, 0.0, length_mm);
     }
     const physics::Network network = physics::build_network(machine, seen);
+    if (network.parameters.size() != values.size()) return std::nullopt;
     Eigen::VectorXd residual;
-    whiten(model.data(), physics::predict(network, physics::make_inputs(network, seen), model.values()), &residual);
+    whiten(model.data(), physics::predict(network, physics::make_inputs(network, seen), values), &residual);
     return residual;
   };
-  const Eigen::VectorXd column = (residual_at(step_mm) - residual_at(-step_mm)) / (2.0 * step_mm);
+  const auto before = residual_at(-step_mm), after = residual_at(step_mm);
+  if (!before && !after) return {};
+  const Eigen::VectorXd& here = model.residual();
+  const Eigen::VectorXd column =
+      (after.value_or(here) - before.value_or(here)) / (before && after ? 2.0 * step_mm : step_mm);
   const Eigen::VectorXd shared = model.jacobian().transpose() * column;
   const double own = column.squaredNorm() - shared.dot(model.hessian().llt().solve(shared));
   const double score = column.dot(model.residual());
@@ -101,26 +108,6 @@ std::pair<double, double> sensors_between(const Machine& machine, const std::str
     last_mm = std::max(last_mm, sensor.position_mm);
   }
   return {first_mm, last_mm};
-}
-
-/// From the shifts that ask for a look: beside what is named, or in its place.
-std::optional<Mistake> shifted(const GeometryAsked& asked, const Component& rod) {
-  constexpr double asked_for = 8.0;   // in log evidence
-  constexpr double comparable = 0.6;  // of what is named: a step from the model does not tell all
-  const auto [first_sensor_mm, last_sensor_mm] = sensors_between(asked.described, rod.id);
-  if (last_sensor_mm <= first_sensor_mm) return std::nullopt;
-  Mistake datum{What::datum, {}, -first_sensor_mm, rod.length_mm - last_sensor_mm, 10.0};
-  const double of_named = asked.best.log_evidence() - asked.base.log_evidence();
-  const auto take = [&](const Model& model, double least_gain) {
-    const Shift shift = shift_asked_by(model, rod.id);
-    const double share = std::abs(shift.by_mm) / rod.length_mm;
-    if (shift.gain < least_gain || share < least_shift || share > most_shift) return;
-    datum.values.push_back(std::clamp(shift.by_mm, datum.low, datum.high));
-  };
-  take(asked.base, std::max(asked_for, comparable * of_named));
-  if (asked.best.unknowns() != asked.base.unknowns()) take(asked.best, asked_for);
-  if (datum.values.empty()) return std::nullopt;
-  return datum;
 }
 
 std::vector<Mistake> mistakes_of(const Machine& machine, const Component& rod, bool any) {
@@ -259,12 +246,37 @@ struct Rivals {
   }
 };
 
+/// From the shifts that ask for a look: beside what is named, in its place, or in that of what may imitate one.
+std::optional<Mistake> shifted(const GeometryAsked& asked, const Component& rod, const Rivals* rivals) {
+  constexpr double asked_for = 8.0;   // in log evidence
+  constexpr double comparable = 0.6;  // of what is named: a step from the model does not tell all
+  const auto [first_sensor_mm, last_sensor_mm] = sensors_between(asked.described, rod.id);
+  if (last_sensor_mm <= first_sensor_mm) return std::nullopt;
+  Mistake datum{What::datum, {}, -first_sensor_mm, rod.length_mm - last_sensor_mm, 10.0};
+  const auto take = [&](const Model& model, double least_gain) {
+    const Shift shift = shift_asked_by(model, rod.id);
+    const double share = std::abs(shift.by_mm) / rod.length_mm;
+    if (shift.gain < least_gain || share < least_shift || share > most_shift) return;
+    datum.values.push_back(std::clamp(shift.by_mm, datum.low, datum.high));
+  };
+  const auto take_instead = [&](const Model& without, const Model& named) {
+    take(without, std::max(asked_for, comparable * (named.log_evidence() - without.log_evidence())));
+  };
+  take_instead(asked.base, asked.best);
+  if (rivals != nullptr && rivals->no_imitation != rivals->none) take_instead(*rivals->no_imitation, *rivals->named);
+  if (asked.best.unknowns() != asked.base.unknowns()) take(asked.best, asked_for);
+  if (datum.values.empty()) return std::nullopt;
+  return datum;
+}
+
 /// The shape without the mistake that beats the rivals: as it is, beside what is no imitation, or with what is then
 /// found missing.
 std::optional<Shape> winner(const Corrected& corrected, const Rivals& rivals, const physics::RunFacts& facts,
                             const SelectionOptions& limits, const TaskContext& context) {
   std::vector<ModelPtr> plain = {rivals.no_imitation};
   if (rivals.none != rivals.no_imitation) plain.push_back(rivals.none);
+  const bool any_imitation = candidates_of(*rivals.no_imitation) < candidates_of(*rivals.named);
+  if (corrected.mistake().what == What::datum && any_imitation) plain.push_back(rivals.named);
   ModelPtr next;
   for (const ModelPtr& without : plain) {
     const Shape shape = corrected.best_with(without->machine().effects, nullptr);
@@ -320,7 +332,8 @@ std::optional<WrongGeometry> wrong_geometry(const GeometryAsked& asked, const ph
   for (const Component& rod : described.components) {
     if (rod.lump || rod.prescribed) continue;
     std::vector<Mistake> mistakes = mistakes_of(described, rod, any);
-    if (auto datum = shifted(asked, rod)) mistakes.push_back(std::move(*datum));
+    if (any && !rivals) rivals = rivals_of(asked);
+    if (auto datum = shifted(asked, rod, rivals ? &*rivals : nullptr)) mistakes.push_back(std::move(*datum));
     for (Mistake& mistake : mistakes) {
       if (!rivals) rivals = rivals_of(asked);
       const Corrected corrected(described, rod.id, std::move(mistake), asked.data);
