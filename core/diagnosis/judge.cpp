@@ -113,14 +113,17 @@ void Diagnoser::judge() {
 void Diagnoser::check_set_up() {
   // A sensor at another place leaves temperatures off, not a displacement alone.
   const bool anywhere = m_warmth_left > least_evident || names_a_sensor() || !m_far.empty();
+  PlaceSearch places(*m_selection.base, *m_selection.best, m_default_data, anywhere ? Reach::anywhere : Reach::aside,
+                     m_facts, m_limits, m_context);
+  m_misplaced = places.at_once();
+  if (m_misplaced) return;
   if (!m_lumps_only && (anywhere || !m_selection.effects().empty())) {
     const bool stands = m_out.verdict != Verdict::unexplained && m_far.empty();
     m_wrong_geometry = wrong_geometry({m_machine, *m_selection.base, *m_selection.best, stands, m_default_data},
                                       m_facts, m_limits, m_context);
   }
   if (m_wrong_geometry) return;
-  m_misplaced = misplaced_sensor(*m_selection.base, *m_selection.best, m_default_data, m_facts, m_limits,
-                                 anywhere ? Reach::anywhere : Reach::aside, m_context);
+  m_misplaced = places.beside_more();
 }
 
 void Diagnoser::decide() {

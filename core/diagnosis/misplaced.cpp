@@ -18,8 +18,10 @@ constexpr std::string_view joint_id = "contact_resistance";
 constexpr int places_per_rod = 16;
 constexpr double far = 0.1;            // of the length: what is nearer is a tape measure's error
 constexpr double all_explained = 1.0;  // right models leave 0.3 to 1
+constexpr int most_besides = 2;        // effects that are missing beside a wrong place
 constexpr double far_behind = 200.0;   // in log evidence, after a step or a few: no further ones would make that good
 constexpr FitOptions fit_options{8, 0.1, true};
+constexpr FitOptions as_it_stands{0, 0.1, true};
 constexpr FitOptions glance{1, 0.1, true};
 constexpr FitOptions few_steps{3, 1.0, true};
 
@@ -258,6 +260,10 @@ double clearly(const Trial& trial) {
   return 25.0;
 }
 
+bool is_typical(const Trial& trial) {
+  return trial.kind == Mistake::typical;
+}
+
 bool likelier(const Trial& a, const Trial& b) {
   return a.fit->log_evidence() - clearly(a) > b.fit->log_evidence() - clearly(b);
 }
@@ -300,9 +306,14 @@ class Contest {
     return trials;
   }
   std::vector<Trial> tried_beside(const Model& like, std::vector<Trial> trials) const {
-    // A glance first: one step tells most places from any that could win.
-    in_parallel(trials.size(), [&](std::size_t i) { fit(trials[i], like, m_data, glance); });
-    std::erase_if(trials, [&](const Trial& one) { return one.fit->log_evidence() < like.log_evidence() - far_behind; });
+    // A glance first: what a step promises, and then what it gains, tells most places from any that could win.
+    const double least = like.log_evidence() - far_behind;
+    in_parallel(trials.size(), [&](std::size_t i) {
+      fit(trials[i], like, m_data, as_it_stands);
+      Model& there = *trials[i].fit;
+      if (there.log_evidence() + there.promised() >= least) there.fit(glance);
+    });
+    std::erase_if(trials, [&](const Trial& one) { return one.fit->log_evidence() < least; });
     in_parallel(trials.size(), [&](std::size_t i) { trials[i].fit->fit(fit_options); });
     std::erase_if(trials,
                   [&](const Trial& one) { return one.fit->log_evidence() < like.log_evidence() + clearly(one); });
@@ -349,36 +360,6 @@ std::vector<Trial> leaders(const std::vector<Trial>& one, const std::vector<Tria
   return list;
 }
 
-/// Beside what `best` names of the machine, or what is found missing with the sensor there.
-std::optional<Misplaced> anywhere(const Contest& contest, const Model& base, const Model& best,
-                                  const physics::RunFacts& facts, SelectionOptions limits, const TaskContext& context) {
-  std::vector<Trial> trials;
-  for (const physics::Sensor& sensor : suspects(base, best, contest.sound())) add_places(trials, base, sensor);
-  const std::vector<physics::Sensor> all = missed_most(base);
-  add_exchanges(trials, base, all);
-  add_units(trials, base, all);
-  const std::vector<Trial> alone = contest.tried_alone(trials);
-  const std::vector<Trial> beside = contest.tried_beside(contest.sound(), trials);
-  std::vector<Trial> leading = leaders(alone, beside);
-  if (leading.empty()) return std::nullopt;
-  Trial found = *std::min_element(leading.begin(), leading.end(), likelier);
-  contest.narrow(found);
-  if (contest.wins(found)) return found.what;
-  // Where nothing is left all else that is missing stands in `best`, beside which the places were tried.
-  if (excess_of(best).largest <= all_explained) return std::nullopt;
-  // What else is missing was sought with the sensor where it is not.
-  limits.others.clear();
-  for (Trial& one : leading) {
-    const auto selected =
-        select_effects(without_candidates(one.fit->machine()), contest.data(), facts, limits, context);
-    if (!selected) return std::nullopt;
-    one.fit = refitted(selected->best->machine(), *selected->best, contest.data());
-    if (likelier(one, found)) found = one;
-  }
-  contest.narrow(found);
-  return contest.wins(found) ? std::optional(found.what) : std::nullopt;
-}
-
 /// Places beside those described, and the machine without what they pass for.
 struct Suspicion {
   std::vector<Trial> trials;
@@ -402,23 +383,103 @@ std::string note_of(const Misplaced& found) {
                                       : "exchanged:" + found.channel + ":" + found.exchanged_with;
 }
 
-std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
-                                          const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
-                                          const SelectionOptions& limits, Reach reach, const TaskContext& context) {
-  const std::vector<Suspicion> aside = aside_of_what_is_named(base, best);
-  if (reach == Reach::aside && aside.empty()) return std::nullopt;
-  const Contest contest(base, best, data);
-  if (reach == Reach::anywhere) {
-    if (auto found = anywhere(contest, base, best, facts, limits, context)) return found;
+class PlaceSearch::Search {
+ public:
+  Search(const Model& base, const Model& best, const std::shared_ptr<const Dataset>& data,
+         const physics::RunFacts& facts, const SelectionOptions& limits, const TaskContext& context)
+      : m_base(base), m_best(best), m_contest(base, best, data), m_facts(facts), m_limits(limits), m_context(context) {
+    m_limits.others.clear();
+    m_limits.most_effects = std::min(m_limits.most_effects, most_besides);
   }
-  for (const auto& [trials, without] : aside) {
-    const std::vector<Trial> tried = contest.tried_beside(*refitted(without, best, data), trials);
-    if (tried.empty()) continue;
-    Trial found = tried.front();
-    contest.narrow(found);
-    if (contest.wins(found)) return found.what;
+
+  void try_anywhere() {
+    std::vector<Trial> trials;
+    for (const physics::Sensor& sensor : suspects(m_base, m_best, m_contest.sound())) {
+      add_places(trials, m_base, sensor);
+    }
+    const std::vector<physics::Sensor> all = missed_most(m_base);
+    add_exchanges(trials, m_base, all);
+    add_units(trials, m_base, all);
+    const std::vector<Trial> alone = m_contest.tried_alone(trials);
+    m_leading = leaders(alone, m_contest.tried_beside(m_contest.sound(), trials));
+    if (m_leading.empty()) return;
+    std::sort(m_leading.begin(), m_leading.end(), likelier);
+    m_found = m_leading.front();
+    m_contest.narrow(*m_found);
   }
-  return std::nullopt;
+
+  std::optional<Misplaced> at_once() {
+    if (!m_found) return std::nullopt;
+    if (m_contest.wins(*m_found)) {
+      return is_typical(*m_found) || explains_all(*m_found) ? std::optional(m_found->what) : std::nullopt;
+    }
+    look_besides();
+    return m_contest.wins(*m_found) && explains_all(*m_found) ? std::optional(m_found->what) : std::nullopt;
+  }
+
+  std::optional<Misplaced> anywhere() {
+    if (!m_found) return std::nullopt;
+    look_besides();
+    return m_contest.wins(*m_found) ? std::optional(m_found->what) : std::nullopt;
+  }
+
+  std::optional<Misplaced> aside() const {
+    for (const auto& [trials, without] : aside_of_what_is_named(m_base, m_best)) {
+      const std::vector<Trial> tried = m_contest.tried_beside(*refitted(without, m_best, m_contest.data()), trials);
+      if (tried.empty()) continue;
+      Trial found = tried.front();
+      m_contest.narrow(found);
+      if (m_contest.wins(found)) return found.what;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static bool explains_all(const Trial& one) { return excess_of(*one.fit).largest <= all_explained; }
+
+  /// What else is missing was sought with the sensor where it is not: once more, with each where it may be.
+  void look_besides() {
+    // Where nothing is left all else that is missing stands in the best, beside which the places were tried.
+    if (m_looked || m_contest.wins(*m_found) || excess_of(m_best).largest <= all_explained) return;
+    m_looked = true;
+    for (Trial& one : m_leading) {
+      const auto selected =
+          select_effects(without_candidates(one.fit->machine()), m_contest.data(), m_facts, m_limits, m_context);
+      if (!selected) return;
+      one.fit = refitted(selected->best->machine(), *selected->best, m_contest.data());
+      if (likelier(one, *m_found)) m_found = one;
+    }
+    m_contest.narrow(*m_found);
+  }
+
+  const Model& m_base;
+  const Model& m_best;
+  Contest m_contest;
+  const physics::RunFacts& m_facts;
+  SelectionOptions m_limits;
+  const TaskContext& m_context;
+  std::vector<Trial> m_leading;  // of the places anywhere
+  std::optional<Trial> m_found;
+  bool m_looked = false;
+};
+
+PlaceSearch::PlaceSearch(const Model& base, const Model& best, const std::shared_ptr<const Dataset>& data, Reach reach,
+                         const physics::RunFacts& facts, const SelectionOptions& limits, const TaskContext& context) {
+  if (reach == Reach::aside && aside_of_what_is_named(base, best).empty()) return;
+  m_search = std::make_unique<Search>(base, best, data, facts, limits, context);
+  if (reach == Reach::anywhere) m_search->try_anywhere();
+}
+
+PlaceSearch::~PlaceSearch() = default;
+
+std::optional<Misplaced> PlaceSearch::at_once() {
+  return m_search ? m_search->at_once() : std::nullopt;
+}
+
+std::optional<Misplaced> PlaceSearch::beside_more() {
+  if (!m_search) return std::nullopt;
+  if (auto found = m_search->anywhere()) return found;
+  return m_search->aside();
 }
 
 }  // namespace zerodrift::diagnosis

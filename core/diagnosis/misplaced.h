@@ -2,6 +2,7 @@
 // Does a sensor read what another place of its component would? A place in metres, or two cables exchanged, looks like
 // missing physics that no law has.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,9 +29,24 @@ enum class Reach {
 
 /// The sensor whose place, changed, explains the recording far better than `best` does, beside what `best` names of
 /// the machine or what is found missing with the sensor there; nothing where no place does, or where much is
-/// left even so. `data`: with default widths.
-std::optional<Misplaced> misplaced_sensor(const Model& base, const Model& best,
-                                          const std::shared_ptr<const Dataset>& data, const physics::RunFacts& facts,
-                                          const SelectionOptions& limits, Reach reach, const TaskContext& context);
+/// left even so. `data`: with default widths. The models outlive the search.
+class PlaceSearch {
+ public:
+  PlaceSearch(const Model& base, const Model& best, const std::shared_ptr<const Dataset>& data, Reach reach,
+              const physics::RunFacts& facts, const SelectionOptions& limits, const TaskContext& context);
+  ~PlaceSearch();
+  PlaceSearch(const PlaceSearch&) = delete;
+  PlaceSearch& operator=(const PlaceSearch&) = delete;
+
+  /// Two exchanged, a unit, or a place that leaves nothing: asked before a wrong shape is.
+  std::optional<Misplaced> at_once();
+
+  /// Any place that leaves little.
+  std::optional<Misplaced> beside_more();
+
+ private:
+  class Search;
+  std::unique_ptr<Search> m_search;  // none: nothing is tried
+};
 
 }  // namespace zerodrift::diagnosis

@@ -61,6 +61,7 @@ std::vector<double> Model::values_at(const Eigen::VectorXd& z) const {
 
 void Model::start_from(const Model& parent, bool columns) {
   m_simulated = {};
+  m_ready = false;
   std::vector<bool> used(parent.unknowns(), false);
   std::vector<std::pair<Index, Index>> taken;  // columns: mine, the parent's
   for (std::size_t i = 0; i < unknowns(); ++i) {
@@ -89,6 +90,7 @@ void Model::set_z(std::size_t i, double z) {
   const Index at = static_cast<Index>(i);
   m_z[at] = std::clamp(z, m_low[at], m_high[at]);
   m_simulated = {};
+  m_ready = false;
 }
 
 void Model::learn_from(const Model& other, Sensors sensors) {
@@ -312,6 +314,7 @@ void Model::fit(const FitOptions& options) {
   const bool refreshed = options.final_refresh && !stopped();
   if (stale != 0 && refreshed) refresh(all);
   m_borrowed = stale != 0 && !refreshed;
+  m_ready = !m_borrowed;
   log_evidence();  // here, where fits run side by side, and not one by one where they are compared
 }
 
@@ -320,6 +323,11 @@ double Model::log_evidence() const {
   const Eigen::LDLT<Eigen::MatrixXd> factors(hessian());
   m_log_evidence = m_log_prior - 0.5 * m_cost - 0.5 * factors.vectorD().array().max(1e-300).log().sum();
   return *m_log_evidence;
+}
+
+double Model::promised() const {
+  const Eigen::VectorXd g = m_jacobian.transpose() * m_residual - prior_slope();
+  return 0.5 * g.dot(hessian().llt().solve(g));
 }
 
 double Model::log_evidence_total() const {

@@ -59,6 +59,8 @@ class Model {
   double cost() const { return m_cost; }
   double log_evidence() const;        // -cost/2 - ln det(J'J + I)/2, and the effects' priors
   double log_evidence_total() const;  // with the noise's own determinant: comparable between noise levels
+  double promised() const;            // log evidence that the next step would gain if the model were linear
+
   const Eigen::VectorXd& residual() const { return m_residual; }
   const RowMatrix& jacobian() const { return m_jacobian; }
   Eigen::MatrixXd hessian() const;         // J'J and the prior's: I, or what was learned
@@ -92,7 +94,7 @@ class Model {
   physics::Prediction m_simulated;    // at m_z, with every unknown's column; empty: not simulated
   bool m_borrowed = false;            // some columns come from the parent
   bool m_have_columns = false;
-  bool m_ready = false;  // residual and columns are there before the first step
+  bool m_ready = false;  // residual and columns are those at m_z
   double m_cost = 0.0;
   double m_log_determinant = 0.0;
   double m_log_prior = 0.0;   // of the candidates it has

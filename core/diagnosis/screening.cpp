@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 
 #include "core/diagnosis/parallel.h"
@@ -194,16 +195,32 @@ void find_pair(const Scores& scores, const std::vector<Candidate>& group, double
   }
 }
 
-/// a' b, its columns side by side: of long matrices, the one thing beside the simulation that takes time.
-Eigen::MatrixXd products(const RowMatrix& a, const RowMatrix& b) {
+/// Of long matrices, the one thing beside the simulation that takes time: column by column side by side.
+void over_columns(Index columns, const std::function<void(Index first, Index count)>& job) {
   constexpr Index width = 32;
-  Eigen::MatrixXd result(a.cols(), b.cols());
-  in_parallel(static_cast<std::size_t>((b.cols() + width - 1) / width), [&](std::size_t i) {
+  in_parallel(static_cast<std::size_t>((columns + width - 1) / width), [&](std::size_t i) {
     const Index first = static_cast<Index>(i) * width;
-    const Index count = std::min(width, b.cols() - first);
+    job(first, std::min(width, columns - first));
+  });
+}
+
+/// a' b
+Eigen::MatrixXd products(const RowMatrix& a, const RowMatrix& b) {
+  Eigen::MatrixXd result(a.cols(), b.cols());
+  over_columns(b.cols(), [&](Index first, Index count) {
     result.middleCols(first, count).noalias() = a.transpose() * b.middleCols(first, count);
   });
   return result;
+}
+
+/// a' a
+Eigen::MatrixXd products(const RowMatrix& a) {
+  Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(a.cols(), a.cols());
+  over_columns(a.cols(), [&](Index first, Index count) {
+    const Index rows = first + count;
+    upper.block(0, first, rows, count).noalias() = a.leftCols(rows).transpose() * a.middleCols(first, count);
+  });
+  return upper.selfadjointView<Eigen::Upper>();
 }
 
 /// Scores a group of candidates that may stand side by side.
@@ -245,7 +262,7 @@ void score(const Model& base, const Eigen::LLT<Eigen::MatrixXd>& factors, std::v
   }
   if (pair == nullptr) return;
   const Eigen::MatrixXd information =
-      products(s, s) + Eigen::MatrixXd::Identity(s.cols(), s.cols()) - js.transpose() * solved;
+      products(s) + Eigen::MatrixXd::Identity(s.cols(), s.cols()) - js.transpose() * solved;
   find_pair({wide.network(), columns, gradient, information}, group, least, *pair);
 }
 
