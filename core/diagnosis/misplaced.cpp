@@ -18,7 +18,6 @@ constexpr std::string_view joint_id = "contact_resistance";
 constexpr int places_per_rod = 16;
 constexpr double far = 0.1;            // of the length: what is nearer is a tape measure's error
 constexpr double all_explained = 1.0;  // right models leave 0.3 to 1
-constexpr int most_besides = 2;        // effects that are missing beside a wrong place
 constexpr double far_behind = 200.0;   // in log evidence, after a step or a few: no further ones would make that good
 constexpr FitOptions fit_options{8, 0.1, true};
 constexpr FitOptions as_it_stands{0, 0.1, true};
@@ -387,10 +386,12 @@ class PlaceSearch::Search {
  public:
   Search(const Model& base, const Model& best, const std::shared_ptr<const Dataset>& data,
          const physics::RunFacts& facts, const SelectionOptions& limits, const TaskContext& context)
-      : m_base(base), m_best(best), m_contest(base, best, data), m_facts(facts), m_limits(limits), m_context(context) {
-    m_limits.others.clear();
-    m_limits.most_effects = std::min(m_limits.most_effects, most_besides);
-  }
+      : m_base(base),
+        m_best(best),
+        m_contest(base, best, data),
+        m_facts(facts),
+        m_limits(beside_a_mistake(limits)),
+        m_context(context) {}
 
   void try_anywhere() {
     std::vector<Trial> trials;

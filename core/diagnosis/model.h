@@ -94,7 +94,7 @@ class Model {
   physics::Prediction m_simulated;    // at m_z, with every unknown's column; empty: not simulated
   bool m_borrowed = false;            // some columns come from the parent
   bool m_have_columns = false;
-  bool m_ready = false;  // residual and columns are those at m_z
+  bool m_ready = false;  // residual is that at m_z, columns are at most a converged step older
   double m_cost = 0.0;
   double m_log_determinant = 0.0;
   double m_log_prior = 0.0;   // of the candidates it has

@@ -1,6 +1,7 @@
 #pragma once
 // Which effects, if any: refit of the best-scored forms, evidence, one or several effects, elimination, adequacy.
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -24,6 +25,14 @@ struct SelectionOptions {
   /// Other recordings of the machine, with default widths: asked where the fitted one leaves an effect in doubt.
   std::vector<std::shared_ptr<const Dataset>> others;
 };
+
+/// For what is missing beside a wrong place or shape of the description: little, and in this recording alone.
+inline SelectionOptions beside_a_mistake(SelectionOptions options) {
+  constexpr int most = 2;
+  options.others.clear();
+  options.most_effects = std::min(options.most_effects, most);
+  return options;
+}
 
 /// Excess of slow variation from which on something is missing: right descriptions leave less.
 inline constexpr double least_evident = 2.3;

@@ -321,9 +321,7 @@ std::string note_of(const WrongGeometry& found) {
 
 std::optional<WrongGeometry> wrong_geometry(const GeometryAsked& asked, const physics::RunFacts& facts,
                                             SelectionOptions limits, const TaskContext& context) {
-  constexpr int most_besides = 2;  // effects that are missing beside a wrong shape
-  limits.others.clear();
-  limits.most_effects = std::min(limits.most_effects, most_besides);
+  limits = beside_a_mistake(std::move(limits));
   Machine described = asked.described;
   described.reference_temperature_C = asked.base.machine().reference_temperature_C;
   const auto& effects = asked.best.machine().effects;
