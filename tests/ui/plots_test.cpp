@@ -29,6 +29,7 @@ class PlotsTest : public QObject {
   void wordsOfMarksKeepApart();
   void linkedPlotsShareTime();
   void aDayIsDrawnQuickly();
+  void aDenseCurveIsOneBand();
   void csvHoldsWhatIsSeen();
   void svgAndPngAreWritten();
   void pointsCanBeClicked();
@@ -210,6 +211,35 @@ void PlotsTest::aDayIsDrawnQuickly() {
   qInfo("24 curves of a day at 1 Hz: %.1f ms of work a redraw", redraw_ms);
   QVERIFY2(redraw_ms < 50.0, "A redraw must not hold the window.");
   QCOMPARE(plot.sampleCount("7"), 86400);
+}
+
+void PlotsTest::aDenseCurveIsOneBand() {
+  LivePlot plot;
+  plot.resize(900, 400);
+  plot.setCurves({{"a", "A", "K", QColor(Qt::red)}});
+  const auto time = ramp(86400, 1.0);
+  QVector<double> values(time.size());
+  for (int i = 0; i < values.size(); ++i) values[i] = i % 2 == 0 ? 1.0 : -1.0;
+  for (int i = 40000; i < 50000; ++i) values[i] = std::nan("");
+  plot.setData("a", time, values);
+  plot.show();
+  plot.flush();
+  const QImage picture = plot.grab().toImage();
+  const QRect inside = plot.findChild<QCustomPlot*>()->axisRect()->rect();
+  const int row = inside.center().y() + 7;
+  int red = 0;
+  int bare = 0;
+  for (int column = inside.left() + 2; column < inside.right() - 2; ++column) {
+    const QColor seen = picture.pixelColor((QPointF(column, row) * picture.devicePixelRatio()).toPoint());
+    const double at_s = 86400.0 * (column - inside.left()) / inside.width();
+    const bool edge = std::abs(at_s - 40000.0) < 400.0 || std::abs(at_s - 50000.0) < 400.0;
+    const bool gap = at_s > 40000.0 && at_s < 50000.0;
+    if (edge) continue;
+    // No seam, no stripe: the colour itself where it swings, none of it where it is silent.
+    QCOMPARE(seen == QColor(Qt::red), !gap);
+    ++(gap ? bare : red);
+  }
+  QVERIFY(red > 600 && bare > 60);
 }
 
 void PlotsTest::csvHoldsWhatIsSeen() {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/plots/custom_plot.h"
+#include "ui/plots/dense_graph.h"
 #include "ui/plots/series.h"
 #include "ui/widgets/number_text.h"
 
@@ -12,7 +13,7 @@ struct LivePlot::Entry {
   Curve curve;
   int index = 0;  // place in the list, for the colour
   Series series;
-  QCPGraph* graph = nullptr;
+  DenseGraph* graph = nullptr;
   QCPGraph* bandLow = nullptr;
   QCPGraph* bandHigh = nullptr;
   bool visible = true;
@@ -44,7 +45,7 @@ void LivePlot::setCurves(const QVector<Curve>& curves) {
     Entry* entry = m_byId.take(curves[i].id);
     if (entry == nullptr) {
       entry = new Entry;
-      entry->graph = plot()->addGraph();
+      entry->graph = new DenseGraph(plot()->xAxis, plot()->yAxis);
       entry->graph->setAdaptiveSampling(true);
     }
     entry->curve = curves[i];
@@ -53,7 +54,7 @@ void LivePlot::setCurves(const QVector<Curve>& curves) {
     kept.insert(curves[i].id, entry);
   }
   for (Entry* gone : std::as_const(m_byId)) {
-    for (QCPGraph* graph : {gone->graph, gone->bandHigh, gone->bandLow}) {
+    for (QCPGraph* graph : {static_cast<QCPGraph*>(gone->graph), gone->bandHigh, gone->bandLow}) {
       if (graph != nullptr) plot()->removeGraph(graph);
     }
     delete gone;
@@ -244,7 +245,7 @@ void LivePlot::updateView() {
   for (Entry* entry : m_entries) {
     any = any || entry->series.size() > 0;
     if (!entry->visible) continue;
-    entry->series.view(range.lower, range.upper, columns, &times, &values);
+    entry->graph->setDense(entry->series.view(range.lower, range.upper, columns, &times, &values));
     entry->graph->setData(times, values, true);
   }
   showPlaceholder(!any);

@@ -70,10 +70,10 @@ QPair<double, double> Series::extremes(qsizetype first, qsizetype last) const {
   return {low, high};
 }
 
-void Series::view(double from, double to, int columns, QVector<double>* times, QVector<double>* values) const {
+bool Series::view(double from, double to, int columns, QVector<double>* times, QVector<double>* values) const {
   times->clear();
   values->clear();
-  if (m_time.empty() || columns < 1) return;
+  if (m_time.empty() || columns < 1) return false;
   const qsizetype first = std::max<qsizetype>(0, indexAt(from) - 1);
   const qsizetype last = std::min(size(), indexAt(to) + 1);
   const qsizetype count = last - first;
@@ -84,20 +84,21 @@ void Series::view(double from, double to, int columns, QVector<double>* times, Q
       times->append(time(i));
       values->append(value(i));
     }
-    return;
+    return false;
   }
   times->reserve(qsizetype{2} * columns);
   values->reserve(qsizetype{2} * columns);
   for (int column = 0; column < columns; ++column) {
     const qsizetype a = first + count * column / columns;
     const qsizetype b = first + count * (column + 1) / columns;
-    const auto [low, high] = extremes(a, b);
+    const auto [low, high] = extremes(a, std::min(b + 1, last));
     const bool rising = value(a) <= value(b - 1);
     times->append(time(a));
     values->append(rising ? low : high);
     times->append(time((a + b) / 2));
     values->append(rising ? high : low);
   }
+  return true;
 }
 
 }  // namespace zerodrift::ui

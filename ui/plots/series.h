@@ -20,7 +20,8 @@ class Series {
   /// Smallest and largest value of the samples first .. last-1; NaN when there is none.
   QPair<double, double> extremes(qsizetype first, qsizetype last) const;
   /// Points to draw the stretch from .. to on this many pixel columns: at most two a column, and one beyond each end.
-  void view(double from, double to, int columns, QVector<double>* times, QVector<double>* values) const;
+  /// True: there are more than that, and they are pairs, the lowest and the highest of a column and of the next sample.
+  bool view(double from, double to, int columns, QVector<double>* times, QVector<double>* values) const;
 
  private:
   struct Level {
