@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 141> diagnosis = {{
+constexpr std::array<const char*, 142> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -194,6 +194,10 @@ constexpr std::array<const char*, 141> diagnosis = {{
         "core",
         "The recording has no column {column}: how the room went had to be guessed from the machine's own "
         "temperatures, and what follows the room can hardly be told from it."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
+        "record again."),
     QT_TRANSLATE_NOOP(
         "core",
         "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "

@@ -393,8 +393,22 @@ void Diagnoser::few_sensors() {
   }
 }
 
+/// What ran without being logged looks like nothing the library has.
+void Diagnoser::inputs_not_logged() {
+  if (m_out.verdict != Verdict::unexplained) return;
+  std::vector<std::string> missing;
+  for (const char* column : {"coolant_on", "spindle_load_W"}) {
+    if (recording().find(column) == nullptr) missing.emplace_back(column);
+  }
+  if (missing.empty()) return;
+  const std::string columns = fmt::format("{}", fmt::join(missing, ", "));
+  m_out.notes.push_back("inputs_not_logged:" + columns);
+  m_out.sentences.push_back(explain_note("inputs_not_logged", {{"columns", columns}}));
+}
+
 void Diagnoser::notes() {
   few_sensors();
+  inputs_not_logged();
   if (std::count(m_out.notes.begin(), m_out.notes.end(), "room_not_logged") != 0) {
     m_out.sentences.push_back(explain_note("room_not_logged", {{"column", m_machine.room.channel}}));
   }

@@ -79,6 +79,7 @@ class Diagnoser {
   void never_driven();
   void coarse_rows();
   void few_sensors();
+  void inputs_not_logged();
   double seconds_between_rows() const;
   bool nothing_drives() const;
   bool moves() const;

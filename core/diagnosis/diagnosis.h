@@ -166,13 +166,13 @@ struct DiagnoseOptions {
 /// "load_in_other_unit:RECORDING:UNIT": its load would be one in kW or %, and is next to nothing in W. Note
 /// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that
 /// recording does not fit this machine. Note "room_not_logged": the recording lacks the room's channel. Note
-/// "settles_by_itself:CHANNEL": a displacement moves by itself and slows down, and nothing shows that it follows the
-/// room. Note "no_excitation": nothing moves, or nothing drives the machine. Note "never_driven:ID,ID": what drives
-/// them never acted. Note "coarse_rows": switching times are hardly known.
-/// Note "never_changes:RECORDING:CHANNEL": a displacement that repeats one value while the machine moves; it is not
-/// used. Note "few_sensors:COMPONENT:COUNT": so few see where along it something happens. Note
-/// "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be known. Note
-/// "counts_from_each_start": oil and preload, and the refined description states no reference temperature.
+/// "inputs_not_logged:COLUMN, COLUMN": unexplained, and it lacks these. Note "settles_by_itself:CHANNEL": a
+/// displacement moves by itself and slows down, and nothing shows that it follows the room. Note "no_excitation":
+/// nothing moves, or nothing drives the machine. Note "never_driven:ID,ID": what drives them never acted. Note
+/// "coarse_rows": switching times are hardly known. Note "never_changes:RECORDING:CHANNEL": a displacement that repeats
+/// one value while the machine moves; it is not used. Note "few_sensors:COMPONENT:COUNT": so few see where along it
+/// something happens. Note "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be
+/// known. Note "counts_from_each_start": oil and preload, and the refined description states no reference temperature.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

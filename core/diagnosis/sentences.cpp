@@ -112,6 +112,9 @@ constexpr std::array catalogue{
     Entry{"room_not_logged",
           "The recording has no column {column}: how the room went had to be guessed from the machine's own "
           "temperatures, and what follows the room can hardly be told from it."},
+    Entry{"inputs_not_logged",
+          "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
+          "record again."},
     Entry{"starts_warm",
           "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
           "fitted as well. Start after a rest of some hours to be surer."},

@@ -3614,6 +3614,10 @@
         <translation>记录中没有列 {column}：室温的变化只能由机床自身的温度推测，跟随室温的效应难以与之区分。</translation>
     </message>
     <message>
+        <source>The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and record again.</source>
+        <translation>记录中没有列 {columns}：随之作用的效应无法查明。若机床有此项，请接入记录后重新测量。</translation>
+    </message>
+    <message>
         <source>The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be fitted as well. Start after a rest of some hours to be surer.</source>
         <translation>记录开始时 {part} 比室温高 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。</translation>
     </message>

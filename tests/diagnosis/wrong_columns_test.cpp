@@ -28,6 +28,19 @@ TEST(WrongColumns, WithoutTheRoomsColumnNothingIsInvented) {
   }
 }
 
+TEST(WrongColumns, WithoutTheCoolantsColumnNothingIsInvented) {
+  for (const unsigned seed : {303U, 311U, 312U}) {
+    proof::Case one = proof::make_case(seed, "coolant");
+    for (auto& run : one.recordings) {
+      std::erase_if(run.channels, [](const auto& channel) { return channel.name == "coolant_on"; });
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_EQ(answer->verdict, Verdict::unexplained) << seed;
+    EXPECT_TRUE(says(*answer, "inputs_not_logged")) << seed;
+  }
+}
+
 TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
   proof::Case one = proof::make_case(323, "none");
   one.recordings.resize(1);

@@ -26,6 +26,10 @@ bool is_of_a_run(const diagnosis::Sentence& sentence) {
   return sentence.id.starts_with("run_");
 }
 
+std::string row_of(const std::string& channel, double nominal, double refitted, double explained) {
+  return fmt::format("\n{:<14} {:>8.3g} {:>10.3g} {:>12.3g}", channel, nominal, refitted, explained);
+}
+
 std::string text_of(const diagnosis::Diagnosis& d) {
   std::string text;
   for (const auto& sentence : d.sentences) {
@@ -36,10 +40,15 @@ std::string text_of(const diagnosis::Diagnosis& d) {
   }
   for (const auto& rival : d.ambiguous_with) text += "  " + rival.why.english + "\n";
   if (d.suggested && !d.suggested->text.english.empty()) text += "  " + d.suggested->text.english + "\n";
-  text += "channel         nominal  re-fitted  with effect  (rms)";
+  text += fmt::format("{:<14} {:>8} {:>10} {:>12}   rms in K or um", "fitted", "nominal", "re-fitted", "with effect");
   for (const auto& channel : d.channels) {
-    text += fmt::format("\n{:<14} {:>8.3g} {:>10.3g} {:>12.3g}", channel.channel, channel.rms_nominal,
-                        channel.rms_refitted, channel.rms_explained);
+    text += row_of(channel.channel, channel.rms_nominal, channel.rms_refitted, channel.rms_explained);
+  }
+  for (const auto& other : d.held_out) {
+    text += "\nnot fitted: " + other.recording;
+    for (const auto& [channel, nominal] : other.nominal) {
+      text += row_of(channel, nominal, other.refitted.at(channel), other.explained.at(channel));
+    }
   }
   return text;
 }
