@@ -335,7 +335,13 @@ double Diagnoser::confidence_of(const FoundEffect& found, const ShownBy& shown) 
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });
   const bool overshadowed = warm && m_out.time_s.back() - m_out.time_s.front() < outlasted_s;
-  const double guessed = !moves() || overshadowed ? 0.7 : m_corrected ? 0.8 : room_guessed || warm ? 0.9 : 1.0;
+  // Coolant that ran without being logged is a draught, as far as anyone can tell.
+  const bool unlogged = found.id == "draught" && recording().find("coolant_on") == nullptr;
+  const double guessed = unlogged                   ? 0.5
+                         : !moves() || overshadowed ? 0.7
+                         : m_corrected              ? 0.8
+                         : room_guessed || warm     ? 0.9
+                                                    : 1.0;
   // What else is missing does not put in doubt what explains nearly all.
   constexpr double hardly_any_left = 0.1;
   const bool nearly_all = m_out.verdict == Verdict::missing_effect && shown.after < hardly_any_left * shown.before;

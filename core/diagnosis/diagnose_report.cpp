@@ -393,9 +393,11 @@ void Diagnoser::few_sensors() {
   }
 }
 
-/// What ran without being logged looks like nothing the library has.
+/// What ran without being logged looks like nothing the library has, or like a draught.
 void Diagnoser::inputs_not_logged() {
-  if (m_out.verdict != Verdict::unexplained) return;
+  const bool draught = std::any_of(m_out.effects.begin(), m_out.effects.end(),
+                                   [](const FoundEffect& found) { return found.id == "draught"; });
+  if (m_out.verdict != Verdict::unexplained && !draught) return;
   std::vector<std::string> missing;
   for (const char* column : {"coolant_on", "spindle_load_W"}) {
     if (recording().find(column) == nullptr) missing.emplace_back(column);
