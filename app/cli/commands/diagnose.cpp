@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <map>
+
 #include "app/cli/command.h"
 #include "core/base/file.h"
 #include "core/base/json.h"
@@ -46,8 +49,13 @@ std::string text_of(const diagnosis::Diagnosis& d) {
   }
   for (const auto& other : d.held_out) {
     text += "\nnot fitted: " + other.recording;
-    for (const auto& [channel, nominal] : other.nominal) {
-      text += row_of(channel, nominal, other.refitted.at(channel), other.explained.at(channel));
+    for (const auto& channel : d.channels) {
+      const auto rms = [&](const std::map<std::string, double>& all) {
+        const auto found = all.find(channel.channel);
+        return found == all.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+      };
+      if (other.nominal.count(channel.channel) == 0) continue;
+      text += row_of(channel.channel, rms(other.nominal), rms(other.refitted), rms(other.explained));
     }
   }
   return text;
