@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 142> diagnosis = {{
+constexpr std::array<const char*, 144> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -198,6 +198,14 @@ constexpr std::array<const char*, 142> diagnosis = {{
         "core",
         "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
         "record again."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
+        "drifts. Check how it is mounted."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the "
+        "time. A run in which it turns would tell."),
     QT_TRANSLATE_NOOP(
         "core",
         "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "

@@ -79,4 +79,8 @@ physics::Machine with_inner_bodies(physics::Machine machine) {
   return machine;
 }
 
+bool of_lumps_alone(const physics::Machine& machine) {
+  return std::all_of(machine.components.begin(), machine.components.end(), [](const auto& one) { return one.lump; });
+}
+
 }  // namespace zerodrift::diagnosis

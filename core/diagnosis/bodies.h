@@ -10,4 +10,7 @@ namespace zerodrift::diagnosis {
 /// The machine with an inside for every rod that has none and asks for one; starting values from its drawing.
 physics::Machine with_inner_bodies(physics::Machine machine);
 
+/// No rod: a description so crude that its numbers stand for many parts each.
+bool of_lumps_alone(const physics::Machine& machine);
+
 }  // namespace zerodrift::diagnosis

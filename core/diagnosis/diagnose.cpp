@@ -44,10 +44,6 @@ constexpr double imitated = 0.4;
 constexpr double beside_far_numbers = 0.5;
 constexpr double of_an_unknown_machine = 0.7;  // lumps about its sensors take up whatever flows between them
 
-bool of_lumps_alone(const Machine& machine) {
-  return std::all_of(machine.components.begin(), machine.components.end(), [](const auto& one) { return one.lump; });
-}
-
 /// Neither what heats it nor what touches what is described.
 bool is_unknown(const Machine& machine) {
   return of_lumps_alone(machine) && machine.couplings.empty() &&
@@ -121,7 +117,6 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   }
   if (m_context.cancelled()) return fail(ErrorCode::cancelled);
   if (!m_moved_elsewhere.empty()) m_out.notes.push_back("moved_elsewhere:" + m_moved_elsewhere);
-  if (!m_selection.settling.empty()) m_out.notes.push_back("settles_by_itself:" + m_selection.settling);
   const bool blind = shows_too_little();
   if (blind) m_out.notes.emplace_back("shows_too_little");
   std::vector<Sentence> far = far_parameters();
@@ -326,6 +321,10 @@ double Diagnoser::confidence_of(const FoundEffect& found, const ShownBy& shown) 
       seen[id] = evidence_of(*fit);
       others += std::exp(std::min(0.0, evidence_of(*fit) - best) / temperature);
     }
+  }
+  if (const auto lead = m_selection.lead_over_moving_alone.find(found.channel);
+      lead != m_selection.lead_over_moving_alone.end() && found.id.starts_with("structure_")) {
+    others += std::exp(-std::max(0.0, lead->second) / temperature);
   }
   // Nobody knows how the room went: of 27 answers to runs robbed of its column three were wrong.
   const bool room_guessed = !m_machine.room.channel.empty() && !m_facts.room_logged;

@@ -80,6 +80,7 @@ class Diagnoser {
   void coarse_rows();
   void few_sensors();
   void inputs_not_logged();
+  void moving_alone();
   double seconds_between_rows() const;
   bool nothing_drives() const;
   bool moves() const;

@@ -138,6 +138,10 @@ double Model::prior_cost(const Eigen::VectorXd& z) const {
   return off.dot(m_learned * off);
 }
 
+double Model::strain() const {
+  return prior_cost(m_z) / static_cast<double>(std::max<std::size_t>(1, unknowns()));
+}
+
 Eigen::VectorXd Model::prior_slope() const {
   if (m_learned.size() == 0) return m_z;
   return m_learned * (m_z - m_learned_z);

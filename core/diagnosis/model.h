@@ -59,6 +59,7 @@ class Model {
   double cost() const { return m_cost; }
   double log_evidence() const;        // -cost/2 - ln det(J'J + I)/2, and the effects' priors
   double log_evidence_total() const;  // with the noise's own determinant: comparable between noise levels
+  double strain() const;              // squares by which unknowns left what was known, in its widths, for each
   double promised() const;            // log evidence that the next step would gain if the model were linear
 
   const Eigen::VectorXd& residual() const { return m_residual; }

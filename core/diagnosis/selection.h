@@ -2,6 +2,7 @@
 // Which effects, if any: refit of the best-scored forms, evidence, one or several effects, elimination, adequacy.
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -57,8 +58,9 @@ struct Selection {
   std::vector<std::vector<std::shared_ptr<Model>>> levels;  // refits with one effect more, best first
   double falling_heat = 0.0;  // log evidence by which heat that falls with speed beats the best; 0: it does not
   std::string settling;  // the displacement that settles by itself, where that explains it as well as the best does
-  std::size_t described = 0;                 // effects that the description had
-  std::vector<std::size_t> effects() const;  // indices in best->machine().effects
+  std::map<std::string, double> lead_over_moving_alone;  // log evidence of what follows the room, by displacement
+  std::size_t described = 0;                             // effects that the description had
+  std::vector<std::size_t> effects() const;              // indices in best->machine().effects
 };
 
 Result<Selection> select_effects(const physics::Machine& machine, std::shared_ptr<const Dataset> data,

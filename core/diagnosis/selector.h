@@ -49,10 +49,12 @@ class Selector {
   /// more than they do, they only stand in for it.
   double falling_heat(const Model& best, const std::shared_ptr<const Dataset>& usual) const;
 
-  /// A displacement that settles by itself as the rival of what has a start of its own in each recording, and of none:
-  /// where it explains as much as an effect, nothing shows that the effect is there (settling.cpp).
+  /// A displacement that settles by itself, or drifts, as the rival of what has a start of its own in each recording;
+  /// and one that settles as the rival of none: where it explains as much as an effect, nothing shows that the effect
+  /// is there (settling.cpp).
   void try_settling();
-  bool settles_instead(std::size_t effect, const std::string& channel) const;
+  /// Log evidence, with that of others where asked.
+  double lead_over_moving_alone(std::size_t effect, const std::string& channel) const;
   bool settles_beside_nothing(const std::string& channel) const;
 
   /// Comparable between models under noises of their own.

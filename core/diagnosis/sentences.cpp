@@ -115,6 +115,12 @@ constexpr std::array catalogue{
     Entry{"inputs_not_logged",
           "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
           "record again."},
+    Entry{"moves_by_itself",
+          "Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
+          "drifts. Check how it is mounted."},
+    Entry{"follows_or_drifts",
+          "Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the "
+          "time. A run in which it turns would tell."},
     Entry{"starts_warm",
           "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
           "fitted as well. Start after a rest of some hours to be surer."},

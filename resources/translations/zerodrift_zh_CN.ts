@@ -3618,6 +3618,14 @@
         <translation>记录中没有列 {columns}：随之作用的效应无法查明。若机床有此项，请接入记录后重新测量。</translation>
     </message>
     <message>
+        <source>Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that drifts. Check how it is mounted.</source>
+        <translation>没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。</translation>
+    </message>
+    <message>
+        <source>Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the time. A run in which it turns would tell.</source>
+        <translation>{channel} 是跟随室温还是自行漂移尚不确定：室温几乎一直朝同一方向变化。在室温转向的一次运行中即可分辨。</translation>
+    </message>
+    <message>
         <source>The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be fitted as well. Start after a rest of some hours to be surer.</source>
         <translation>记录开始时 {part} 比室温高 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。</translation>
     </message>

@@ -35,6 +35,20 @@ TEST(Settling, ASmallCreepIsNotConsistent) {
   EXPECT_EQ(d.verdict, Verdict::unexplained);
 }
 
+/// A room that warms all day passes for what a probe drifts by.
+TEST(Settling, AProbeThatDriftsDoesNotFollowTheRoom) {
+  for (const unsigned seed : {1638217301U, 1638217302U}) {
+    proof::Case one = proof::make_case(seed, "none");
+    one.recordings.resize(1);
+    auto& run = one.recordings[0];
+    auto& moved = run.find("dZ_um")->values;
+    for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += 0.9 / 3600.0 * run.time_s[k];
+    const Diagnosis d = diagnosed(one);
+    EXPECT_NE(d.verdict, Verdict::consistent) << seed;
+    for (const FoundEffect& found : d.effects) EXPECT_LE(found.confidence, 0.6) << seed << found.id;
+  }
+}
+
 /// The film of an open door grows towards the nose from none at the rear.
 TEST(Draught, BlowsAtOneEnd) {
   const Diagnosis d = diagnosed(proof::make_case(3897549530, "draught"));

@@ -92,9 +92,6 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
       output.warnings.push_back("only another recording shows that " + note.substr(16) +
                                 " does not follow the simulation");
     }
-    if (note.rfind("settles_by_itself:", 0) == 0) {
-      output.warnings.push_back(note.substr(18) + " settles by itself: nothing shows that it follows the room");
-    }
     if (note.rfind("fitted_instead:", 0) == 0) {
       output.warnings.push_back("the first recording does not show it: " + note.substr(15) +
                                 " was fitted and the first held out");

@@ -72,6 +72,8 @@ EffectSpec free_speed_heat(const Component& component);
 /// A displacement that settles by itself, whatever the room and the machine do: no effect, but the rival of those that
 /// have a start of their own in each recording.
 EffectSpec settling_by_itself(const std::string& channel);
+/// The same for one that drifts on and on, as a probe or its electronics do.
+EffectSpec drifting_by_itself(const std::string& channel);
 /// "convection, speed_convection, ..."
 std::string effect_ids();
 

@@ -1,6 +1,6 @@
 // The structure follows the room and moves the nose: d += g lag(T_room - T0, tau). Driven by "nothing" it is never
-// named: a displacement that settles by itself, d += sum of s_i exp(-t / tau_i), is the rival that whatever says to
-// follow the room has to beat. What creeps has such a spectrum of times.
+// named: a displacement that settles by itself, d += sum of s_i exp(-t / tau_i), or drifts, d += v t, is the rival that
+// whatever says to follow the room has to beat. What creeps has such a spectrum of times; a probe drifts.
 #include <array>
 
 #include "core/physics/effects/sensor_effects.h"
@@ -15,9 +15,19 @@ struct Settling {
 constexpr std::array<Settling, 3> spectrum = {
     {{"um_in_1200_s", 1200.0}, {"um_in_4800_s", 4800.0}, {"um_in_19200_s", 19200.0}}};
 
-void add_settling(NetworkBuilder& builder, const EffectSpec& spec, int index, Observation& seen) {
+constexpr const char* drift_key = "um_per_h";
+
+void add_by_itself(NetworkBuilder& builder, const EffectSpec& spec, int index, Observation& seen) {
   const std::vector<double>& times_s = builder.inputs().time_s;
   const double start_s = times_s.empty() ? 0.0 : times_s.front();
+  if (spec.numbers.count(drift_key) != 0) {
+    StructureTerm term;
+    term.gain = builder.effect_parameter(spec, index, drift_key);
+    term.signal = builder.signal(
+        {"drift", [start_s](const double*, const double*, double time_s) { return (time_s - start_s) / 3600.0; }});
+    seen.structure.push_back(term);
+    return;
+  }
   for (const Settling& part : spectrum) {
     StructureTerm term;
     term.gain = builder.effect_parameter(spec, index, part.key);
@@ -32,7 +42,7 @@ void add_settling(NetworkBuilder& builder, const EffectSpec& spec, int index, Ob
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   Observation* seen = observation_of(builder, spec);
   if (seen == nullptr) return;
-  if (spec.word_or("driver", "") == "nothing") return add_settling(builder, spec, index, *seen);
+  if (spec.word_or("driver", "") == "nothing") return add_by_itself(builder, spec, index, *seen);
   StructureTerm term;
   term.gain = builder.effect_parameter(spec, index, "um_per_K");
   term.lag = builder.effect_parameter(spec, index, "lag_s", 4000.0);
@@ -63,6 +73,11 @@ EffectSpec settling_by_itself(const std::string& channel) {
   return spec;
 }
 
+EffectSpec drifting_by_itself(const std::string& channel) {
+  return {
+      "structure_ambient", true, {{structure_ambient::drift_key, 0.0}}, {{"channel", channel}, {"driver", "nothing"}}};
+}
+
 extern const Effect structure_ambient_effect;
 const Effect structure_ambient_effect = {"structure_ambient",
                                          "d += g lag(T_room - T0, tau)",
@@ -71,6 +86,7 @@ const Effect structure_ambient_effect = {"structure_ambient",
                                          "structure_bending",
                                          {{"um_per_K", 5.0, -60.0, 60.0, true},
                                           {"lag_s", 0.7, 200.0, 40000.0, false, 4000.0, true},
+                                          {"um_per_h", 0.5, -50.0, 50.0, true},
                                           {"um_in_1200_s", 5.0, -500.0, 500.0, true},
                                           {"um_in_4800_s", 5.0, -500.0, 500.0, true},
                                           {"um_in_19200_s", 5.0, -500.0, 500.0, true}},
