@@ -125,6 +125,7 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   m_out.sentences.push_back(explain_verdict(m_out));
   for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
   tell_wrong_set_up();
+  signs_turned();
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show();

@@ -300,13 +300,34 @@ void Diagnoser::tell_wrong_set_up() {
                                               {"at", fmt::format("{:.0f}", m_misplaced->at_mm)}}));
 }
 
+/// Displacements that count the other way than described.
+std::vector<std::string> Diagnoser::mirrored() const {
+  std::vector<std::string> list;
+  if (m_out.verdict == Verdict::consistent) return list;
+  for (const MeasuredChannel& channel : m_default_data->channels) {
+    if (channel.samples == 0) continue;
+    const auto report = std::find_if(m_out.channels.begin(), m_out.channels.end(),
+                                     [&](const ChannelReport& one) { return one.channel == channel.name; });
+    if (report != m_out.channels.end() && is_mirrored(channel, report->nominal)) list.push_back(channel.name);
+  }
+  return list;
+}
+
+void Diagnoser::signs_turned() {
+  for (const std::string& channel : mirrored()) {
+    m_out.notes.push_back("sign_turned:" + channel);
+    m_out.sentences.push_back(explain_note("sign_turned", {{"channel", channel}}));
+  }
+}
+
 /// A simulation that agrees only with numbers far from the description's does not bear the description out.
 std::vector<Sentence> Diagnoser::far_parameters() {
   constexpr std::size_t most_told = 3;
   std::vector<Sentence> told;
+  const bool turned = !mirrored().empty();  // an expansion that shrank towards the other sign says only that
   for (const FarParameter& one : m_far) {
     m_out.notes.push_back(fmt::format("far_from_description:{}:{}:{:.3g}", one.quantity.substr(9), one.of, one.factor));
-    if (told.size() == most_told) continue;
+    if (told.size() == most_told || (turned && one.quantity == "quantity_expansion")) continue;
     told.push_back(explain_far(one));
   }
   return told;
@@ -445,14 +466,6 @@ void Diagnoser::notes() {
   if (!moves()) {
     m_out.notes.emplace_back("no_excitation");
     m_out.sentences.push_back(explain_note("no_excitation"));
-  }
-  for (const MeasuredChannel& channel : m_default_data->channels) {
-    if (m_out.verdict == Verdict::consistent || channel.samples == 0) continue;
-    const auto report = std::find_if(m_out.channels.begin(), m_out.channels.end(),
-                                     [&](const ChannelReport& one) { return one.channel == channel.name; });
-    if (report == m_out.channels.end() || !is_mirrored(channel, report->nominal)) continue;
-    m_out.notes.push_back("sign_turned:" + channel.name);
-    m_out.sentences.push_back(explain_note("sign_turned", {{"channel", channel.name}}));
   }
   if (m_out.verdict == Verdict::unexplained && m_selection.falling_heat > 0.0 && !m_out.mismatch.channels.empty()) {
     m_out.notes.push_back("heat_falls_with_speed:" + m_out.mismatch.channels.front());

@@ -81,6 +81,8 @@ class Diagnoser {
   void few_sensors();
   void inputs_not_logged();
   void moving_alone();
+  std::vector<std::string> mirrored() const;
+  void signs_turned();
   double seconds_between_rows() const;
   bool nothing_drives() const;
   bool moves() const;
