@@ -172,6 +172,17 @@ TEST(BadInput, ASecondRecordingOfAnotherMachineIsNamed) {
   EXPECT_TRUE(has_note(*answer, "held_out_differs:other"));
 }
 
+TEST(BadInput, ASecondRecordingThatBendsTheWholeMachineIsOfAnother) {
+  // Its temperatures can be fitted, with all that is described of the first machine changed.
+  proof::Case one = proof::make_case(109, "extra_heat_source");
+  one.recordings[1] = proof::make_case(210, "none").recordings[0];
+  one.recordings[1].name = "other";
+  const auto answer = answer_for(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(has_note(*answer, "held_out_differs:other"));
+  EXPECT_TRUE(only_names(*answer, "extra_heat_source"));
+}
+
 TEST(BadInput, TheSameRunTwiceIsRefused) {
   proof::Case one = proof::make_case(107, "none");
   one.recordings[1] = one.recordings[0];

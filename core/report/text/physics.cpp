@@ -122,6 +122,15 @@ std::vector<TextEntry> texts_of_physics() {
       {"The recording has no column {column}: how the room went had to be guessed from the machine's own "
        "temperatures, and what follows the room can hardly be told from it.",
        "记录中没有列 {column}：室温的变化只能由机床自身的温度推测，跟随室温的效应难以与之区分。"},
+      {"The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
+       "record again.",
+       "记录中没有列 {columns}：随之作用的效应无法查明。若机床有此项，请接入记录后重新测量。"},
+      {"Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
+       "drifts. Check how it is mounted.",
+       "没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。"},
+      {"Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the "
+       "time. A run in which it turns would tell.",
+       "{channel} 是跟随室温还是自行漂移尚不确定：室温几乎一直朝同一方向变化。在室温转向的一次运行中即可分辨。"},
       {"The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
        "fitted as well. Start after a rest of some hours to be surer.",
        "记录开始时 {part} 比室温高 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。"},
