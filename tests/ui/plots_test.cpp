@@ -221,6 +221,7 @@ void PlotsTest::aDenseCurveIsOneBand() {
   QVector<double> values(time.size());
   for (int i = 0; i < values.size(); ++i) values[i] = i % 2 == 0 ? 1.0 : -1.0;
   for (int i = 40000; i < 50000; ++i) values[i] = std::nan("");
+  for (int i = 45000; i < 45004; ++i) values[i] = i % 2 == 0 ? 1.0 : -1.0;
   plot.setData("a", time, values);
   plot.show();
   plot.flush();
@@ -229,10 +230,13 @@ void PlotsTest::aDenseCurveIsOneBand() {
   const int row = inside.center().y() + 7;
   int red = 0;
   int bare = 0;
+  bool alone = false;  // four samples between two silences
   for (int column = inside.left() + 2; column < inside.right() - 2; ++column) {
     const QColor seen = picture.pixelColor((QPointF(column, row) * picture.devicePixelRatio()).toPoint());
     const double at_s = 86400.0 * (column - inside.left()) / inside.width();
-    const bool edge = std::abs(at_s - 40000.0) < 400.0 || std::abs(at_s - 50000.0) < 400.0;
+    alone = alone || (std::abs(at_s - 45000.0) < 400.0 && seen.red() > seen.green() + 30);
+    const bool edge =
+        std::abs(at_s - 40000.0) < 400.0 || std::abs(at_s - 50000.0) < 400.0 || std::abs(at_s - 45000.0) < 400.0;
     const bool gap = at_s > 40000.0 && at_s < 50000.0;
     if (edge) continue;
     // No seam, no stripe: the colour itself where it swings, none of it where it is silent.
@@ -240,6 +244,7 @@ void PlotsTest::aDenseCurveIsOneBand() {
     ++(gap ? bare : red);
   }
   QVERIFY(red > 600 && bare > 60);
+  QVERIFY(alone);
 }
 
 void PlotsTest::csvHoldsWhatIsSeen() {

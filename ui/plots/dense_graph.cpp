@@ -26,6 +26,10 @@ void DenseGraph::draw(QCPPainter* painter) {
   const double shift = onto.dx();
   const double half_px = pen.widthF() / 2.0;
   const auto fill = [&] {
+    if (m_high.size() == 1) {  // alone between two gaps: it is seen all the same
+      m_high.push_back(m_high.front() + QPointF(1.0, 0.0));
+      m_low.push_back(m_low.front() + QPointF(1.0, 0.0));
+    }
     if (!m_high.empty()) {
       m_high.insert(m_high.end(), m_low.rbegin(), m_low.rend());
       painter->drawPolygon(m_high.data(), static_cast<int>(m_high.size()), Qt::WindingFill);
