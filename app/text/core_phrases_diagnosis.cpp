@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 144> diagnosis = {{
+constexpr std::array<const char*, 145> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -56,6 +56,10 @@ constexpr std::array<const char*, 144> diagnosis = {{
     QT_TRANSLATE_NOOP(
         "core",
         "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and "
+        "the sensors' noise."),
     QT_TRANSLATE_NOOP(
         "core",
         "Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W."),

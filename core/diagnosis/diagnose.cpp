@@ -122,13 +122,16 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   std::vector<Sentence> far = far_parameters();
   if (m_wrong_geometry) m_out.notes.push_back(note_of(*m_wrong_geometry));
   if (m_misplaced) m_out.notes.push_back(note_of(*m_misplaced));
+  const std::vector<std::string> asleep =
+      m_out.verdict == Verdict::unexplained || blind ? std::vector<std::string>{} : never_driven();
+  if (!asleep.empty()) m_out.notes.push_back(fmt::format("never_driven:{}", fmt::join(asleep, ",")));
   m_out.sentences.push_back(explain_verdict(m_out));
   for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
   tell_wrong_set_up();
   signs_turned();
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
-  if (m_out.verdict != Verdict::unexplained && !blind) cannot_show();
+  if (m_out.verdict != Verdict::unexplained && !blind) cannot_show(asleep);
   notes();
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   m_context.progress(1.0, "done");

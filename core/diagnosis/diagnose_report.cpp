@@ -333,8 +333,9 @@ std::vector<Sentence> Diagnoser::far_parameters() {
   return told;
 }
 
-/// What may be there although it is not named: no size that there can be would have shown.
-void Diagnoser::cannot_show() {
+/// What may be there although it is not named: no size that there can be would have shown, or what drives it never
+/// acted.
+void Diagnoser::cannot_show(const std::vector<std::string>& never_driven) {
   std::vector<std::string> unseen;
   for (const Detectable& least : m_out.detectable) {
     const bool named = std::any_of(m_out.effects.begin(), m_out.effects.end(),
@@ -343,11 +344,13 @@ void Diagnoser::cannot_show() {
     if (least.value > physics::find_effect(least.id)->parameter(least.key).high) unseen.push_back(least.id);
   }
   if (!unseen.empty()) m_out.sentences.push_back(explain_unseen(unseen));
-  never_driven();
+  if (never_driven.empty()) return;
+  m_out.sentences.push_back(
+      explain_note("never_driven", {{"effects", fmt::format("{}", fmt::join(never_driven, ","))}}));
 }
 
 /// Inputs that the recording logs and that never acted: what acts with them alone was not asked about.
-void Diagnoser::never_driven() {
+std::vector<std::string> Diagnoser::never_driven() const {
   const auto logged = [&](const char* column) { return recording().find(column) != nullptr; };
   physics::RunFacts all = m_facts;
   all.has_speed = all.has_speed || logged("spindle_rpm");
@@ -363,9 +366,7 @@ void Diagnoser::never_driven() {
       untold.push_back(id);
     }
   }
-  if (untold.empty()) return;
-  m_out.notes.push_back(fmt::format("never_driven:{}", fmt::join(untold, ",")));
-  m_out.sentences.push_back(explain_note("never_driven", {{"effects", fmt::format("{}", fmt::join(untold, ","))}}));
+  return untold;
 }
 
 /// What switches between two rows that are far apart has moved the machine by an unknown amount.

@@ -75,8 +75,8 @@ class Diagnoser {
   bool refuted() const;
   bool only_comes_and_goes() const;
   void details();
-  void cannot_show();
-  void never_driven();
+  void cannot_show(const std::vector<std::string>& never_driven);
+  std::vector<std::string> never_driven() const;
   void coarse_rows();
   void few_sensors();
   void inputs_not_logged();

@@ -301,6 +301,8 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     s.id += "_blind";
   } else if (diagnosis.verdict == Verdict::consistent && noted("far_from_description:")) {
     s.id += "_bent";
+  } else if (diagnosis.verdict == Verdict::consistent && noted("never_driven:")) {
+    s.id += "_in_part";
   }
   if (diagnosis.doubtful) {
     const auto any_of = [&](std::initializer_list<const char*> notes) {

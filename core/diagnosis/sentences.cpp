@@ -15,6 +15,9 @@ struct Entry {
 constexpr std::array catalogue{
     Entry{"verdict_consistent",
           "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise."},
+    Entry{"verdict_consistent_in_part",
+          "Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and "
+          "the sensors' noise."},
     Entry{"verdict_unexplained",
           "Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W."},
     Entry{

@@ -3198,6 +3198,10 @@
         <translation>没有缺失：仿真与记录在公差和传感器噪声范围内一致。</translation>
     </message>
     <message>
+        <source>Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and the sensors&apos; noise.</source>
+        <translation>在本记录所能显示的范围内没有缺失：仿真与记录在公差和传感器噪声范围内一致。</translation>
+    </message>
+    <message>
         <source>Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W.</source>
         <translation>存在效应库无法解释的缺失：{channel} 处最严重，{@regime}，约 {watts} W。</translation>
     </message>

@@ -273,12 +273,14 @@ TEST(WrongSetUp, WhatNeverRanIsNotSaidToBeSound) {
   const auto whole = answer_with_details(one);
   ASSERT_TRUE(whole.has_value()) << describe(whole.error());
   EXPECT_FALSE(notes(*whole, "never_driven"));
+  EXPECT_TRUE(says(*whole, "verdict_consistent"));
   auto& coolant = one.recordings[0].find("coolant_on")->values;
   std::fill(coolant.begin(), coolant.end(), 0.0);
   const auto without = answer_with_details(one);
   ASSERT_TRUE(without.has_value()) << describe(without.error());
   EXPECT_TRUE(notes(*without, "never_driven:coolant"));
   EXPECT_TRUE(says(*without, "never_driven"));
+  EXPECT_TRUE(says(*without, "verdict_consistent_in_part"));
 }
 
 TEST(WrongSetUp, ADescriptionInCentimetresIsOfNoMachine) {

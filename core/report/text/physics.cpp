@@ -38,6 +38,10 @@ std::vector<TextEntry> texts_of_physics() {
       {"Smallest effects that this recording would have shown", "本次记录所能发现的最小效应"},
       {"Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise.",
        "没有缺失：在容差和传感器噪声范围内，仿真与记录一致。"},
+      {"Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and "
+       "the "
+       "sensors' noise.",
+       "在本记录所能显示的范围内没有缺失：在容差和传感器噪声范围内，仿真与记录一致。"},
       {"Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W.",
        "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，约 {watts} W。"},
       {"Something is missing that the library does not explain: what fits {channel} in this recording misses the "
