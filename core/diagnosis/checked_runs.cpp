@@ -11,7 +11,7 @@
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/left_out.h"
 #include "core/diagnosis/long_gaps.h"
-#include "core/diagnosis/plausible.h"
+#include "core/diagnosis/units.h"
 #include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis {
@@ -147,7 +147,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
         one_is_missing && !unknown.empty()) {
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
-    ZD_CHECK(check_times(machine, sound.recording));
+    ZD_CHECK(check_units(machine, sound.recording));
     if (const auto unit = load_in_other_unit(machine, sound.recording)) {
       out.warnings.push_back(fmt::format("load_in_other_unit:{}:{}", one.name, unit->symbol));
       out.told.push_back(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/confidence.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/misstated.h"
@@ -64,11 +65,10 @@ std::shared_ptr<Model> Diagnoser::without_kind(std::size_t i) const {
 
 /// A number of the description that is wrong may look like this effect.
 void Diagnoser::doubt_description(FoundEffect& found, const Model& without) {
-  constexpr double either = 0.5;
   const std::optional<Misstated> instead = misstated_instead(*m_selection.best, without);
   if (!instead) return;
   const FarParameter& number = instead->number;
-  found.confidence = std::min(found.confidence, either);
+  found.confidence = std::min(found.confidence, doubt::or_a_number);
   const std::string note = fmt::format("misstated:{}:{}:{:.3g}", number.quantity.substr(9), number.of, number.factor);
   if (std::count(m_out.notes.begin(), m_out.notes.end(), note) != 0) return;
   m_out.notes.push_back(note);

@@ -11,6 +11,7 @@
 #include "core/diagnosis/apart.h"
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/checked_runs.h"
+#include "core/diagnosis/confidence.h"
 #include "core/diagnosis/contradiction.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
@@ -21,6 +22,7 @@
 #include "core/diagnosis/plausible.h"
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/thinning.h"
+#include "core/diagnosis/units.h"
 #include "core/physics/initial_state.h"
 
 namespace zerodrift::diagnosis {
@@ -37,19 +39,6 @@ constexpr double least_of_a_source = 0.0025;
 constexpr double sharp = 0.005;          // of the length: a peak so narrow stands for the whole distribution
 constexpr double hardly_any = 0.1;       // of a mismatch: the fit without an effect bends what is described instead
 constexpr double widest_point_mm = 6.0;  // what is known worse is told as a stretch
-
-// What the library does not explain is imitated as well as it can be: such names are mostly wrong. Of a lump that
-// stands for a whole part never all is explained.
-constexpr double imitated = 0.4;
-constexpr double beside_far_numbers = 0.5;
-constexpr double of_an_unknown_machine = 0.7;  // lumps about its sensors take up whatever flows between them
-
-/// Neither what heats it nor what touches what is described.
-bool is_unknown(const Machine& machine) {
-  return of_lumps_alone(machine) && machine.couplings.empty() &&
-         std::all_of(machine.components.begin(), machine.components.end(),
-                     [](const auto& one) { return one.sources.empty(); });
-}
 
 /// What is fitted to this recording keeps its meaning in others.
 Machine told_at(Machine machine, const Recording& recording) {
@@ -262,7 +251,7 @@ void Diagnoser::effects() {
     const ShownBy shown = show_best(found, other);
     found.confidence = confidence_of(found, shown);
     // Beside numbers that had to leave all tolerance something else is wrong, which it may stand for.
-    if (m_far.size() > (m_corrected ? 1 : 0)) found.confidence *= beside_far_numbers;
+    if (m_far.size() > (m_corrected ? 1 : 0)) found.confidence *= doubt::far_numbers;
     doubt_description(found, *without_kind(i));
     end_within_the_run(found);
     const std::vector<FarParameter> far = far_from_description(*without);
@@ -307,51 +296,6 @@ void Diagnoser::end_within_the_run(FoundEffect& found) const {
   found.sigma.erase("to_s");
 }
 
-/// Evidence of the best family of the last level against the other families, tempered (see the proof's reliability).
-double Diagnoser::confidence_of(const FoundEffect& found, const ShownBy& shown) const {
-  constexpr double temperature = 3.0;
-  double others = std::exp(-(found.log_evidence_gain - m_limits.first) / temperature);
-  std::map<std::string, double> seen;
-  const double best = evidence_of(*m_selection.best);
-  for (const auto& level : m_selection.levels) {
-    for (const auto& fit : level) {
-      if (fit->machine().effects.size() != m_selection.best->machine().effects.size()) continue;
-      const std::string& id = fit->machine().effects.back().id;
-      // The same effects found in another order are no rivals of each other.
-      const bool own =
-          std::any_of(m_selection.best->machine().effects.begin(), m_selection.best->machine().effects.end(),
-                      [&](const auto& spec) { return spec.id == id; });
-      if (own || seen.count(id) != 0) continue;
-      seen[id] = evidence_of(*fit);
-      others += std::exp(std::min(0.0, evidence_of(*fit) - best) / temperature);
-    }
-  }
-  if (const auto lead = m_selection.lead_over_moving_alone.find(found.channel);
-      lead != m_selection.lead_over_moving_alone.end() && found.id.starts_with("structure_")) {
-    others += std::exp(-std::max(0.0, lead->second) / temperature);
-  }
-  // Nobody knows how the room went: of 27 answers to runs robbed of its column three were wrong.
-  const bool room_guessed = !m_machine.room.channel.empty() && !m_facts.room_logged;
-  // Nor what ran before a start that is not at rest, which a short run does not outlast: of 40 answers to stretches
-  // from the middle of a run a third was wrong.
-  constexpr double outlasted_s = 3.0 * 3600.0;
-  const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
-                                [&](const auto& component) { return start_above_room_K(component) != 0.0; });
-  const bool overshadowed = warm && m_out.time_s.back() - m_out.time_s.front() < outlasted_s;
-  // Coolant that ran without being logged is a draught, as far as anyone can tell.
-  const bool unlogged = found.id == "draught" && recording().find("coolant_on") == nullptr;
-  const double guessed = unlogged                   ? 0.5
-                         : !moves() || overshadowed ? 0.7
-                         : m_corrected              ? 0.8
-                         : room_guessed || warm     ? 0.9
-                                                    : 1.0;
-  // What else is missing does not put in doubt what explains nearly all.
-  constexpr double hardly_any_left = 0.1;
-  const bool nearly_all = m_out.verdict == Verdict::missing_effect && shown.after < hardly_any_left * shown.before;
-  const double poor = (m_out.excess_after > 3.0 && !nearly_all ? 0.8 : 1.0) * guessed;
-  return poor * 0.99 / (1.0 + others);
-}
-
 std::string_view name_of(Verdict verdict) {
   return verdict == Verdict::consistent    ? "consistent"
          : verdict == Verdict::unexplained ? "unexplained"
@@ -369,12 +313,7 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
                                    : Diagnoser(machine, runs.recordings, options, context).run();
   if (result && !apart) result = settled(std::move(*result), machine, runs.recordings, options, context);
   if (!result) return result;
-  if (result->verdict == Verdict::unexplained && !of_lumps_alone(machine)) {
-    for (FoundEffect& effect : result->effects) effect.confidence *= imitated;
-  }
-  if (is_unknown(machine)) {
-    for (FoundEffect& effect : result->effects) effect.confidence *= of_an_unknown_machine;
-  }
+  doubt_whole(*result, machine);
   if (const auto& raised = machine.tolerances.raised; !raised.empty()) {
     result->notes.push_back(fmt::format("tolerances_raised:{}", fmt::join(raised, ",")));
     result->sentences.push_back(explain_raised(machine.tolerances));

@@ -51,6 +51,8 @@ class Diagnoser {
   ShownBy show_best(FoundEffect& found, const physics::Prediction& without) const;
   void end_within_the_run(FoundEffect& found) const;
   double confidence_of(const FoundEffect& found, const ShownBy& shown) const;
+  double odds_against(const FoundEffect& found) const;
+  double guessed(const FoundEffect& found) const;
   void doubt_description(FoundEffect& found, const Model& without);
   void rivals();
   bool shows_too_little() const;

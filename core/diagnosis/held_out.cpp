@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/diagnosis/confidence.h"
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/elsewhere.h"
 #include "core/diagnosis/explain.h"
@@ -211,7 +212,6 @@ void Diagnoser::worse_elsewhere() {
   constexpr double clearly = 1.05;  // of all squares, in widths of noise
   constexpr double in_one = 1.5;    // of one channel's rms
   constexpr double noticed = 2.0;   // widths of noise
-  constexpr double doubted = 0.5;
   if (m_out.effects.empty()) return;
   const bool once = std::any_of(m_out.effects.begin(), m_out.effects.end(),
                                 [](const FoundEffect& found) { return physics::happens_once(found.id); });
@@ -236,7 +236,7 @@ void Diagnoser::worse_elsewhere() {
     if (worst == nullptr || (with <= clearly * without && !one_is_worse)) continue;
     // Other runs refute nothing of lumps (borne_out_elsewhere): doubt is all that they leave.
     if (m_lumps_only && !once && with > clearly * without) {
-      for (FoundEffect& found : m_out.effects) found.confidence *= doubted;
+      for (FoundEffect& found : m_out.effects) found.confidence *= doubt::worse_elsewhere;
     }
     m_out.notes.push_back("held_out_worse:" + other.recording + ":" + worst->channel);
     m_out.sentences.push_back(explain_note(once ? "held_out_worse_once" : "held_out_worse",

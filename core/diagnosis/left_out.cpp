@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/diagnosis/bodies.h"
 #include "core/diagnosis/dataset.h"
-#include "core/diagnosis/plausible.h"
 #include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis {
