@@ -62,6 +62,10 @@ std::string linked(const std::string& id, const std::string& value, const report
          escaped(artefact_of(trace) + ": " + trace.detail) + "\">" + escaped(value) + "</a>";
 }
 
+std::string heading(const std::string& title) {
+  return title.empty() ? "" : "<h3>" + escaped(title) + "</h3>\n";
+}
+
 struct BlockHtml {
   std::string operator()(const report::Text& text) const {
     const bool worst = text.verdict == report::Verdict::bad;
@@ -80,7 +84,8 @@ struct BlockHtml {
   }
 
   std::string operator()(const report::Table& table) const {
-    std::string out = "<h3>" + escaped(table.title) + "</h3>\n<table id=\"" + escaped(table.id) + "\"><thead><tr>";
+    // A section and its only table have the same id.
+    std::string out = heading(table.title) + "<table id=\"table-" + escaped(table.id) + "\"><thead><tr>";
     for (const auto& cell : table.header) out += "<th>" + escaped(cell) + "</th>";
     out += "</tr></thead><tbody>\n";
     for (const auto& row : table.rows) {
@@ -97,13 +102,12 @@ struct BlockHtml {
 
   std::string operator()(const report::Plot& plot) const {
     const bool half = plot.width == report::Width::half;
-    return std::string(half ? "<div class=\"half\">" : "<div>") + "<h3>" + escaped(plot.title) + "</h3>\n" +
+    return std::string(half ? "<div class=\"half\">" : "<div>") + heading(plot.title) +
            ui::reportPlotSvg(plot_data(plot), half ? QSize(410, 210) : QSize(820, 300)).toStdString() + "</div>\n";
   }
 
   std::string operator()(const report::HeatMap& map) const {
-    return "<h3>" + escaped(map.title) + "</h3>\n" + ui::reportMapSvg(map_data(map), QSize(820, 300)).toStdString() +
-           "\n";
+    return heading(map.title) + ui::reportMapSvg(map_data(map), QSize(820, 300)).toStdString() + "\n";
   }
 };
 

@@ -4,6 +4,8 @@
 
 #include <QElapsedTimer>
 #include <QProcess>
+#include <QRegularExpression>
+#include <QSet>
 #include <QTest>
 #include <map>
 
@@ -121,6 +123,21 @@ class ReportingTest : public QObject {
       QVERIFY2(html.find(std::string("href=\"#trace-") + id + "\"") != std::string::npos, id);
       QVERIFY2(html.find(std::string("id=\"trace-") + id + "\"") != std::string::npos, id);
     }
+  }
+
+  void whatALinkLeadsToIsThereOnce() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    const QString html = QString::fromStdString(reporting::html_of(report::build_report(rich.job()).value()));
+    const auto all = [&](const char* pattern) {
+      QStringList found;
+      auto match = QRegularExpression(QString::fromLatin1(pattern)).globalMatch(html);
+      while (match.hasNext()) found.append(match.next().captured(1));
+      return found;
+    };
+    const QStringList ids = all(" id=\"([^\"]*)\"");
+    for (const QString& target : all("href=\"#([^\"]*)\"")) QVERIFY2(ids.count(target) == 1, qPrintable(target));
+    QCOMPARE(QSet<QString>(ids.begin(), ids.end()).size(), ids.size());
+    QVERIFY(!html.contains(QStringLiteral("<h3></h3>")));
   }
 
   void theBundleHoldsEverythingButSecrets() {
