@@ -3295,7 +3295,7 @@
     </message>
     <message>
         <source> between {from} and {to} mm</source>
-        <translation>{from} 至 {to} mm 之间的</translation>
+        <translation>位于 {from} 至 {to} mm 之间的</translation>
     </message>
     <message>
         <source> of {component}</source>

@@ -252,7 +252,10 @@ void PhysicsPage::render() {
                                               : tr("Missing heat"),
                               tr("Simulation and recording"), tr("Blind trial")};
   m_mapCard->setTitle(titles.value(m_views->currentIndex()));
-  m_mapCard->setSubtitle(m_views->currentIndex() == 0 ? m_state.missingHeat.unit : QString());
+  const bool sealed = m_views->currentIndex() == 2 && m_state.trial.stage != TrialStage::none;
+  m_mapCard->setSubtitle(m_views->currentIndex() == 0 ? m_state.missingHeat.unit
+                         : sealed                     ? QStringLiteral("°C")
+                                                      : QString());
   renderMap();
   renderChannels();
   renderExplanations();
@@ -378,7 +381,11 @@ void PhysicsPage::renderTrials() {
                                  "search answers, then "
                                  "open the seal. Start with Blind trial above.")
                             : tr("%1 of %2 hidden effects named correctly.").arg(right).arg(m_state.trials.size()));
+  const bool begun = m_state.trial.stage != TrialStage::none;
+  m_trialWords->setVisible(!begun || !m_state.trials.isEmpty());  // the steps say the same once they go on
   m_trials->setVisible(!m_state.trials.isEmpty());
+  constexpr int most_without_scroll_bar = 5;
+  m_trials->setFitted(m_state.trials.size() <= most_without_scroll_bar);
   m_trials->setColumns({{tr("Hidden"), 0, false, {}},
                         {tr("Answer"), 0, false, {}},
                         {tr("Result"), 110, false, {}},

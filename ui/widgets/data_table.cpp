@@ -166,6 +166,10 @@ void DataTable::setRowHeight(int pixels) {
 }
 
 void DataTable::setFitted(bool fitted) {
+  if (m_fitted && !fitted) {
+    setMinimumHeight(0);
+    setMaximumHeight(QWIDGETSIZE_MAX);
+  }
   m_fitted = fitted;
   m_table->setVerticalScrollBarPolicy(fitted ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
   fitHeight();
