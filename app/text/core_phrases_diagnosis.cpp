@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 145> diagnosis = {{
+constexpr std::array<const char*, 147> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -56,6 +56,12 @@ constexpr std::array<const char*, 145> diagnosis = {{
     QT_TRANSLATE_NOOP(
         "core",
         "Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise."),
+    QT_TRANSLATE_NOOP("core",
+                      "The description holds {@name}, which the recording does not show; without it nothing is "
+                      "missing. Take it out of the description, or check its numbers."),
+    QT_TRANSLATE_NOOP("core",
+                      "The description holds {@name}, which the recording does not show: what is named is beside the "
+                      "description without it. Take it out, or check its numbers."),
     QT_TRANSLATE_NOOP(
         "core",
         "Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and "

@@ -44,7 +44,7 @@ double Diagnoser::guessed(const FoundEffect& found) const {
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });
   if (!moves()) return doubt::never_moved;
   if (warm && m_out.time_s.back() - m_out.time_s.front() < outlasted_s) return doubt::unknown_past;
-  if (m_corrected) return doubt::corrected_number;
+  if (m_corrected || m_not_there) return doubt::corrected_number;
   if (!m_machine.room.channel.empty() && !m_facts.room_logged) return doubt::guessed_room;
   return warm ? doubt::fitted_start : 1.0;
 }

@@ -11,6 +11,8 @@
 
 namespace zerodrift::diagnosis {
 
+using physics::Machine;
+
 /// Of the same hypothesis under the ordinary noise.
 static double evidence_on(const std::shared_ptr<const Dataset>& data, const Model& model) {
   if (model.shared_data() == data) return model.log_evidence();
@@ -40,16 +42,53 @@ bool Diagnoser::correct_description() {
       evidence_on(m_default_data, *again->best) < evidence_on(m_default_data, best) + clearly) {
     return false;
   }
-  m_selection = std::move(*again);
+  m_corrected = number->number;
+  answer_anew(std::move(*again));
+  return true;
+}
+
+/// What was found for a description that was changed first.
+void Diagnoser::answer_anew(Selection again) {
+  m_selection = std::move(again);
   m_data = m_default_data;
   m_wide = false;
-  m_corrected = number->number;
   m_of_others.reset();
   m_out.held_out.clear();
   m_out.tried.clear();
   m_out.forms.clear();
   m_out.sizes.clear();
   held_out();
+}
+
+/// An effect that is described and that the machine does not have looks like whatever undoes it. Sought again without
+/// it: where it is there, that finds at most the same again, as a hypothesis.
+bool Diagnoser::leave_out_what_is_not_there() {
+  if (m_out.verdict == Verdict::consistent || m_lumps_only) return false;
+  const std::size_t named = m_selection.effects().size();
+  constexpr double not_needed = 5.0;  // beside nothing else
+  const double as_described = evidence_on(m_default_data, *m_selection.base);
+  std::optional<Selection> likeliest;
+  double most = evidence_on(m_default_data, *m_selection.best);
+  for (std::size_t i = 0; i < m_bodies.effects.size(); ++i) {
+    Machine without = m_bodies;
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
+    Model base(without, m_default_data);
+    base.start_from(*m_selection.base, false);
+    base.fit({15, 0.05, true});
+    if (base.log_evidence() < as_described + not_needed) continue;
+    Result<Selection> again = select_effects(without, m_default_data, m_facts, m_limits, m_context);
+    if (!again || excess_of(*again->best).largest > least_evident) continue;
+    // Descriptions are mostly right, but so are those in which less is missing.
+    const double clearly = again->effects().size() < named ? 0.0 : 10.0;
+    const double evidence = evidence_on(m_default_data, *again->best) - clearly;
+    if (evidence <= most) continue;
+    most = evidence;
+    m_not_there = m_bodies.effects[i];
+    likeliest = std::move(*again);
+  }
+  if (!likeliest) return false;
+  m_out.notes.push_back("described_not_there:" + m_not_there->id);
+  answer_anew(std::move(*likeliest));
   return true;
 }
 

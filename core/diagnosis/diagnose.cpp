@@ -116,6 +116,8 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   if (!asleep.empty()) m_out.notes.push_back(fmt::format("never_driven:{}", fmt::join(asleep, ",")));
   m_out.sentences.push_back(explain_verdict(m_out));
   for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
+  if (m_not_there && !m_out.doubtful)
+    m_out.sentences.push_back(explain_note("described_not_there", {{"name", m_not_there->id}}));
   tell_wrong_set_up();
   signs_turned();
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());

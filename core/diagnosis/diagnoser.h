@@ -43,6 +43,8 @@ class Diagnoser {
   bool of_use() const { return m_use == Of::any || m_out.verdict == Verdict::missing_effect; }
   void check_set_up();
   bool correct_description();
+  bool leave_out_what_is_not_there();
+  void answer_anew(Selection again);
   std::shared_ptr<Model> without_kind(std::size_t i) const;
   bool names_a_sensor() const;
   void turn_to_the_colder(FoundEffect& found) const;
@@ -114,8 +116,9 @@ class Diagnoser {
   physics::RunFacts m_facts;
   Selection m_selection;
   std::shared_ptr<Model> m_used;
-  std::vector<FarParameter> m_far;          // of what explains best
-  std::optional<FarParameter> m_corrected;  // the description is taken with this number changed
+  std::vector<FarParameter> m_far;                 // of what explains best
+  std::optional<FarParameter> m_corrected;         // the description is taken with this number changed
+  std::optional<physics::EffectSpec> m_not_there;  // described, and left out of what explains best
   std::optional<WrongGeometry> m_wrong_geometry;
   std::optional<Misplaced> m_misplaced;
   std::vector<Sentence> m_misstated;     // of what is named beside them

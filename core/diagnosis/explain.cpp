@@ -308,8 +308,12 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     const auto any_of = [&](std::initializer_list<const char*> notes) {
       return std::any_of(notes.begin(), notes.end(), noted);
     };
+    const auto extra = std::find_if(diagnosis.notes.begin(), diagnosis.notes.end(),
+                                    [](const std::string& note) { return note.starts_with("described_not_there:"); });
+    if (extra != diagnosis.notes.end()) s.facts["name"] = extra->substr(extra->find(':') + 1);
     s.id += any_of({"overlong:", "diameter:"})                                           ? "_misshapen"
             : any_of({"misplaced:", "exchanged:", "places_in:", "other_end:", "datum:"}) ? "_misplaced"
+            : extra != diagnosis.notes.end()                                             ? "_too_much"
                                                                                          : "_doubtful";
   } else if (diagnosis.verdict == Verdict::unexplained) {
     constexpr double told_W = 0.5;  // less would read "about 0 W"

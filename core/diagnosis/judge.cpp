@@ -128,6 +128,7 @@ void Diagnoser::check_set_up() {
 
 void Diagnoser::decide() {
   judge();
+  if (leave_out_what_is_not_there()) judge();
   const bool checked = of_use();
   if (checked) check_set_up();
   if (!wrong_set_up() && correct_description()) {
@@ -139,7 +140,9 @@ void Diagnoser::decide() {
   };
   const bool unbelievable =
       m_selection.effects().empty() ? m_out.verdict == Verdict::consistent && beyond_belief() : is_beyond_belief(m_far);
-  if (wrong_set_up() || unbelievable) {
+  // With nothing missing beside it the description has too much: no agreement either.
+  const bool too_much = m_not_there && m_out.verdict == Verdict::consistent;
+  if (wrong_set_up() || unbelievable || too_much) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;
     m_used = m_selection.base;

@@ -153,6 +153,13 @@ constexpr std::array catalogue{
     Entry{"quantity_expansion", "the expansion"},
     Entry{"quantity_film", "the film to the room"},
     Entry{"quantity_conductance", "the conductance of joints"},
+    Entry{
+        "verdict_unexplained_too_much",
+        "The description holds {@name}, which the recording does not show; without it nothing is missing. Take it out "
+        "of the description, or check its numbers."},
+    Entry{"described_not_there",
+          "The description holds {@name}, which the recording does not show: what is named is beside the description "
+          "without it. Take it out, or check its numbers."},
     Entry{"verdict_unexplained_doubtful",
           "Nothing can be named: the simulation follows the recording only with numbers far from those described. "
           "Check the units of the recording and the sizes and powers of the description first."},

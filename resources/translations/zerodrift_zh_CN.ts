@@ -3198,6 +3198,14 @@
         <translation>没有缺失：仿真与记录在公差和传感器噪声范围内一致。</translation>
     </message>
     <message>
+        <source>The description holds {@name}, which the recording does not show; without it nothing is missing. Take it out of the description, or check its numbers.</source>
+        <translation>描述中含有{@name}，而记录并未显示；去掉它便没有缺失。请将其从描述中删除，或核对其数值。</translation>
+    </message>
+    <message>
+        <source>The description holds {@name}, which the recording does not show: what is named is beside the description without it. Take it out, or check its numbers.</source>
+        <translation>描述中含有{@name}，而记录并未显示：所命名的效应是针对去掉它之后的描述而言。请将其删除，或核对其数值。</translation>
+    </message>
+    <message>
         <source>Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and the sensors&apos; noise.</source>
         <translation>在本记录所能显示的范围内没有缺失：仿真与记录在公差和传感器噪声范围内一致。</translation>
     </message>

@@ -283,6 +283,30 @@ TEST(WrongSetUp, WhatNeverRanIsNotSaidToBeSound) {
   EXPECT_TRUE(says(*without, "verdict_consistent_in_part"));
 }
 
+TEST(WrongSetUp, ADescribedEffectThatTheMachineDoesNotHaveIsNamedAndNothingElse) {
+  const auto described = [](proof::Case one, const char* id, const char* key, double value) {
+    one.machine["effects"].push_back(id);
+    one.machine["effect_parameters"][id][key] = value;
+    return answer_with_details(one);
+  };
+  const auto bare = described(proof::make_case(328, "none"), "speed_convection", "a_W_m2K", 20.0);
+  ASSERT_TRUE(bare.has_value()) << describe(bare.error());
+  EXPECT_EQ(bare->verdict, Verdict::unexplained);
+  EXPECT_TRUE(notes(*bare, "described_not_there:speed_convection"));
+  EXPECT_TRUE(says(*bare, "verdict_unexplained_too_much"));
+  EXPECT_TRUE(bare->effects.empty());
+  const auto beside = described(proof::make_case(330, "cutting_heat"), "speed_convection", "a_W_m2K", 20.0);
+  ASSERT_TRUE(beside.has_value()) << describe(beside.error());
+  EXPECT_TRUE(notes(*beside, "described_not_there:speed_convection"));
+  ASSERT_EQ(beside->effects.size(), 1U);
+  EXPECT_EQ(beside->effects.front().id, "cutting_heat");
+  EXPECT_TRUE(says(*beside, "described_not_there"));
+  // Convection, which it does have, stays.
+  const auto right = answer_with_details(proof::make_case(330, "cutting_heat"));
+  ASSERT_TRUE(right.has_value()) << describe(right.error());
+  EXPECT_FALSE(notes(*right, "described_not_there"));
+}
+
 TEST(WrongSetUp, ADescriptionInCentimetresIsOfNoMachine) {
   proof::Case one = proof::make_case(329, "none");
   auto& spindle = one.machine["components"][0];

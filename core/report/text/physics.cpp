@@ -38,6 +38,12 @@ std::vector<TextEntry> texts_of_physics() {
       {"Smallest effects that this recording would have shown", "本次记录所能发现的最小效应"},
       {"Nothing is missing: the simulation agrees with the recording within its tolerances and the sensors' noise.",
        "没有缺失：在容差和传感器噪声范围内，仿真与记录一致。"},
+      {"The description holds {@name}, which the recording does not show; without it nothing is missing. Take it out "
+       "of the description, or check its numbers.",
+       "描述中含有{@name}，而记录并未显示；去掉它便没有缺失。请将其从描述中删除，或核对其数值。"},
+      {"The description holds {@name}, which the recording does not show: what is named is beside the description "
+       "without it. Take it out, or check its numbers.",
+       "描述中含有{@name}，而记录并未显示：所命名的效应是针对去掉它之后的描述而言。请将其删除，或核对其数值。"},
       {"Nothing is missing of what this recording can show: the simulation agrees with it within its tolerances and "
        "the "
        "sensors' noise.",
