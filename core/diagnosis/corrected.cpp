@@ -65,7 +65,8 @@ void Diagnoser::answer_anew(Selection again) {
 bool Diagnoser::leave_out_what_is_not_there() {
   if (m_out.verdict == Verdict::consistent || m_lumps_only) return false;
   const std::size_t named = m_selection.effects().size();
-  constexpr double not_needed = 5.0;  // beside nothing else
+  constexpr double not_needed = 5.0;   // beside nothing else
+  constexpr double hopeless = 2000.0;  // after three steps
   const double as_described = evidence_on(m_default_data, *m_selection.base);
   std::optional<Selection> likeliest;
   double most = evidence_on(m_default_data, *m_selection.best);
@@ -74,6 +75,8 @@ bool Diagnoser::leave_out_what_is_not_there() {
     without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(i));
     Model base(without, m_default_data);
     base.start_from(*m_selection.base, false);
+    base.fit({3, 0.05, true});
+    if (base.log_evidence() < as_described - hopeless) continue;
     base.fit({15, 0.05, true});
     if (base.log_evidence() < as_described + not_needed) continue;
     Result<Selection> again = select_effects(without, m_default_data, m_facts, m_limits, m_context);
