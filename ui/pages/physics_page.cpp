@@ -384,8 +384,6 @@ void PhysicsPage::renderTrials() {
   const bool begun = m_state.trial.stage != TrialStage::none;
   m_trialWords->setVisible(!begun || !m_state.trials.isEmpty());  // the steps say the same once they go on
   m_trials->setVisible(!m_state.trials.isEmpty());
-  constexpr int most_without_scroll_bar = 5;
-  m_trials->setFitted(m_state.trials.size() <= most_without_scroll_bar);
   m_trials->setColumns({{tr("Hidden"), 0, false, {}},
                         {tr("Answer"), 0, false, {}},
                         {tr("Result"), 110, false, {}},
@@ -400,6 +398,7 @@ void PhysicsPage::renderTrials() {
                  DataCell{fixedText(trial.improvement_percent, 0) + " %"}});
   }
   m_trials->setRows(rows);
+  m_trials->setMaximumHeight(m_trials->heightOfRows());  // what an almost empty table leaves is the plot's
   renderTrial();
 }
 

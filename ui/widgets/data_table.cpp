@@ -166,17 +166,17 @@ void DataTable::setRowHeight(int pixels) {
 }
 
 void DataTable::setFitted(bool fitted) {
-  if (m_fitted && !fitted) {
-    setMinimumHeight(0);
-    setMaximumHeight(QWIDGETSIZE_MAX);
-  }
   m_fitted = fitted;
   m_table->setVerticalScrollBarPolicy(fitted ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
   fitHeight();
 }
 
+int DataTable::heightOfRows() const {
+  return 30 + m_rowHeight * m_table->rowCount();
+}
+
 void DataTable::fitHeight() {
-  if (m_fitted) setFixedHeight(30 + m_rowHeight * m_table->rowCount());
+  if (m_fitted) setFixedHeight(heightOfRows());
 }
 
 bool DataTable::eventFilter(QObject* watched, QEvent* event) {

@@ -45,6 +45,8 @@ class DataTable : public QWidget {
   void setRowHeight(int pixels);
   /// As high as its rows: for short tables that need no scroll bar.
   void setFitted(bool fitted);
+  /// That shows all of them without a scroll bar.
+  int heightOfRows() const;
 
  Q_SIGNALS:
   void rowSelected(int row);
