@@ -377,7 +377,7 @@ std::vector<ProofFigure> Score::figures() const {
                                expected_calibration_error(), 3, "", 0.10));
   list.push_back(number_figure("seconds_median", "whole diagnosis, median", median(m_seconds), 2, "s", 2.0));
   list.push_back(
-      plain_number("processor_median", "whole diagnosis, processor time, median", median(m_processor_s), 2, "s"));
+      number_figure("processor_median", "whole diagnosis, processor time, median", median(m_processor_s), 2, "s", 2.0));
   return list;
 }
 
