@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 147> diagnosis = {{
+constexpr std::array<const char*, 148> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -204,6 +204,7 @@ constexpr std::array<const char*, 147> diagnosis = {{
         "core",
         "The recording has no column {column}: how the room went had to be guessed from the machine's own "
         "temperatures, and what follows the room can hardly be told from it."),
+    QT_TRANSLATE_NOOP("core", "The recording has no column {columns}: what shows in it alone cannot be found."),
     QT_TRANSLATE_NOOP(
         "core",
         "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "

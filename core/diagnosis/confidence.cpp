@@ -39,6 +39,7 @@ double Diagnoser::odds_against(const FoundEffect& found) const {
 double Diagnoser::guessed(const FoundEffect& found) const {
   const bool unlogged = found.id == "draught" && recording().find("coolant_on") == nullptr;
   if (unlogged) return doubt::unlogged_coolant;
+  if (rows_are_coarse() && !m_lumps_only) return doubt::coarse_rows;
   constexpr double outlasted_s = 3.0 * 3600.0;
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),
                                 [&](const auto& component) { return start_above_room_K(component) != 0.0; });

@@ -77,6 +77,12 @@ bool helps_there(const ChannelReport& channel, const HeldOut& other) {
   return beyond_noise(with->second) < 0.5 * beyond_noise(without->second);
 }
 
+/// Rows so far apart that what switched between them is missed in each recording in another way: a prediction that
+/// fails shows nothing, and no effect that only the other recording shows is more than that.
+bool rows_too_coarse(const Diagnosis& diagnosis) {
+  return std::find(diagnosis.notes.begin(), diagnosis.notes.end(), "coarse_rows") != diagnosis.notes.end();
+}
+
 /// The other recording is missed in the very channel that the effects explain, and in that alone: the description is of
 /// this machine, but the explanation does not hold. Where everything is missed it is another machine's recording.
 bool fails_where_it_explains(const Diagnosis& first, const HeldOut& other) {
@@ -125,6 +131,7 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   const bool unexplained_alone = first.verdict == Verdict::unexplained && !first.refuted;
   // One that shows nothing says little where it hardly excites anything: nothing is missing if neither shows it.
   const bool alone_says_little = unexplained_alone || first.verdict == Verdict::consistent;
+  if (first.verdict == Verdict::consistent && rows_too_coarse(first)) return first;
   std::size_t worst = 0;
   double missed = alone_says_little ? 0.0 : contradicted;
   for (std::size_t i = 0; i < first.held_out.size(); ++i) {

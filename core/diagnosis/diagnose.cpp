@@ -114,6 +114,8 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   const std::vector<std::string> asleep =
       m_out.verdict == Verdict::unexplained || blind ? std::vector<std::string>{} : never_driven();
   if (!asleep.empty()) m_out.notes.push_back(fmt::format("never_driven:{}", fmt::join(asleep, ",")));
+  const std::vector<std::string> lacks = not_recorded();
+  if (!lacks.empty()) m_out.notes.push_back(fmt::format("not_recorded:{}", fmt::join(lacks, ",")));
   m_out.sentences.push_back(explain_verdict(m_out));
   for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
   if (m_not_there && !m_out.doubtful)

@@ -333,9 +333,12 @@ std::vector<Sentence> Diagnoser::far_parameters() {
   return told;
 }
 
-/// What may be there although it is not named: no size that there can be would have shown, or what drives it never
-/// acted.
+/// What may be there although it is not named: no size that there can be would have shown, what drives it never acted,
+/// or what it moves was not recorded.
 void Diagnoser::cannot_show(const std::vector<std::string>& never_driven) {
+  if (const std::string lacks = fmt::format("{}", fmt::join(not_recorded(), ", ")); !lacks.empty()) {
+    m_out.sentences.push_back(explain_note("not_recorded", {{"columns", lacks}}));
+  }
   std::vector<std::string> unseen;
   for (const Detectable& least : m_out.detectable) {
     const bool named = std::any_of(m_out.effects.begin(), m_out.effects.end(),
@@ -347,6 +350,14 @@ void Diagnoser::cannot_show(const std::vector<std::string>& never_driven) {
   if (never_driven.empty()) return;
   m_out.sentences.push_back(
       explain_note("never_driven", {{"effects", fmt::format("{}", fmt::join(never_driven, ","))}}));
+}
+
+std::vector<std::string> Diagnoser::not_recorded() const {
+  std::vector<std::string> missing;
+  for (const auto& displacement : m_machine.displacements) {
+    if (recording().find(displacement.channel) == nullptr) missing.push_back(displacement.channel);
+  }
+  return missing;
 }
 
 /// Inputs that the recording logs and that never acted: what acts with them alone was not asked about.
@@ -370,9 +381,13 @@ std::vector<std::string> Diagnoser::never_driven() const {
 }
 
 /// What switches between two rows that are far apart has moved the machine by an unknown amount.
-void Diagnoser::coarse_rows() {
+bool Diagnoser::rows_are_coarse() const {
   constexpr double coarse_s = 120.0;
-  if (seconds_between_rows() < coarse_s || nothing_drives()) return;
+  return seconds_between_rows() >= coarse_s && !nothing_drives();
+}
+
+void Diagnoser::coarse_rows() {
+  if (!rows_are_coarse()) return;
   m_out.notes.emplace_back("coarse_rows");
   m_out.sentences.push_back(explain_note("coarse_rows", {{"seconds", fmt::format("{:.0f}", seconds_between_rows())}}));
 }

@@ -77,13 +77,15 @@ class Diagnoser {
   bool counts_from_each_start(const physics::Machine& best) const;
   void slips_of_its_own(const physics::Machine& best, const recording::Recording& other, HeldOut& result) const;
   bool refuted() const;
-  bool only_comes_and_goes() const;
+  bool heat_is_left() const;
   void details();
   void cannot_show(const std::vector<std::string>& never_driven);
   std::vector<std::string> never_driven() const;
+  bool rows_are_coarse() const;
   void coarse_rows();
   void few_sensors();
   void inputs_not_logged();
+  std::vector<std::string> not_recorded() const;
   void moving_alone();
   std::vector<std::string> mirrored() const;
   void signs_turned();

@@ -301,7 +301,7 @@ Sentence explain_verdict(const Diagnosis& diagnosis) {
     s.id += "_blind";
   } else if (diagnosis.verdict == Verdict::consistent && noted("far_from_description:")) {
     s.id += "_bent";
-  } else if (diagnosis.verdict == Verdict::consistent && noted("never_driven:")) {
+  } else if (diagnosis.verdict == Verdict::consistent && (noted("never_driven:") || noted("not_recorded:"))) {
     s.id += "_in_part";
   }
   if (diagnosis.doubtful) {

@@ -118,6 +118,7 @@ constexpr std::array catalogue{
     Entry{"inputs_not_logged",
           "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
           "record again."},
+    Entry{"not_recorded", "The recording has no column {columns}: what shows in it alone cannot be found."},
     Entry{"moves_by_itself",
           "Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
           "drifts. Check how it is mounted."},

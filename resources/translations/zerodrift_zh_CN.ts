@@ -3630,6 +3630,10 @@
         <translation>记录中没有列 {columns}：随之作用的效应无法查明。若机床有此项，请接入记录后重新测量。</translation>
     </message>
     <message>
+        <source>The recording has no column {columns}: what shows in it alone cannot be found.</source>
+        <translation>记录中没有列 {columns}：只在该列中显现的效应无法查明。</translation>
+    </message>
+    <message>
         <source>Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that drifts. Check how it is mounted.</source>
         <translation>没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。</translation>
     </message>

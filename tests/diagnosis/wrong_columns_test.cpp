@@ -44,6 +44,39 @@ TEST(WrongColumns, WithoutTheCoolantsColumnNothingIsInvented) {
   }
 }
 
+TEST(WrongColumns, WhatMovesADisplacementIsNotRuledOutWithoutItsColumn) {
+  proof::Case one = proof::make_case(301, "structure_ambient");
+  for (auto& run : one.recordings) {
+    std::erase_if(run.channels, [](const auto& channel) { return channel.name == "dZ_um"; });
+  }
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->verdict, Verdict::consistent);
+  EXPECT_TRUE(says(*answer, "verdict_consistent_in_part"));
+  EXPECT_TRUE(says(*answer, "not_recorded"));
+}
+
+/// What switches between two rows has moved the machine by what nobody knows: that is no effect.
+TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
+  for (const unsigned seed : {331U, 332U, 333U, 334U}) {
+    proof::Case one = proof::make_case(seed, "none");
+    for (auto& run : one.recordings) {
+      const auto step = static_cast<std::size_t>(300.0 / (run.time_s[1] - run.time_s[0]));
+      const auto seldom = [step](std::vector<double>& values) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < values.size(); k += step) values[kept++] = values[k];
+        values.resize(kept);
+      };
+      seldom(run.time_s);
+      for (auto& channel : run.channels) seldom(channel.values);
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_TRUE(says(*answer, "coarse_rows")) << seed;
+    for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << seed << found.id;
+  }
+}
+
 TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
   proof::Case one = proof::make_case(323, "none");
   one.recordings.resize(1);
