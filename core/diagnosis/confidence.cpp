@@ -39,6 +39,7 @@ double Diagnoser::odds_against(const FoundEffect& found) const {
 double Diagnoser::guessed(const FoundEffect& found) const {
   const bool unlogged = found.id == "draught" && recording().find("coolant_on") == nullptr;
   if (unlogged) return doubt::unlogged_coolant;
+  if (!m_selection.best->at_its_limit().empty()) return doubt::at_its_limit;
   if (rows_are_coarse() && !m_lumps_only) return doubt::coarse_rows;
   constexpr double outlasted_s = 3.0 * 3600.0;
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),

@@ -19,6 +19,7 @@ constexpr double unlogged_coolant = 0.5;  // coolant that ran without being logg
 constexpr double unknown_past = 0.7;      // a start not at rest that a short run does not outlast: a third was wrong
 constexpr double never_moved = 0.7;       // no speed, coolant or load that ever changed
 constexpr double corrected_number = 0.8;  // a number of the description had to be changed first
+constexpr double at_its_limit = 0.5;      // of what an effect can be: of 235 right answers none was
 constexpr double coarse_rows = 0.5;       // rows too far apart: of nine answers six were wrong
 constexpr double guessed_room = 0.9;      // of 27 answers to runs robbed of the room's column three were wrong
 constexpr double fitted_start = 0.9;      // a start not at rest that the run outlasts

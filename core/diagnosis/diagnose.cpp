@@ -122,6 +122,10 @@ Result<Diagnosis> Diagnoser::run(Of use) {
     m_out.sentences.push_back(explain_note("described_not_there", {{"name", m_not_there->id}}));
   tell_wrong_set_up();
   signs_turned();
+  if (const std::string id = m_out.effects.empty() ? "" : m_selection.best->at_its_limit(); !id.empty()) {
+    m_out.notes.push_back("at_its_limit:" + id);
+    m_out.sentences.push_back(explain_note("at_its_limit", {{"name", id}}));
+  }
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show(asleep);

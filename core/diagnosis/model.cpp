@@ -346,15 +346,26 @@ double Model::sigma(std::size_t i) const {
   return std::sqrt(std::max(0.0, variance)) * std::abs(unknown(i).slope_at(value(i)));
 }
 
+bool Model::is_at_a_bound(std::size_t i) const {
+  const Index at = static_cast<Index>(i);
+  return unknown(i).effect >= 0 && (m_z[at] <= m_low[at] + 1e-9 || m_z[at] >= m_high[at] - 1e-9);
+}
+
 std::vector<std::string> Model::bounds_reached() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < unknowns(); ++i) {
-    const Index at = static_cast<Index>(i);
-    if (unknown(i).effect < 0) continue;
-    if (m_z[at] > m_low[at] + 1e-9 && m_z[at] < m_high[at] - 1e-9) continue;
-    names.push_back(unknown(i).key);
+    if (is_at_a_bound(i)) names.push_back(unknown(i).key);
   }
   return names;
+}
+
+std::string Model::at_its_limit() const {
+  for (std::size_t i = 0; i < unknowns(); ++i) {
+    if (!is_at_a_bound(i) || !unknown(i).amplitude || value(i) == 0.0) continue;
+    const physics::EffectSpec& spec = machine().effects[static_cast<std::size_t>(unknown(i).effect)];
+    if (spec.candidate) return spec.id;
+  }
+  return {};
 }
 
 std::vector<double> block_excess(const Dataset& data, const Eigen::VectorXd& residual) {

@@ -64,14 +64,16 @@ class Model {
 
   const Eigen::VectorXd& residual() const { return m_residual; }
   const RowMatrix& jacobian() const { return m_jacobian; }
-  Eigen::MatrixXd hessian() const;         // J'J and the prior's: I, or what was learned
-  physics::Prediction prediction() const;  // at z
-  /// The same model on another recording of the machine; per-recording unknowns at their means.
-  std::vector<std::string> bounds_reached() const;
+  Eigen::MatrixXd hessian() const;                  // J'J and the prior's: I, or what was learned
+  physics::Prediction prediction() const;           // at z
+  std::vector<std::string> bounds_reached() const;  // of the effects' parameters
+  /// The id of a hypothesis that is at the limit of what it can be; empty: none.
+  std::string at_its_limit() const;
   double gain = 0.0;       // of the score test that suggested it
   double elsewhere = 0.0;  // log evidence that other recordings add, beside the best without it; 0 where not asked
 
  private:
+  bool is_at_a_bound(std::size_t unknown) const;
   /// The prediction at z with its derivatives by some unknowns.
   physics::Prediction predict_at(const Eigen::VectorXd& z, const std::vector<int>& unknowns) const;
   /// Takes the derivatives of a prediction at m_z over into the Jacobian.

@@ -49,6 +49,9 @@ constexpr std::array catalogue{
     Entry{"misstated",
           "With {@quantity} of {part} at {factor} times what is described, the recording is explained as well without "
           "{@name}: check that number first."},
+    Entry{"at_its_limit",
+          "It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes "
+          "first."},
     Entry{"heat_none", ""},
     Entry{"heat_brought", "; it brings {watts} on average while it acts"},
     Entry{"heat_taken", "; it takes away {watts} on average while it acts"},

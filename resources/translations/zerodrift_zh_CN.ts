@@ -3634,6 +3634,10 @@
         <translation>记录中没有列 {columns}：只在该列中显现的效应无法查明。</translation>
     </message>
     <message>
+        <source>It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes first.</source>
+        <translation>须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。</translation>
+    </message>
+    <message>
         <source>Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that drifts. Check how it is mounted.</source>
         <translation>没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。</translation>
     </message>

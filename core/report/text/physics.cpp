@@ -135,7 +135,11 @@ std::vector<TextEntry> texts_of_physics() {
       {"The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
        "record again.",
        "记录中没有列 {columns}：随之作用的效应无法查明。若机床有此项，请接入记录后重新测量。"},
-      {"The recording has no column {columns}: what shows in it alone cannot be found.", "记录中没有列 {columns}：只在该列中显现的效应无法查明。"},
+      {"The recording has no column {columns}: what shows in it alone cannot be found.",
+       "记录中没有列 {columns}：只在该列中显现的效应无法查明。"},
+      {"It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes "
+       "first.",
+       "须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。"},
       {"Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
        "drifts. Check how it is mounted.",
        "没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。"},
