@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 259> models = {{
+constexpr std::array<const char*, 262> models = {{
     QT_TRANSLATE_NOOP("core", "the same run as %1"),
     QT_TRANSLATE_NOOP("core", "another run, or each run once"),
     QT_TRANSLATE_NOOP("core", "from %1 min on"),
@@ -132,6 +132,9 @@ constexpr std::array<const char*, 259> models = {{
     QT_TRANSLATE_NOOP("core", "a movement of %1 %2"),
     QT_TRANSLATE_NOOP("core", "noise of %1 um"),
     QT_TRANSLATE_NOOP("core", "less than 50 um: is it in nm?"),
+    QT_TRANSLATE_NOOP("core", "%1, columns %2 and %3"),
+    QT_TRANSLATE_NOOP("core", "%1 warming as %2 should"),
+    QT_TRANSLATE_NOOP("core", "the room in the room's column (are the two exchanged?)"),
     QT_TRANSLATE_NOOP("core", "about %1 %2 for %3; check units, geometry and powers"),
     QT_TRANSLATE_NOOP("core", "%1; corrected by the run %2"),
     QT_TRANSLATE_NOOP("core", "always %1"),

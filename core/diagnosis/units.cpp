@@ -114,9 +114,8 @@ Status check_speed(const physics::Machine& machine, const recording::Recording& 
                {"expected", fmt::format("speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)", rated_rpm)}});
 }
 
-/// Of all temperatures' movement, rms in K, what the machine as described leaves when it turns `times` as fast.
-double left_at_speed(const physics::Machine& machine, recording::Recording recording, double times) {
-  for (double& speed : recording.find("spindle_rpm")->values) speed *= times;
+/// Of all temperatures' movement, rms in K, what the machine as described leaves.
+double left_K(const physics::Machine& machine, const recording::Recording& recording) {
   const physics::Network network = physics::build_network(machine, recording);
   const Dataset data = make_dataset(recording, network);
   const physics::Prediction nominal =
@@ -131,6 +130,36 @@ double left_at_speed(const physics::Machine& machine, recording::Recording recor
     }
   }
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+double left_at_speed(const physics::Machine& machine, recording::Recording recording, double times) {
+  for (double& speed : recording.find("spindle_rpm")->values) speed *= times;
+  return left_K(machine, recording);
+}
+
+/// The room's column and a sensor's exchanged: the room warms as the machine does, and the machine as the room.
+Status check_room(const physics::Machine& machine, const recording::Recording& recording) {
+  constexpr double much_K = 1.0;
+  constexpr double like = 0.2;  // of what is left with the columns as they are
+  const std::string& room = machine.room.channel;
+  if (room.empty() || recording.find(room) == nullptr || has_unknown_heat(machine)) return {};
+  const double as_it_is_K = left_K(machine, recording);
+  if (as_it_is_K < much_K) return {};
+  const physics::Sensor* other = nullptr;
+  double least_K = like * as_it_is_K;
+  for (const physics::Sensor& sensor : machine.sensors) {
+    if (sensor.channel == room || recording.find(sensor.channel) == nullptr) continue;
+    recording::Recording turned = recording;
+    std::swap(turned.find(room)->values, turned.find(sensor.channel)->values);
+    const double turned_K = left_K(machine, turned);
+    if (turned_K > least_K) continue;
+    least_K = turned_K;
+    other = &sensor;
+  }
+  if (other == nullptr) return {};
+  return fail(ErrorCode::data_does_not_fit, {{"what", recording.name + ", columns " + room + " and " + other->channel},
+                                             {"found", fmt::format("{} warming as {} should", room, other->channel)},
+                                             {"expected", "the room in the room's column (are the two exchanged?)"}});
 }
 
 /// A machine that hardly turns, and warms as described if it turned as fast as in another unit.
@@ -190,6 +219,7 @@ std::optional<LoadUnit> load_in_other_unit(const physics::Machine& machine, cons
 Status check_units(const physics::Machine& machine, const recording::Recording& recording) {
   ZD_CHECK(check_speed(machine, recording));
   ZD_CHECK(check_turns(machine, recording));
+  ZD_CHECK(check_room(machine, recording));
   if (physics::starts_warm(machine, recording)) return {};  // what it was on its way to, nobody knows
   // A right description whose machine misses its main cooling leaves 0.8, times off by 60 leave more than 1.
   constexpr double nothing_like = 0.9;  // of the movement, rms

@@ -12,7 +12,8 @@ namespace zerodrift::diagnosis {
 Status check_scale(const physics::Machine& machine, const Dataset& data, const physics::Prediction& nominal);
 
 /// An error where the times only make sense in minutes, hours or milliseconds, or the speeds in 1000 rpm or percent:
-/// the machine as described is nothing like the recording, but is like it with other ones.
+/// the machine as described is nothing like the recording, but is like it with other ones; or where the room's column
+/// and a sensor's are exchanged.
 Status check_units(const physics::Machine& machine, const recording::Recording& recording);
 
 struct LoadUnit {

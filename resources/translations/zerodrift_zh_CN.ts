@@ -2594,6 +2594,18 @@
         <translation>噪声 %1 um</translation>
     </message>
     <message>
+        <source>%1, columns %2 and %3</source>
+        <translation>%1，列 %2 和 %3</translation>
+    </message>
+    <message>
+        <source>%1 warming as %2 should</source>
+        <translation>%1 的升温如同 %2 应有的升温</translation>
+    </message>
+    <message>
+        <source>the room in the room's column (are the two exchanged?)</source>
+        <translation>室温列中应为室温（两列是否互换？）</translation>
+    </message>
+    <message>
         <source>less than 50 um: is it in nm?</source>
         <translation>小于 50 um：数据单位是否为 nm？</translation>
     </message>

@@ -56,6 +56,15 @@ TEST(WrongColumns, WhatMovesADisplacementIsNotRuledOutWithoutItsColumn) {
   EXPECT_TRUE(says(*answer, "not_recorded"));
 }
 
+TEST(WrongColumns, TheRoomsColumnAndASensorsExchangedAreRefusedByName) {
+  proof::Case one = proof::make_case(302, "cutting_heat");
+  ASSERT_TRUE(answer_with_details(one).has_value());
+  for (auto& run : one.recordings) std::swap(run.find("ambient_C")->values, run.find("T3_C")->values);
+  const auto answer = answer_with_details(one);
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_NE(describe(answer.error()).find("columns ambient_C and T3_C"), std::string::npos) << describe(answer.error());
+}
+
 /// What switches between two rows has moved the machine by what nobody knows: that is no effect.
 TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
   for (const unsigned seed : {331U, 332U, 333U, 334U}) {
