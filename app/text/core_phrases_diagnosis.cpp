@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 149> diagnosis = {{
+constexpr std::array<const char*, 150> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -205,6 +205,9 @@ constexpr std::array<const char*, 149> diagnosis = {{
         "The recording has no column {column}: how the room went had to be guessed from the machine's own "
         "temperatures, and what follows the room can hardly be told from it."),
     QT_TRANSLATE_NOOP("core", "The recording has no column {columns}: what shows in it alone cannot be found."),
+    QT_TRANSLATE_NOOP("core",
+                      "In {recording} the column {column} has no value in {percent} % of the rows: what it was there "
+                      "had to be assumed."),
     QT_TRANSLATE_NOOP("core",
                       "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
                       "it changes first."),

@@ -66,6 +66,23 @@ void leave_out_what_lacks_inputs(CheckedRuns& runs) {
   }
 }
 
+/// A speed or a switch that was not logged is taken as it was before.
+void tell_input_gaps(const recording::Recording& one, CheckedRuns& runs) {
+  constexpr double worth_telling_percent = 2.0;
+  for (const auto& channel : one.channels) {
+    if (!recording::is_input(channel.kind())) continue;
+    const auto none =
+        std::count_if(channel.values.begin(), channel.values.end(), [](double v) { return !std::isfinite(v); });
+    const double percent =
+        100.0 * static_cast<double>(none) / static_cast<double>(std::max<std::size_t>(1, one.rows()));
+    if (percent < worth_telling_percent) continue;
+    runs.warnings.push_back(fmt::format("input_gaps:{}:{}", one.name, channel.name));
+    runs.told.push_back(
+        explain_note("run_input_gaps",
+                     {{"recording", one.name}, {"column", channel.name}, {"percent", fmt::format("{:.0f}", percent)}}));
+  }
+}
+
 void leave_out_still_gauges(const physics::Machine& machine, recording::Recording& recording,
                             const std::vector<recording::Recording>& all, CheckedRuns& runs,
                             std::vector<RunFinding>& told) {
@@ -148,6 +165,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
     ZD_CHECK(check_units(machine, sound.recording));
+    tell_input_gaps(sound.recording, out);
     if (const auto unit = load_in_other_unit(machine, sound.recording)) {
       out.warnings.push_back(fmt::format("load_in_other_unit:{}:{}", one.name, unit->symbol));
       out.told.push_back(

@@ -254,7 +254,7 @@ Sentence explain_effect(const FoundEffect& effect, double end_s, const ShownBy& 
   s.id = removed < told ? "effect_found_course" : removed < much ? "effect_found_weak" : "effect_found";
   s.facts["before"] = fmt::format("{:.2g}", shown.before);
   s.facts["after"] = fmt::format("{:.2g}", shown.after);
-  s.facts["noise"] = fmt::format("{:.2g}", shown.noise);
+  s.facts["noise"] = fmt::format("{:.2g}", std::min(shown.noise, shown.after));
   s.facts["unit"] = unit_of(shown.channel);
   s.facts["removed_percent"] = fmt::format("{:.0f}", 100.0 * removed);
   s.facts["evidence"] = fmt::format("{:.0f}", effect.log_evidence_gain);

@@ -179,6 +179,9 @@ constexpr std::array catalogue{
           "{other} may be missed for it."},
     Entry{"run_unknown_columns",
           "Recording {recording}: the machine description does not name {columns}, which was not used."},
+    Entry{"run_input_gaps",
+          "In {recording} the column {column} has no value in {percent} % of the rows: what it was there had to be "
+          "assumed."},
     Entry{"run_left_out", "Recording {@what}."},
     Entry{"run_finding", "Recording {recording}: {@what}."},
     Entry{

@@ -156,7 +156,7 @@ Result<TextTable> parse_table(std::string_view text, const std::string& file) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++line_number;
-    if (trimmed(line).empty()) continue;
+    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;  // loggers write their remarks so
     if (table.header.empty()) {
       separator = separator_of(line);
       table.header = cells_of(line, separator);

@@ -3650,6 +3650,10 @@
         <translation>须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。</translation>
     </message>
     <message>
+        <source>In {recording} the column {column} has no value in {percent} % of the rows: what it was there had to be assumed.</source>
+        <translation>{recording} 的列 {column} 有 {percent} % 的行没有数值：其间的值只能假定。</translation>
+    </message>
+    <message>
         <source>Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that drifts. Check how it is mounted.</source>
         <translation>没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。</translation>
     </message>

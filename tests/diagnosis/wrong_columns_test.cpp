@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
@@ -63,6 +64,16 @@ TEST(WrongColumns, TheRoomsColumnAndASensorsExchangedAreRefusedByName) {
   const auto answer = answer_with_details(one);
   ASSERT_FALSE(answer.has_value());
   EXPECT_NE(describe(answer.error()).find("columns ambient_C and T3_C"), std::string::npos) << describe(answer.error());
+}
+
+TEST(WrongColumns, SpeedsThatWereNotLoggedAreTold) {
+  proof::Case one = proof::make_case(302, "cutting_heat");
+  std::vector<double>& speeds = one.recordings[0].find("spindle_rpm")->values;
+  for (std::size_t k = 3; k < speeds.size(); k += 10) speeds[k] = std::nan("");
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_TRUE(notes(*answer, "input_gaps:"));
+  EXPECT_TRUE(says(*answer, "run_input_gaps"));
 }
 
 /// What switches between two rows has moved the machine by what nobody knows: that is no effect.

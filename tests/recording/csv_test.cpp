@@ -8,9 +8,9 @@
 namespace zerodrift::recording {
 
 TEST(Csv, ReadsGapsBomAndSeparators) {
-  for (const char* text :
-       {"\xEF\xBB\xBFtime_s,T1_C,dZ_um\n0,20.5,\n10,,1.5\n", "time_s;T1_C;dZ_um\r\n0;20.5;\r\n10;;1.5\r\n",
-        "time_s\tT1_C\tdZ_um\n0\t20.5\t\n10\t\t1.5"}) {
+  for (const char* text : {"\xEF\xBB\xBFtime_s,T1_C,dZ_um\n0,20.5,\n10,,1.5\n",
+                           "time_s;T1_C;dZ_um\r\n0;20.5;\r\n10;;1.5\r\n", "time_s\tT1_C\tdZ_um\n0\t20.5\t\n10\t\t1.5",
+                           "# logger 7, 3 channels\ntime_s,T1_C,dZ_um\n# pause\n0,20.5,\n10,,1.5\n"}) {
     const auto recording = parse_recording(text, "a.csv");
     ASSERT_TRUE(recording.has_value()) << describe(recording.error());
     ASSERT_EQ(recording->rows(), 2U);

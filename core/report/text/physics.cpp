@@ -140,6 +140,9 @@ std::vector<TextEntry> texts_of_physics() {
       {"It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes "
        "first.",
        "须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。"},
+      {"In {recording} the column {column} has no value in {percent} % of the rows: what it was there had to be "
+       "assumed.",
+       "{recording} 的列 {column} 有 {percent} % 的行没有数值：其间的值只能假定。"},
       {"Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
        "drifts. Check how it is mounted.",
        "没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。"},
