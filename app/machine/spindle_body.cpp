@@ -11,7 +11,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double stefan_boltzmann_W_m2K4 = 5.670374419e-8;
-constexpr double cell_m = nominal::spindle_length_mm / 1000.0 / 20.0;
 // Ring borders in m: bore, shaft in three, then the cartridge in two beyond the air gap.
 constexpr std::array<double, 4> shaft_radius_m{0.010, 0.0183, 0.0267, 0.035};
 constexpr std::array<double, 3> housing_radius_m{0.0352, 0.058, 0.080};
@@ -24,7 +23,7 @@ constexpr double shaft_share_of_motor = 0.4;
 constexpr double stator_loss_W_at_top = 600.0;
 constexpr double stator_leak_W_K = 0.1;
 constexpr double seat_W_K = 0.2;  // cartridge to headstock, rear third
-constexpr int seat_cells = 7;
+constexpr double seat_mm = 140.0;
 
 double ring_area(int ring) {
   const double inner = ring < 3 ? shaft_radius_m[ring] : housing_radius_m[ring - 3];
@@ -37,9 +36,9 @@ double ring_middle(int ring) {
                   : (housing_radius_m[ring - 3] + housing_radius_m[ring - 2]) / 2;
 }
 
-/// Conductance of a cylinder wall between two radii over one cell.
-double radial_W_K(double inner_m, double outer_m, double conductivity) {
-  return conductivity * 2.0 * pi * cell_m / std::log(outer_m / inner_m);
+/// Conductance of a cylinder wall between two radii over a length.
+double radial_W_K(double inner_m, double outer_m, double conductivity, double length_m) {
+  return conductivity * 2.0 * pi * length_m / std::log(outer_m / inner_m);
 }
 
 double relative_speed(double speed_rpm) {
@@ -56,20 +55,38 @@ double friction_Nmm(const nominal::Bearing& bearing, double speed_rpm, double vi
 
 }  // namespace
 
-SpindleBody::CellShare SpindleBody::share_of(double from_mm, double to_mm) {
+double SpindleBody::length_m(int cell) const {
+  return (m_face_mm[cell + 1] - m_face_mm[cell]) / 1000.0;
+}
+
+double SpindleBody::middle_mm(int cell) const {
+  return (m_face_mm[cell] + m_face_mm[cell + 1]) / 2.0;
+}
+
+SpindleBody::CellShare SpindleBody::share_of(double from_mm, double to_mm) const {
   CellShare share{};
-  const double cell_mm = cell_m * 1000.0;
   for (int i = 0; i < cells; ++i) {
-    const double low = std::max(from_mm, i * cell_mm);
-    const double high = std::min(to_mm, (i + 1) * cell_mm);
+    const double low = std::max(from_mm, m_face_mm[i]);
+    const double high = std::min(to_mm, m_face_mm[i + 1]);
     share[i] = std::max(0.0, high - low) / (to_mm - from_mm);
   }
   return share;
 }
 
+/// Equal cells; a joint is a plane, so the face next to it moves there.
+void SpindleBody::place_faces() {
+  constexpr double cell_mm = nominal::spindle_length_mm / cells;
+  for (int face = 0; face <= cells; ++face) m_face_mm[face] = face * cell_mm;
+  const HiddenEffect* joint = m_parameters.hidden.find("contact_resistance");
+  if (joint == nullptr) return;
+  m_joint_face = std::clamp(static_cast<int>(std::lround(joint->position_mm / cell_mm)), 1, cells - 1);
+  m_face_mm[m_joint_face] = joint->position_mm;
+}
+
 SpindleBody::SpindleBody(ThermalNetwork& network, const MachineParameters& parameters, int room, int jacket,
                          int headstock)
     : m_parameters(parameters) {
+  place_faces();
   build_rings(network);
   build_gap_and_films(network, room, headstock);
   build_stator(network, jacket, headstock);
@@ -81,19 +98,21 @@ void SpindleBody::build_rings(ThermalNetwork& network) {
   for (int ring = 0; ring < rings; ++ring) m_ring_area_m2[ring] = ring_area(ring);
   for (int cell = 0; cell < cells; ++cell) {
     for (int ring = 0; ring < rings; ++ring) {
-      m_nodes.push_back(network.add_node(volumetric * m_ring_area_m2[ring] * cell_m));
+      m_nodes.push_back(network.add_node(volumetric * m_ring_area_m2[ring] * length_m(cell)));
     }
     for (int ring = 0; ring + 1 < rings; ++ring) {
       if (ring == shaft_rings - 1) continue;  // the air gap, below
       network.add_link(node(cell, ring), node(cell, ring + 1),
-                       radial_W_K(ring_middle(ring), ring_middle(ring + 1), conductivity));
+                       radial_W_K(ring_middle(ring), ring_middle(ring + 1), conductivity, length_m(cell)));
     }
   }
+  const HiddenEffect* joint = m_parameters.hidden.find("contact_resistance");
   for (int cell = 0; cell + 1 < cells; ++cell) {
+    const double between_m = (middle_mm(cell + 1) - middle_mm(cell)) / 1000.0;
+    const double joint_m2K_W = cell + 1 == m_joint_face ? joint->size : 0.0;
     for (int ring = 0; ring < rings; ++ring) {
-      const double conductance = conductivity * m_ring_area_m2[ring] / cell_m;
-      const int link = network.add_link(node(cell, ring), node(cell + 1, ring), conductance);
-      m_axial.push_back({link, conductance, m_ring_area_m2[ring], (cell + 1) * cell_m * 1000.0});
+      network.add_link(node(cell, ring), node(cell + 1, ring),
+                       m_ring_area_m2[ring] / (between_m / conductivity + joint_m2K_W));
     }
   }
 }
@@ -107,10 +126,11 @@ void SpindleBody::build_gap_and_films(ThermalNetwork& network, int room, int hea
           bearing.share[cell] > 0 ? network.add_link(node(cell, shaft_rings - 1), node(cell, shaft_rings), 0.0) : -1;
     }
   };
+  const CellShare seat = share_of(0.0, seat_mm);
   for (int cell = 0; cell < cells; ++cell) {
     m_gap[cell] = network.add_link(node(cell, shaft_rings - 1), node(cell, shaft_rings), 0.0);
     m_film[cell] = network.add_boundary_link(node(cell, rings - 1), room, 0.0);
-    if (cell < seat_cells) network.add_link(node(cell, rings - 1), headstock, seat_W_K / seat_cells);
+    if (seat[cell] > 0.0) network.add_link(node(cell, rings - 1), headstock, seat_W_K * seat[cell]);
   }
   m_nose_film = network.add_boundary_link(node(cells - 1, shaft_rings - 1), room, 0.0);
   contact(m_front, nominal::front_bearing.from_mm, nominal::front_bearing.to_mm, front_contact_W_K);
@@ -147,7 +167,6 @@ void SpindleBody::prepare(ThermalNetwork& network, const SpindleInputs& inputs, 
   for (const int stator : m_stator) network.add_heat(stator, stator_W / static_cast<double>(m_stator.size()));
   m_idle_load_W += rotor_W + stator_W;
   prepare_hidden_heat(network, inputs, time_s);
-  prepare_joint(network);
 }
 
 void SpindleBody::prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front) {
@@ -189,29 +208,41 @@ void SpindleBody::prepare_films(ThermalNetwork& network, const SpindleInputs& in
   // air gap: conduction through 0.2 mm of air, more as the flow in it turns over
   const double gap_film = 0.027 / 0.0002 * (1.0 + 1.2 * std::sqrt(relative));
   const double conductivity = nominal::conductivity_W_mK * m_parameters.conductivity;
-  const double walls_K_W = 1.0 / radial_W_K(ring_middle(2), shaft_radius_m[3], conductivity) +
-                           1.0 / radial_W_K(housing_radius_m[0], ring_middle(3), conductivity);
-  const double gap_K_W = 1.0 / (gap_film * 2.0 * pi * shaft_radius_m[3] * cell_m);
-  const double outside_m2 = 2.0 * pi * housing_radius_m[2] * cell_m;
   const double room_K = room_C + 273.15;
+  constexpr double front_mm = nominal::spindle_length_mm / 2.0;
   for (int cell = 0; cell < cells; ++cell) {
+    const double cell_m = length_m(cell);
+    const double walls_K_W = 1.0 / radial_W_K(ring_middle(2), shaft_radius_m[3], conductivity, cell_m) +
+                             1.0 / radial_W_K(housing_radius_m[0], ring_middle(3), conductivity, cell_m);
+    const double gap_K_W = 1.0 / (gap_film * 2.0 * pi * shaft_radius_m[3] * cell_m);
+    const double outside_m2 = 2.0 * pi * housing_radius_m[2] * cell_m;
     network.set_link(m_gap[cell], 1.0 / (walls_K_W + gap_K_W));
     const double surface_K = network.temperature_C(node(cell, rings - 1)) + 273.15;
     const double radiation =
         emissivity * stefan_boltzmann_W_m2K4 * (surface_K + room_K) * (surface_K * surface_K + room_K * room_K);
     double washed = 0.0;  // coolant at the room's temperature, on the front half
-    if (inputs.coolant_on && cell >= cells / 2) washed = hidden.size_if("coolant");
+    if (inputs.coolant_on) {
+      const double front_share = std::clamp((m_face_mm[cell + 1] - front_mm) / (1000.0 * cell_m), 0.0, 1.0);
+      washed = front_share * hidden.size_if("coolant");
+    }
     network.set_boundary_link(m_film[cell], (film + radiation + washed) * outside_m2);
   }
   const double nose_m2 = pi * (shaft_radius_m[3] * shaft_radius_m[3] - shaft_radius_m[0] * shaft_radius_m[0]);
   network.set_boundary_link(m_nose_film, (8.0 + 15.0 * std::pow(relative, 0.7)) * nose_m2);
 }
 
+/// Between the middles of which two cells a place lies, and how much of the way it is.
+SpindleBody::Between SpindleBody::between(double position_mm) const {
+  int low = 0;
+  while (low + 2 < cells && middle_mm(low + 1) <= position_mm) ++low;
+  const double part = (position_mm - middle_mm(low)) / (middle_mm(low + 1) - middle_mm(low));
+  return {low, std::clamp(part, 0.0, 1.0)};
+}
+
 void SpindleBody::add_hidden_heat(ThermalNetwork& network, double position_mm, double heat_W) {
   // Over the two nearest cells, so that its centre of gravity is where the answer says.
-  const double at = std::clamp(position_mm / (cell_m * 1000.0) - 0.5, 0.0, cells - 1.0);
-  for (int cell = 0; cell < cells; ++cell) {
-    const double share = std::max(0.0, 1.0 - std::abs(at - cell));
+  const auto [low, part] = between(position_mm);
+  for (const auto& [cell, share] : {std::pair{low, 1.0 - part}, std::pair{low + 1, part}}) {
     network.add_heat(node(cell, shaft_rings), 0.75 * heat_W * share);
     network.add_heat(node(cell, shaft_rings - 1), 0.25 * heat_W * share);
   }
@@ -240,24 +271,18 @@ void SpindleBody::prepare_hidden_heat(ThermalNetwork& network, const SpindleInpu
   }
 }
 
-void SpindleBody::prepare_joint(ThermalNetwork& network) {
-  const HiddenEffect* joint = m_parameters.hidden.find("contact_resistance");
-  if (joint == nullptr) return;
-  for (const AxialLink& axial : m_axial) {
-    // a joint between two faces acts on both, by its distance
-    const double weight = std::max(0.0, 1.0 - std::abs(joint->position_mm - axial.face_mm) / (cell_m * 1000.0));
-    network.set_link(axial.link, 1.0 / (1.0 / axial.conductance + weight * joint->size / axial.face_area_m2));
-  }
-}
-
 double SpindleBody::housing_C(const ThermalNetwork& network, double position_mm) const {
-  const double at = std::clamp(position_mm / (cell_m * 1000.0) - 0.5, 0.0, cells - 1.0);
-  const int low = std::min(static_cast<int>(at), cells - 2);
-  const double part = at - low;
   // the sensors' holes end in the middle of the wall
   const auto wall_C = [&](int cell) {
     return (network.temperature_C(node(cell, shaft_rings)) + network.temperature_C(node(cell, shaft_rings + 1))) / 2;
   };
+  auto [low, part] = between(position_mm);
+  // A sensor beside a joint reads its own side, as far from the next cell's middle as it is.
+  if (low + 1 == m_joint_face) {
+    const bool behind = position_mm < m_face_mm[m_joint_face];
+    low = behind ? std::max(0, low - 1) : std::min(low + 1, cells - 2);
+    part = (position_mm - middle_mm(low)) / (middle_mm(low + 1) - middle_mm(low));
+  }
   return (1.0 - part) * wall_C(low) + part * wall_C(low + 1);
 }
 
@@ -274,7 +299,7 @@ double SpindleBody::growth_um(const ThermalNetwork& network) const {
   for (int cell = 0; cell < cells; ++cell) {
     for (int ring = 0; ring < shaft_rings; ++ring) {
       const double rise_K = network.temperature_C(node(cell, ring)) - m_parameters.room_start_C;
-      rise_K_m += rise_K * m_ring_area_m2[ring] / area * cell_m;
+      rise_K_m += rise_K * m_ring_area_m2[ring] / area * length_m(cell);
     }
   }
   return nominal::expansion_1_K * m_parameters.expansion * rise_K_m * 1e6;

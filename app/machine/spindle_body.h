@@ -40,11 +40,9 @@ class SpindleBody {
   static constexpr int rings = shaft_rings + housing_rings;
   using CellShare = std::array<double, cells>;  // sums to 1
 
-  struct AxialLink {
-    int link;
-    double conductance;
-    double face_area_m2;
-    double face_mm;
+  struct Between {
+    int cell;
+    double part;
   };
   struct Bearing {
     CellShare share;
@@ -52,21 +50,25 @@ class SpindleBody {
     double contact_W_K;
   };
 
+  void place_faces();
   void build_rings(ThermalNetwork& network);
   void build_gap_and_films(ThermalNetwork& network, int room, int headstock);
   void build_stator(ThermalNetwork& network, int jacket, int headstock);
-  static CellShare share_of(double from_mm, double to_mm);
+  double length_m(int cell) const;
+  double middle_mm(int cell) const;
+  CellShare share_of(double from_mm, double to_mm) const;
+  Between between(double position_mm) const;
   void prepare_bearing(ThermalNetwork& network, Bearing& bearing, const SpindleInputs& inputs, bool front);
   void prepare_films(ThermalNetwork& network, const SpindleInputs& inputs, double room_C, double time_s);
   void add_hidden_heat(ThermalNetwork& network, double position_mm, double heat_W);
   void prepare_hidden_heat(ThermalNetwork& network, const SpindleInputs& inputs, double time_s);
-  void prepare_joint(ThermalNetwork& network);
   int node(int cell, int ring) const { return m_nodes[cell * rings + ring]; }
 
   const MachineParameters& m_parameters;
+  std::array<double, cells + 1> m_face_mm{};
+  int m_joint_face = -1;  // of m_face_mm; -1: no joint
   std::vector<int> m_nodes;
   std::array<double, rings> m_ring_area_m2{};
-  std::vector<AxialLink> m_axial;
   std::array<int, cells> m_gap{};
   std::array<int, cells> m_film{};
   int m_nose_film = 0;

@@ -55,6 +55,28 @@ TEST(ThermalModel, StoresExactlyTheHeatThatFlowsIn) {
   EXPECT_NEAR(model.network().energy_J() - before_J, in_J, 1e-7 * model.network().energy_J());
 }
 
+/// The motor warms the spindle behind 180 mm, and what a joint keeps from the nose stays there.
+TEST(ThermalModel, AJointIsAPlaneAndASensorReadsItsOwnSide) {
+  const auto between_bearing_and_motor_C = [](double joint_mm) {
+    HiddenEffect joint = *draw_effect("contact_resistance", 1);
+    joint.size = 0.02;
+    joint.position_mm = joint_mm;
+    ThermalModel model(build_machine(1, joint));
+    double in_J = 0.0;
+    const double before_J = model.network().energy_J();
+    for (int i = 0; i < 7200; ++i) {
+      model.step(running(6000));
+      in_J += model.network().last_input_J();
+    }
+    EXPECT_NEAR(model.network().energy_J() - before_J, in_J, 1e-7 * model.network().energy_J());
+    return model.sensor_C()[1];  // at 260 mm
+  };
+  const double behind_C = between_bearing_and_motor_C(259.0), before_C = between_bearing_and_motor_C(261.0);
+  EXPECT_GT(std::abs(behind_C - before_C), 2.0);
+  EXPECT_NEAR(between_bearing_and_motor_C(255.0), behind_C, 0.2 * std::abs(behind_C - before_C));
+  EXPECT_NEAR(between_bearing_and_motor_C(265.0), before_C, 0.2 * std::abs(behind_C - before_C));
+}
+
 TEST(ThermalModel, IsAsLargeAsARealMachine) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     ThermalModel model(build_machine(seed));
