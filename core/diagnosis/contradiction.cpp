@@ -77,6 +77,13 @@ bool helps_there(const ChannelReport& channel, const HeldOut& other) {
   return beyond_noise(with->second) < 0.5 * beyond_noise(without->second);
 }
 
+/// An effect that the first recording leaves in doubt was asked about in the others, beside what it shows by itself.
+/// What that hides of the effect's law the others may show: asked by themselves they need not be missed by as much.
+bool decided_with_others(const Diagnosis& diagnosis) {
+  return std::any_of(diagnosis.notes.begin(), diagnosis.notes.end(),
+                     [](const std::string& note) { return note.starts_with("decided_with_others:"); });
+}
+
 /// Rows so far apart that what switched between them is missed in each recording in another way: a prediction that
 /// fails shows nothing, and no effect that only the other recording shows is more than that.
 bool rows_too_coarse(const Diagnosis& diagnosis) {
@@ -133,7 +140,7 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   const bool alone_says_little = unexplained_alone || first.verdict == Verdict::consistent;
   if (first.verdict == Verdict::consistent && rows_too_coarse(first)) return first;
   std::size_t worst = 0;
-  double missed = alone_says_little ? 0.0 : contradicted;
+  double missed = alone_says_little ? 0.0 : decided_with_others(first) ? in_order : contradicted;
   for (std::size_t i = 0; i < first.held_out.size(); ++i) {
     const double by = missed_by(first, first.held_out[i]);
     if (by <= missed) continue;

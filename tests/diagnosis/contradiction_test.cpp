@@ -42,6 +42,20 @@ TEST(Contradiction, TheOtherRecordingIsFittedWhereTheFirstCannotShowTheEffect) {
   EXPECT_LT(missed_by(*both), 3.0);
 }
 
+/// At one speed, with the coolant on all the time, oil and preload look alike; the other recording tells them apart.
+TEST(Contradiction, WhatTheFirstLeavesInDoubtIsSoughtInTheOtherToo) {
+  const proof::Case one = proof::make_case(4181636078, "", proof::StrengthRule::shown);
+  ASSERT_EQ(one.hidden.size(), 2U);
+  ASSERT_EQ(one.hidden[0].id, "bearing_viscosity");
+  ASSERT_EQ(one.hidden[1].id, "coolant");
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  const auto both = diagnose(*machine, one.recordings, {false});
+  ASSERT_TRUE(both.has_value());
+  ASSERT_EQ(both->effects.size(), 2U);
+  EXPECT_EQ(both->effects[0].id, "coolant");
+  EXPECT_EQ(both->effects[1].id, "bearing_viscosity");
+}
+
 TEST(Contradiction, AFittedFirstRecordingThatPredictsTheSecondStays) {
   const proof::Case one = proof::make_case(11, "contact_resistance");
   const auto machine = physics::machine_from_json(one.machine, one.name);
