@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 150> diagnosis = {{
+constexpr std::array<const char*, 151> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -208,6 +208,9 @@ constexpr std::array<const char*, 150> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the column {column} has no value in {percent} % of the rows: what it was there "
                       "had to be assumed."),
+    QT_TRANSLATE_NOOP("core",
+                      "The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its "
+                      "sensor moved or touched?"),
     QT_TRANSLATE_NOOP("core",
                       "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
                       "it changes first."),

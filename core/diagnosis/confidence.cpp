@@ -35,10 +35,27 @@ double Diagnoser::odds_against(const FoundEffect& found) const {
   return others;
 }
 
+/// The room's step between two rows, in K, at the moment when a draught is said to begin; 0: none.
+double Diagnoser::room_jump_K(const FoundEffect& found) const {
+  constexpr double about_s = 300.0;
+  constexpr double no_air_K = 1.0;
+  const recording::Channel* room = recording().find(m_machine.room.channel);
+  const auto from = found.parameters.find("from_s");
+  if (found.id != "draught" || room == nullptr || from == found.parameters.end()) return 0.0;
+  double largest_K = 0.0;
+  for (std::size_t k = 1; k < recording().rows(); ++k) {
+    if (std::abs(recording().time_s[k] - from->second) > about_s) continue;
+    const double step_K = room->values[k] - room->values[k - 1];
+    if (std::abs(step_K) > std::max(no_air_K, std::abs(largest_K))) largest_K = step_K;
+  }
+  return largest_K;
+}
+
 /// What the recording leaves to guess.
 double Diagnoser::guessed(const FoundEffect& found) const {
   const bool unlogged = found.id == "draught" && recording().find("coolant_on") == nullptr;
   if (unlogged) return doubt::unlogged_coolant;
+  if (room_jump_K(found) != 0.0) return doubt::room_jumps;
   if (!m_selection.best->at_its_limit().empty()) return doubt::at_its_limit;
   if (rows_are_coarse() && !m_lumps_only) return doubt::coarse_rows;
   constexpr double outlasted_s = 3.0 * 3600.0;

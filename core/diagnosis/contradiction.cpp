@@ -90,16 +90,24 @@ bool rows_too_coarse(const Diagnosis& diagnosis) {
   return std::find(diagnosis.notes.begin(), diagnosis.notes.end(), "coarse_rows") != diagnosis.notes.end();
 }
 
+/// By itself: what only another recording shows (Diagnoser::judge) is told by a note.
+bool shows_nothing(const Diagnosis& diagnosis) {
+  return diagnosis.verdict == Verdict::consistent ||
+         std::any_of(diagnosis.notes.begin(), diagnosis.notes.end(),
+                     [](const std::string& note) { return note.starts_with("moved_elsewhere:"); });
+}
+
 /// The other recording is missed in the very channel that the effects explain, and in that alone: the description is of
-/// this machine, but the explanation does not hold. Where everything is missed it is another machine's recording.
-bool fails_where_it_explains(const Diagnosis& first, const HeldOut& other) {
+/// this machine, but the explanation does not hold. Where everything is missed it is another machine's recording. That
+/// it helps there saves it, unless that one shows by itself that nothing is missing: without it the fit is bent.
+bool fails_where_it_explains(const Diagnosis& first, const HeldOut& other, bool nothing_is_missing_there) {
   if (first.verdict != Verdict::missing_effect || cannot_be_judged(first) || first.mismatch.channels.empty())
     return false;
   for (const ChannelReport& channel : first.channels) {
     const bool explained = channel.channel == first.mismatch.channels.front();
     const double by = missed_by(channel, other);
     // A slip bends the fit without it so much that anything helps.
-    const bool helps = !happened_once(first) && helps_there(channel, other);
+    const bool helps = !nothing_is_missing_there && !happened_once(first) && helps_there(channel, other);
     if (explained ? by <= contradicted || helps : by >= in_order) return false;
   }
   return true;
@@ -170,11 +178,12 @@ Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
   };
   // What happened once in the other recording cannot be borne out by the first, and the same explanation in both, of
   // which one makes the other worse, is not saved by the turn.
-  const bool borne_out =
-      other.verdict == Verdict::missing_effect && !cannot_be_borne_out(other) && other.forms != first.forms && holds();
+  const bool borne_out = other.verdict == Verdict::missing_effect && !cannot_be_borne_out(other) &&
+                         other.forms != first.forms && holds() &&
+                         !(shows_nothing(first) && fails_where_it_explains(other, other.held_out[worst - 1], true));
   if (!twice && !borne_out) {
     const HeldOut& missed_one = first.held_out[worst - 1];
-    if (fails_where_it_explains(first, missed_one) || hides_a_movement(first, missed_one)) {
+    if (fails_where_it_explains(first, missed_one, shows_nothing(other)) || hides_a_movement(first, missed_one)) {
       first.verdict = Verdict::unexplained;
       first.sentences = explain_unexplained(first);
       first.sentences.insert(first.sentences.begin(), explain_verdict(first));

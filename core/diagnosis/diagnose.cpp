@@ -122,6 +122,14 @@ Result<Diagnosis> Diagnoser::run(Of use) {
     m_out.sentences.push_back(explain_note("described_not_there", {{"name", m_not_there->id}}));
   tell_wrong_set_up();
   signs_turned();
+  for (const FoundEffect& found : m_out.effects) {
+    const double jump_K = room_jump_K(found);
+    if (jump_K == 0.0) continue;
+    m_out.notes.emplace_back("room_jumps");
+    m_out.sentences.push_back(
+        explain_note("room_jumps", {{"kelvin", fmt::format("{:.1f}", jump_K)},
+                                    {"at", fmt::format("{:.0f}", found.parameters.at("from_s") / 60.0)}}));
+  }
   if (const std::string id = m_out.effects.empty() ? "" : m_selection.best->at_its_limit(); !id.empty()) {
     m_out.notes.push_back("at_its_limit:" + id);
     m_out.sentences.push_back(explain_note("at_its_limit", {{"name", id}}));

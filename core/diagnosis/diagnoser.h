@@ -81,6 +81,7 @@ class Diagnoser {
   void details();
   void cannot_show(const std::vector<std::string>& never_driven);
   std::vector<std::string> never_driven() const;
+  double room_jump_K(const FoundEffect& found) const;
   bool rows_are_coarse() const;
   void coarse_rows();
   void few_sensors();

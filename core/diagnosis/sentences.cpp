@@ -52,6 +52,10 @@ constexpr std::array catalogue{
     Entry{"at_its_limit",
           "It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes "
           "first."},
+    Entry{
+        "room_jumps",
+        "The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or "
+        "touched?"},
     Entry{"heat_none", ""},
     Entry{"heat_brought", "; it brings {watts} on average while it acts"},
     Entry{"heat_taken", "; it takes away {watts} on average while it acts"},

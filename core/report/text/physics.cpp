@@ -143,6 +143,9 @@ std::vector<TextEntry> texts_of_physics() {
       {"In {recording} the column {column} has no value in {percent} % of the rows: what it was there had to be "
        "assumed.",
        "{recording} 的列 {column} 有 {percent} % 的行没有数值：其间的值只能假定。"},
+      {"The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or "
+       "touched?",
+       "室温列在 {at} min 处跳变 {kelvin} K，正是所述气流开始之时：室温传感器是否被移动或触碰？"},
       {"Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
        "drifts. Check how it is mounted.",
        "没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。"},
