@@ -65,6 +65,21 @@ TEST(Contradiction, AFittedFirstRecordingThatPredictsTheSecondStays) {
   EXPECT_LT(missed_by(*both), 3.0);
 }
 
+/// A gauge that drifts through one run looks like a structure that follows the room, until the run beside it is asked.
+TEST(Contradiction, WhatMovesADisplacementInOneRecordingAloneIsNoPhysicsOfTheMachine) {
+  for (const std::size_t drifting : {0U, 1U}) {
+    proof::Case one = proof::make_case(5, "none");
+    auto& run = one.recordings[drifting];
+    std::vector<double>& values = run.find("dZ_um")->values;
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] += 1.5 * (run.time_s[k] - run.time_s[0]) / 3600.0;
+    const auto machine = physics::machine_from_json(one.machine, one.name);
+    const auto both = diagnose(*machine, one.recordings, {false});
+    ASSERT_TRUE(both.has_value());
+    EXPECT_EQ(both->verdict, Verdict::unexplained) << drifting;
+    for (const FoundEffect& found : both->effects) EXPECT_LE(found.confidence, 0.4) << drifting << found.id;
+  }
+}
+
 /// What settles slowly looks like a structure out of balance, until another run is asked.
 TEST(Contradiction, AnExplanationThatMakesTheOtherRecordingWorseIsNone) {
   const proof::Case one = proof::make_case(31, "unlisted:creep");

@@ -121,7 +121,9 @@ TEST(ConcealedCase, AJointIsFoundWhereItStandsBesideTheMachineAsDescribed) {
     EXPECT_EQ(answer->at("verdict"), "missing_effect");
     ASSERT_EQ(answer->at("effects").size(), 1u);
     EXPECT_EQ(answer->at("effects")[0].at("id"), "contact_resistance");
-    EXPECT_NEAR(answer->at("effects")[0].at("position_mm").get<double>(), *one.truth.effects[0].position_mm, 6.0);
+    // Five millimetres beside a sensor: one recording knows the place to 5 mm (sigma), both to 2.6.
+    const double within_mm = files.size() == 1 ? 12.0 : 6.0;
+    EXPECT_NEAR(answer->at("effects")[0].at("position_mm").get<double>(), *one.truth.effects[0].position_mm, within_mm);
   }
   fs::remove_all(folder);
 }
