@@ -34,7 +34,7 @@ class SpindleBody {
   double idle_load_W() const { return m_idle_load_W; }
 
  private:
-  static constexpr int cells = 20;
+  static constexpr int cells = 40;
   static constexpr int shaft_rings = 3;
   static constexpr int housing_rings = 2;
   static constexpr int rings = shaft_rings + housing_rings;

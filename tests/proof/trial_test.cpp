@@ -121,9 +121,11 @@ TEST(ConcealedCase, AJointIsFoundWhereItStandsBesideTheMachineAsDescribed) {
     EXPECT_EQ(answer->at("verdict"), "missing_effect");
     ASSERT_EQ(answer->at("effects").size(), 1u);
     EXPECT_EQ(answer->at("effects")[0].at("id"), "contact_resistance");
-    // Five millimetres beside a sensor: one recording knows the place to 5 mm (sigma), both to 2.6.
-    const double within_mm = files.size() == 1 ? 12.0 : 6.0;
-    EXPECT_NEAR(answer->at("effects")[0].at("position_mm").get<double>(), *one.truth.effects[0].position_mm, within_mm);
+    // Five millimetres beside a sensor, 0.16 K in 0.1 K of noise: one recording knows no more than it says.
+    const double sigma_mm = answer->at("effects")[0].at("sigma").at("position_mm").get<double>();
+    EXPECT_LT(sigma_mm, files.size() == 1 ? 6.0 : 3.0);
+    EXPECT_NEAR(answer->at("effects")[0].at("position_mm").get<double>(), *one.truth.effects[0].position_mm,
+                2.0 * sigma_mm);
   }
   fs::remove_all(folder);
 }

@@ -7,10 +7,10 @@
 namespace zerodrift::physics {
 namespace contact_resistance {
 
-// A fit is a few to some tens of millimetres long where a spindle is some hundreds.
-constexpr double usual_half_width = 0.03;  // of the length
-constexpr double widest = 0.05;            // wider, it would take the place of the rod beside it
-constexpr double narrow_cells = 1e-3;      // of a cell: a plane
+// Mostly two faces against each other, a plane; a fit is some millimetres long, seldom some tens.
+constexpr double usual_half_width = 0.005;  // of the length
+constexpr double widest = 0.05;             // wider, it would take the place of the rod beside it
+constexpr double narrow_cells = 1e-3;       // of a cell: a plane
 
 /// How much of what lies at u, in cells from a face, counts for that face.
 double hat(double u) {
@@ -203,7 +203,7 @@ const Effect contact_resistance_effect = {
     "sensor_lag extra_heat_source heater_body",
     {{"resistance_m2K_W", 4e-3, 0.0, 5e-2, true},
      {"position_mm", 20.0, 0.0, 30000.0},
-     {"half_width_mm", 0.7, 0.0, 30000.0, false, 0.0, true}},
+     {"half_width_mm", 1.0, 0.0, 30000.0, false, 0.0, true}},
     {"resistance_m2K_W"},
     contact_resistance::add,
     contact_resistance::candidates};
