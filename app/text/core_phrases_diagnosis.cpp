@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 151> diagnosis = {{
+constexpr std::array<const char*, 153> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -214,6 +214,14 @@ constexpr std::array<const char*, 151> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
                       "it changes first."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Speed, coolant and load seem to be recorded {seconds} s or more after they acted: do all columns "
+        "have one clock?"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns "
+        "have one clock, or do all sensors answer late?"),
     QT_TRANSLATE_NOOP(
         "core",
         "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "

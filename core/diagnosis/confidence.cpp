@@ -51,12 +51,20 @@ double Diagnoser::room_jump_K(const FoundEffect& found) const {
   return largest_K;
 }
 
+/// Log evidence for inputs that were logged too late (above zero) or too early by another clock; 0 where one will do.
+double Diagnoser::clocks_apart() const {
+  constexpr double least = 10.0;  // sound recordings show 0.1
+  const double late = m_selection.best->inputs_late();
+  return std::abs(late) >= least ? late : 0.0;
+}
+
 /// What the recording leaves to guess.
 double Diagnoser::guessed(const FoundEffect& found) const {
   const bool unlogged = found.id == "draught" && recording().find("coolant_on") == nullptr;
   if (unlogged) return doubt::unlogged_coolant;
   if (room_jump_K(found) != 0.0) return doubt::room_jumps;
   if (!m_selection.best->at_its_limit().empty()) return doubt::at_its_limit;
+  if (clocks_apart() != 0.0) return doubt::apart_clocks;
   if (rows_are_coarse() && !m_lumps_only) return doubt::coarse_rows;
   constexpr double outlasted_s = 3.0 * 3600.0;
   const bool warm = std::any_of(m_machine.components.begin(), m_machine.components.end(),

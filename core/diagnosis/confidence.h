@@ -20,8 +20,9 @@ constexpr double unknown_past = 0.7;      // a start not at rest that a short ru
 constexpr double never_moved = 0.7;       // no speed, coolant or load that ever changed
 constexpr double corrected_number = 0.8;  // a number of the description had to be changed first
 constexpr double at_its_limit = 0.5;      // of what an effect can be: of 235 right answers none was
-constexpr double room_jumps = 0.5;   // in one row, as the draught begins: air takes minutes, a sensor that is moved not
-constexpr double coarse_rows = 0.5;  // rows too far apart: of nine answers six were wrong
+constexpr double room_jumps = 0.5;  // in one row, as the draught begins: air takes minutes, a sensor that is moved not
+constexpr double apart_clocks = 0.5;  // of inputs and sensors: of three answers all were wrong
+constexpr double coarse_rows = 0.5;   // rows too far apart: of nine answers six were wrong
 constexpr double guessed_room = 0.9;  // of 27 answers to runs robbed of the room's column three were wrong
 constexpr double fitted_start = 0.9;  // a start not at rest that the run outlasts
 // Besides.

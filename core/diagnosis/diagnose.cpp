@@ -134,6 +134,11 @@ Result<Diagnosis> Diagnoser::run(Of use) {
     m_out.notes.push_back("at_its_limit:" + id);
     m_out.sentences.push_back(explain_note("at_its_limit", {{"name", id}}));
   }
+  if (const double too_late = wrong_set_up() ? 0.0 : clocks_apart(); too_late != 0.0) {
+    m_out.notes.emplace_back(too_late > 0.0 ? "inputs_late" : "inputs_early");
+    m_out.sentences.push_back(
+        explain_note(m_out.notes.back(), {{"seconds", fmt::format("{:.0f}", seconds_between_rows())}}));
+  }
   m_out.sentences.insert(m_out.sentences.end(), m_misstated.begin(), m_misstated.end());
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show(asleep);

@@ -82,6 +82,7 @@ class Diagnoser {
   void cannot_show(const std::vector<std::string>& never_driven);
   std::vector<std::string> never_driven() const;
   double room_jump_K(const FoundEffect& found) const;
+  double clocks_apart() const;
   bool rows_are_coarse() const;
   void coarse_rows();
   void few_sensors();

@@ -157,6 +157,7 @@ struct DiagnoseOptions {
 /// the description by more than four of its tolerances. Note "misstated:QUANTITY:OF:FACTOR": with that number times so
 /// much, the recording is explained as well without an effect that is named (misstated.h). Note "room_jumps": at the
 /// moment when a draught is said to begin. Note "at_its_limit:ID": that effect is at the limit of what it can be. Note
+/// "inputs_late" or "inputs_early": what drives the machine is recorded a row or more after or before it acts. Note
 /// "sign_turned:CHANNEL": the displacement follows the description with its sign turned. Note
 /// "moved_elsewhere:CHANNEL": only another recording shows that something moves the nose that the description has not.
 /// Note "shows_too_little": nothing is found missing, but most effects of usual size would not have shown. Note

@@ -368,6 +368,19 @@ std::string Model::at_its_limit() const {
   return {};
 }
 
+double Model::inputs_late() const {
+  const int hold = free_index(network().hold_parameter);
+  if (hold < 0) return 0.0;
+  const bool after = m_z[hold] >= m_high[hold] - 1e-9;
+  if (!after && m_z[hold] > m_low[hold] + 1e-9) return 0.0;
+  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(m_z.size(), hold);
+  const Eigen::VectorXd covariance = hessian().ldlt().solve(unit);  // with the others
+  const double step = covariance.dot(m_jacobian.transpose() * m_residual - prior_slope());
+  const double evidence = 0.5 * step * step / covariance[hold];
+  if (after) return step > 0.0 ? evidence : 0.0;
+  return step < 0.0 ? -evidence : 0.0;
+}
+
 std::vector<double> block_excess(const Dataset& data, const Eigen::VectorXd& residual) {
   std::vector<double> excess(data.channels.size(), 0.0);
   if (data.rows() < 8) return excess;

@@ -69,6 +69,9 @@ class Model {
   std::vector<std::string> bounds_reached() const;  // of the effects' parameters
   /// The id of a hypothesis that is at the limit of what it can be; empty: none.
   std::string at_its_limit() const;
+  /// Log evidence for inputs that act a row or more before the sample that has them (above zero), or after it (below),
+  /// where the fit ends at such a bound: columns of two clocks.
+  double inputs_late() const;
   double gain = 0.0;       // of the score test that suggested it
   double elsewhere = 0.0;  // log evidence that other recordings add, beside the best without it; 0 where not asked
 

@@ -3646,6 +3646,14 @@
         <translation>记录中没有列 {columns}：只在该列中显现的效应无法查明。</translation>
     </message>
     <message>
+        <source>Speed, coolant and load seem to be recorded {seconds} s or more after they acted: do all columns have one clock?</source>
+        <translation>转速、冷却液和负载的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？</translation>
+    </message>
+    <message>
+        <source>Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns have one clock, or do all sensors answer late?</source>
+        <translation>转速、冷却液和负载的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？</translation>
+    </message>
+    <message>
         <source>It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes first.</source>
         <translation>须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。</translation>
     </message>

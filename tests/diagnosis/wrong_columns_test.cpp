@@ -97,6 +97,29 @@ TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
   }
 }
 
+TEST(WrongColumns, InputsOfAnotherClockAreToldAndWhatTheyLookLikeIsInDoubt) {
+  for (const auto& [rows, note] : {std::pair{0, ""}, std::pair{3, "inputs_late"}, std::pair{-5, "inputs_early"}}) {
+    proof::Case one = proof::make_case(332, "none");
+    for (auto& run : one.recordings) {
+      for (const char* name : {"spindle_rpm", "coolant_on", "load_percent"}) {
+        recording::Channel* column = run.find(name);
+        if (column == nullptr) continue;
+        const std::vector<double> then = column->values;
+        const auto last = static_cast<int>(then.size()) - 1;
+        for (int k = 0; k <= last; ++k) {
+          column->values[static_cast<std::size_t>(k)] = then[static_cast<std::size_t>(std::clamp(k - rows, 0, last))];
+        }
+      }
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    for (const char* told : {"inputs_late", "inputs_early"}) {
+      EXPECT_EQ(says(*answer, told), std::string(told) == note) << "by " << rows;
+    }
+    for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << found.id;
+  }
+}
+
 TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
   proof::Case one = proof::make_case(323, "none");
   one.recordings.resize(1);
