@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 153> diagnosis = {{
+constexpr std::array<const char*, 154> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -211,6 +211,9 @@ constexpr std::array<const char*, 153> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its "
                       "sensor moved or touched?"),
+    QT_TRANSLATE_NOOP("core",
+                      "Without {channel} nothing is missing: all other channels agree with the simulation. Check that "
+                      "sensor and how it is mounted before what is beside it."),
     QT_TRANSLATE_NOOP("core",
                       "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
                       "it changes first."),

@@ -445,23 +445,10 @@ void Diagnoser::inputs_not_logged() {
   m_out.sentences.push_back(explain_note("inputs_not_logged", {{"columns", columns}}));
 }
 
-/// What follows a room that goes one way all the time looks like what drifts by itself.
-void Diagnoser::moving_alone() {
-  constexpr double in_doubt = 6.0;  // log evidence: the confidence is then below 0.9
-  if (!m_selection.settling.empty()) {
-    m_out.notes.push_back("settles_by_itself:" + m_selection.settling);
-    m_out.sentences.push_back(explain_note("moves_by_itself", {{"channel", m_selection.settling}}));
-    return;
-  }
-  if (m_out.verdict != Verdict::missing_effect) return;
-  for (const auto& [channel, lead] : m_selection.lead_over_moving_alone) {
-    if (lead < in_doubt) m_out.sentences.push_back(explain_note("follows_or_drifts", {{"channel", channel}}));
-  }
-}
-
 void Diagnoser::notes() {
   few_sensors();
   moving_alone();
+  sensor_alone();
   inputs_not_logged();
   if (std::count(m_out.notes.begin(), m_out.notes.end(), "room_not_logged") != 0) {
     m_out.sentences.push_back(explain_note("room_not_logged", {{"column", m_machine.room.channel}}));

@@ -89,6 +89,7 @@ class Diagnoser {
   void inputs_not_logged();
   std::vector<std::string> not_recorded() const;
   void moving_alone();
+  void sensor_alone();
   std::vector<std::string> mirrored() const;
   void signs_turned();
   double seconds_between_rows() const;

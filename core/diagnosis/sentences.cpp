@@ -132,6 +132,10 @@ constexpr std::array catalogue{
           "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
           "record again."},
     Entry{"not_recorded", "The recording has no column {columns}: what shows in it alone cannot be found."},
+    Entry{
+        "sensor_alone",
+        "Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how "
+        "it is mounted before what is beside it."},
     Entry{"moves_by_itself",
           "Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
           "drifts. Check how it is mounted."},

@@ -3654,6 +3654,10 @@
         <translation>转速、冷却液和负载的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？</translation>
     </message>
     <message>
+        <source>Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how it is mounted before what is beside it.</source>
+        <translation>不计 {channel} 时一切吻合：其余各通道都与仿真一致。请先检查该传感器及其安装，再查其旁边的部位。</translation>
+    </message>
+    <message>
         <source>It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes first.</source>
         <translation>须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。</translation>
     </message>

@@ -120,6 +120,24 @@ TEST(WrongColumns, InputsOfAnotherClockAreToldAndWhatTheyLookLikeIsInDoubt) {
   }
 }
 
+TEST(WrongColumns, ASensorThatDriftsAloneIsNamedAndAHeatThatWandersIsNoSensor) {
+  proof::Case one = proof::make_case(332, "none");
+  one.recordings.resize(1);
+  recording::Recording& run = one.recordings[0];
+  std::vector<double>& values = run.find("T3_C")->values;
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] += 3.0 * std::pow(run.time_s[k] / run.time_s.back(), 4);
+  const auto drifts = answer_with_details(one);
+  ASSERT_TRUE(drifts.has_value()) << describe(drifts.error());
+  EXPECT_EQ(drifts->verdict, Verdict::unexplained);
+  EXPECT_TRUE(notes(*drifts, "sensor_alone:T3_C"));
+  EXPECT_TRUE(says(*drifts, "sensor_alone"));
+
+  const auto wanders = answer_with_details(proof::make_case(332, "unlisted:wandering_heat"));
+  ASSERT_TRUE(wanders.has_value()) << describe(wanders.error());
+  EXPECT_EQ(wanders->verdict, Verdict::unexplained);
+  EXPECT_FALSE(says(*wanders, "sensor_alone"));
+}
+
 TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
   proof::Case one = proof::make_case(323, "none");
   one.recordings.resize(1);

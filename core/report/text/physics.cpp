@@ -143,6 +143,9 @@ std::vector<TextEntry> texts_of_physics() {
       {"Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns have one "
        "clock, or do all sensors answer late?",
        "转速、冷却液和负载的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？"},
+      {"Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how "
+       "it is mounted before what is beside it.",
+       "不计 {channel} 时一切吻合：其余各通道都与仿真一致。请先检查该传感器及其安装，再查其旁边的部位。"},
       {"It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes "
        "first.",
        "须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。"},
