@@ -66,6 +66,16 @@ void leave_out_what_lacks_inputs(CheckedRuns& runs) {
   }
 }
 
+/// Columns that drive nothing of the machine: a measurement's own uncertainty, a counter, a remark.
+void leave_out_what_drives_nothing(const physics::Machine& machine, recording::Recording& recording) {
+  const physics::Network network = physics::build_network(machine, recording);
+  std::set<std::string> used(network.held_channels.begin(), network.held_channels.end());
+  used.insert(network.linear_channels.begin(), network.linear_channels.end());
+  std::erase_if(recording.channels, [&](const recording::Channel& channel) {
+    return channel.kind() == recording::ChannelKind::input && used.count(channel.name) == 0;
+  });
+}
+
 /// A speed or a switch that was not logged is taken as it was before.
 void tell_input_gaps(const recording::Recording& one, CheckedRuns& runs) {
   constexpr double worth_telling_percent = 2.0;
@@ -165,6 +175,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
       out.told.push_back(explain_note("run_unknown_columns", {{"recording", one.name}, {"columns", unknown}}));
     }
     ZD_CHECK(check_units(machine, sound.recording));
+    leave_out_what_drives_nothing(machine, sound.recording);
     tell_input_gaps(sound.recording, out);
     if (const auto unit = load_in_other_unit(machine, sound.recording)) {
       out.warnings.push_back(fmt::format("load_in_other_unit:{}:{}", one.name, unit->symbol));

@@ -76,6 +76,26 @@ TEST(WrongColumns, SpeedsThatWereNotLoggedAreTold) {
   EXPECT_TRUE(says(*answer, "run_input_gaps"));
 }
 
+TEST(WrongColumns, AColumnThatDrivesNothingChangesNothing) {
+  proof::Case one = proof::make_case(302, "cutting_heat");
+  const auto without = answer_with_details(one);
+  recording::Recording& first = one.recordings[0];
+  recording::Channel sigma{"sigma_Z_nm", {}};
+  for (std::size_t k = 0; k < first.rows(); ++k) {
+    sigma.values.push_back(k % 8 == 0 ? 100.0 + static_cast<double>(k % 7) : std::nan(""));
+  }
+  first.channels.push_back(std::move(sigma));
+  const auto answer = answer_with_details(one);
+  ASSERT_TRUE(without.has_value());
+  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+  EXPECT_EQ(answer->notes, without->notes);
+  EXPECT_EQ(answer->held_out.size(), without->held_out.size());
+  ASSERT_EQ(answer->effects.size(), without->effects.size());
+  for (std::size_t i = 0; i < answer->effects.size(); ++i) {
+    EXPECT_EQ(answer->effects[i].parameters, without->effects[i].parameters);
+  }
+}
+
 /// What switches between two rows has moved the machine by what nobody knows: that is no effect.
 TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
   for (const unsigned seed : {331U, 332U, 333U, 334U}) {
