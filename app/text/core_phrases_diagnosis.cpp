@@ -217,13 +217,12 @@ constexpr std::array<const char*, 154> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
                       "it changes first."),
+    QT_TRANSLATE_NOOP("core",
+                      "What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns "
+                      "have one clock?"),
     QT_TRANSLATE_NOOP(
         "core",
-        "Speed, coolant and load seem to be recorded {seconds} s or more after they acted: do all columns "
-        "have one clock?"),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns "
+        "What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns "
         "have one clock, or do all sensors answer late?"),
     QT_TRANSLATE_NOOP(
         "core",

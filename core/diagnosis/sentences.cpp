@@ -57,10 +57,10 @@ constexpr std::array catalogue{
         "The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or "
         "touched?"},
     Entry{"inputs_late",
-          "Speed, coolant and load seem to be recorded {seconds} s or more after they acted: do all columns have one "
+          "What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one "
           "clock?"},
     Entry{"inputs_early",
-          "Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns have one "
+          "What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns have one "
           "clock, or do all sensors answer late?"},
     Entry{"heat_none", ""},
     Entry{"heat_brought", "; it brings {watts} on average while it acts"},

@@ -3646,12 +3646,12 @@
         <translation>记录中没有列 {columns}：只在该列中显现的效应无法查明。</translation>
     </message>
     <message>
-        <source>Speed, coolant and load seem to be recorded {seconds} s or more after they acted: do all columns have one clock?</source>
-        <translation>转速、冷却液和负载的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？</translation>
+        <source>What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one clock?</source>
+        <translation>驱动机床各量的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？</translation>
     </message>
     <message>
-        <source>Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns have one clock, or do all sensors answer late?</source>
-        <translation>转速、冷却液和负载的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？</translation>
+        <source>What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns have one clock, or do all sensors answer late?</source>
+        <translation>驱动机床各量的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？</translation>
     </message>
     <message>
         <source>Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how it is mounted before what is beside it.</source>

@@ -137,12 +137,12 @@ std::vector<TextEntry> texts_of_physics() {
        "记录中没有列 {columns}：随之作用的效应无法查明。若机床有此项，请接入记录后重新测量。"},
       {"The recording has no column {columns}: what shows in it alone cannot be found.",
        "记录中没有列 {columns}：只在该列中显现的效应无法查明。"},
-      {"Speed, coolant and load seem to be recorded {seconds} s or more after they acted: do all columns have one "
+      {"What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one "
        "clock?",
-       "转速、冷却液和负载的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？"},
-      {"Speed, coolant and load seem to be recorded {seconds} s or more before they acted: do all columns have one "
+       "驱动机床各量的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？"},
+      {"What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns have one "
        "clock, or do all sensors answer late?",
-       "转速、冷却液和负载的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？"},
+       "驱动机床各量的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？"},
       {"Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how "
        "it is mounted before what is beside it.",
        "不计 {channel} 时一切吻合：其余各通道都与仿真一致。请先检查该传感器及其安装，再查其旁边的部位。"},
