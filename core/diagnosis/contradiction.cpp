@@ -142,6 +142,7 @@ double missed_by(const Diagnosis& diagnosis) {
 Result<Diagnosis> settled(Diagnosis first, const physics::Machine& machine,
                           const std::vector<recording::Recording>& recordings, const DiagnoseOptions& options,
                           const TaskContext& context) {
+  if (first.wrong_set_up) return first;  // as wrong for the others: what they name stands in for it
   // A recording that shows by itself that something is missing may still be too poor to show what.
   const bool unexplained_alone = first.verdict == Verdict::unexplained && !first.refuted;
   // One that shows nothing says little where it hardly excites anything: nothing is missing if neither shows it.

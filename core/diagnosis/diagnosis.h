@@ -127,6 +127,7 @@ struct Diagnosis {
   std::vector<double> sizes;       // of the same: first amplitude, in its own unit
   double unusual_start = 0.0;      // the largest start that one of them needs, over how far it usually is off
   bool refuted = false;            // unexplained because it makes a held-out recording worse
+  bool wrong_set_up = false;       // unexplained because places or a size are not as described
   bool doubtful = false;           // unexplained because the description is bent beyond what units and sizes can be off
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;

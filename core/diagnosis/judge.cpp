@@ -142,6 +142,7 @@ void Diagnoser::decide() {
       m_selection.effects().empty() ? m_out.verdict == Verdict::consistent && beyond_belief() : is_beyond_belief(m_far);
   // With nothing missing beside it the description has too much: no agreement either.
   const bool too_much = m_not_there && m_out.verdict == Verdict::consistent;
+  m_out.wrong_set_up = wrong_set_up();
   if (wrong_set_up() || unbelievable || too_much) {
     m_out.verdict = Verdict::unexplained;
     m_out.doubtful = true;

@@ -55,6 +55,17 @@ double clearly(const Trial& trial) {
   return 25.0;
 }
 
+/// Where the best says that this sensor itself is at fault it has seen that something is wrong with it: its place need
+/// only be the likelier fault.
+double clearly(const Trial& trial, const Model& best) {
+  constexpr double as_a_fault = 10.0;
+  const auto& effects = best.machine().effects;
+  const bool at_fault = std::any_of(effects.begin(), effects.end(), [&](const physics::EffectSpec& spec) {
+    return spec.candidate && spec.id.starts_with("sensor_") && spec.word_or("channel", "") == trial.what.channel;
+  });
+  return at_fault ? std::min(as_a_fault, clearly(trial)) : clearly(trial);
+}
+
 bool is_typical(const Trial& trial) {
   return trial.kind == Mistake::typical;
 }
@@ -81,9 +92,7 @@ class Contest {
     });
   }
 
-  bool wins(const Trial& trial) const {
-    return trial.fit->log_evidence() > m_described->log_evidence() + clearly(trial) && leaves_little(*trial.fit);
-  }
+  bool wins(const Trial& trial) const { return is_likelier(trial) && leaves_little(*trial.fit); }
   std::vector<Trial> tried_alone(std::vector<Trial> trials) const {
     std::vector<Trial> exchanges;
     std::copy_if(trials.begin(), trials.end(), std::back_inserter(exchanges), is_exchange);
@@ -115,40 +124,56 @@ class Contest {
     std::sort(trials.begin(), trials.end(), likelier);
     return trials;
   }
-  /// Between the places that were tried.
+  /// Between the places that were tried, on while it gets better, then finer: a fit from a place far off bends what is
+  /// described.
   void narrow(Trial& found) const {
     if (found.kind == Mistake::typical) return;
+    constexpr double finest = 0.005;  // of the length: what a tape measure tells
+    constexpr int most_rounds = 12;
     const double length_mm = rod_of(found).length_mm;
-    std::vector<Trial> nearer;
-    const double step_mm = (found.kind == Mistake::a_little_aside ? 0.01 : 0.3 / tried_per_rod) * length_mm;
-    for (const double steps : {-2.0, -1.0, 1.0, 2.0}) {
-      nearer.push_back(found);
-      nearer.back().what.at_mm = std::clamp(found.what.at_mm + steps * step_mm, 0.0, length_mm);
-    }
-    const Model like = *found.fit;
-    in_parallel(nearer.size(), [&](std::size_t i) { fit(nearer[i], like, m_data); });
-    for (Trial& one : nearer) {
-      if (likelier(one, found)) found = std::move(one);
+    double step_mm = (found.kind == Mistake::a_little_aside ? 0.01 : 0.3 / tried_per_rod) * length_mm;
+    for (int round = 0; round < most_rounds && step_mm > finest * length_mm; ++round) {
+      std::vector<Trial> nearer;
+      for (const double steps : {-2.0, -1.0, 1.0, 2.0}) {
+        nearer.push_back(found);
+        nearer.back().what.at_mm = std::clamp(found.what.at_mm + steps * step_mm, 0.0, length_mm);
+      }
+      const double from_mm = found.what.at_mm;
+      const Model like = *found.fit;
+      in_parallel(nearer.size(), [&](std::size_t i) { fit(nearer[i], like, m_data); });
+      for (Trial& one : nearer) {
+        if (likelier(one, found)) found = std::move(one);
+      }
+      if (!is_likelier(found)) return;
+      if (std::abs(found.what.at_mm - from_mm) < 1.5 * step_mm) step_mm /= 3.0;
     }
   }
   const Model& sound() const { return *m_sound; }
   const std::shared_ptr<const Dataset>& data() const { return m_data; }
 
  private:
+  bool is_likelier(const Trial& trial) const {
+    return trial.fit->log_evidence() > m_described->log_evidence() + clearly(trial, *m_described);
+  }
+
   std::shared_ptr<const Dataset> m_data;
   std::shared_ptr<Model> m_base, m_described, m_sound;
 };
 
-/// The best of each list in turn, each place once.
+/// The best of each list in turn, each place once, from the list where it explains more.
 std::vector<Trial> leaders(const std::vector<Trial>& one, const std::vector<Trial>& other) {
   constexpr std::size_t most = 3;
   std::vector<Trial> list;
   for (std::size_t i = 0; i < std::max(one.size(), other.size()); ++i) {
     for (const auto* trials : {&one, &other}) {
-      if (list.size() == most || i >= trials->size()) continue;
+      if (i >= trials->size()) continue;
       const Trial& next = (*trials)[i];
-      if (std::none_of(list.begin(), list.end(), [&](const Trial& had) { return same_place(next, had); })) {
-        list.push_back(next);
+      const auto had =
+          std::find_if(list.begin(), list.end(), [&](const Trial& earlier) { return same_place(next, earlier); });
+      if (had == list.end()) {
+        if (list.size() < most) list.push_back(next);
+      } else if (likelier(next, *had)) {
+        *had = next;
       }
     }
   }

@@ -78,6 +78,28 @@ TEST(WrongSetUp, APlaceInMetresIsNamed) {
   EXPECT_TRUE(says(*answer, "verdict_unexplained_misplaced"));
 }
 
+/// What is far from the heat answers late and little: named as such the sensor would be sought for a fault it has not.
+TEST(WrongSetUp, ASensorDescribedAtAnotherPlaceIsNoFaultySensor) {
+  for (const unsigned number : {341u, 354u, 361u}) {
+    proof::Case one = proof::make_case(number, number % 2 == 0 ? "none" : "bearing_preload");
+    auto& sensor = sensor_named(one.machine, "T2_C");
+    const double at_mm = sensor["position_mm"];
+    double length_mm = 0.0;
+    for (const auto& part : one.machine["components"]) length_mm = std::max(length_mm, part.value("length_mm", 0.0));
+    sensor["position_mm"] = at_mm > 0.5 * length_mm ? at_mm - 0.45 * length_mm : at_mm + 0.45 * length_mm;
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    for (const FoundEffect& found : answer->effects) {
+      EXPECT_FALSE(found.id.starts_with("sensor_")) << number << ": " << found.id << " of " << found.channel;
+    }
+    EXPECT_TRUE(notes(*answer, "misplaced:T2_C")) << number;
+    const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
+                                   [](const auto& sentence) { return sentence.id == "misplaced"; });
+    ASSERT_NE(told, answer->sentences.end()) << number;
+    EXPECT_NEAR(std::stod(told->facts.at("at")), at_mm, 0.06 * length_mm) << number;
+  }
+}
+
 TEST(WrongSetUp, TwoCablesExchangedAreNamed) {
   proof::Case one = proof::make_case(307, "bearing_preload");
   std::string first, last;
