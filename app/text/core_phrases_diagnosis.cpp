@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 154> diagnosis = {{
+constexpr std::array<const char*, 155> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -191,6 +191,9 @@ constexpr std::array<const char*, 154> diagnosis = {{
         "core",
         "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
         "check its place, and that it is in millimetres."),
+    QT_TRANSLATE_NOOP("core",
+                      "The same readings may come from {@name} at its described place: check it before you change the "
+                      "description."),
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time "
                       "had passed, and the "

@@ -298,6 +298,13 @@ void Diagnoser::tell_wrong_set_up() {
                                               {"unit", m_misplaced->all_in},
                                               {"described", fmt::format("{:.4g}", m_misplaced->described_mm)},
                                               {"at", fmt::format("{:.0f}", m_misplaced->at_mm)}}));
+  if (!other.empty() || !m_misplaced->all_in.empty()) return;
+  for (const physics::EffectSpec& spec : m_selection.best->machine().effects) {
+    if (!spec.candidate || !spec.id.starts_with("sensor_")) continue;
+    if (spec.word_or("channel", "") != m_misplaced->channel) continue;
+    m_out.notes.push_back("misplaced_or_faulty:" + spec.id);
+    m_out.sentences.push_back(explain_note("misplaced_or_faulty", {{"name", spec.id}}));
+  }
 }
 
 /// Displacements that count the other way than described.
@@ -354,9 +361,13 @@ void Diagnoser::cannot_show(const std::vector<std::string>& never_driven) {
 
 std::vector<std::string> Diagnoser::not_recorded() const {
   std::vector<std::string> missing;
-  for (const auto& displacement : m_machine.displacements) {
-    if (recording().find(displacement.channel) == nullptr) missing.push_back(displacement.channel);
+  const auto look_for = [&](const std::string& channel) {
+    if (recording().find(channel) == nullptr) missing.push_back(channel);
+  };
+  for (const auto& sensor : m_machine.sensors) {
+    if (sensor.component != "ambient") look_for(sensor.channel);
   }
+  for (const auto& displacement : m_machine.displacements) look_for(displacement.channel);
   return missing;
 }
 

@@ -163,14 +163,14 @@ struct DiagnoseOptions {
 /// the description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something
 /// moves the nose that the description has not. Note "shows_too_little": nothing is found missing, but most effects of
 /// usual size would not have shown. Note "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the
-/// sensors are not where the description has them (misplaced.h). "overlong:COMPONENT", "other_end:COMPONENT",
+/// sensors are not where the description has them (misplaced.h); "misplaced_or_faulty:ID": or that sensor is at fault. "overlong:COMPONENT", "other_end:COMPONENT",
 /// "datum:COMPONENT" or "diameter:COMPONENT": nor is that part of the shape described (wrong_geometry.h). Note
 /// "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much (clock_jumps.h). Note
 /// "input_gaps:RECORDING:COLUMN": that input was not logged all the time. Note "load_in_other_unit:RECORDING:UNIT": its
 /// load would be one in kW or %, and is next to nothing in W. Note "warm_start:COMPONENT": it was not at rest when the
 /// recording began. Note "held_out_differs:RECORDING:CHANNEL": that recording does not fit this machine. Note
 /// "room_not_logged": the recording lacks the room's channel. Note "inputs_not_logged:COLUMN, COLUMN": unexplained or a
-/// draught, and it lacks these. Note "not_recorded:COLUMN,COLUMN": displacements that it lacks. Note
+/// draught, and it lacks these. Note "not_recorded:COLUMN,COLUMN": sensors and displacements that it lacks. Note
 /// "settles_by_itself:CHANNEL": a displacement moves by itself and slows down, and nothing shows that it follows the
 /// room. Note "no_excitation": nothing moves, or nothing drives the machine. Note "never_driven:ID,ID": what drives
 /// them never acted. Note "coarse_rows": switching times are hardly known. Note "never_changes:RECORDING:CHANNEL": a

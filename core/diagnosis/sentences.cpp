@@ -114,6 +114,9 @@ constexpr std::array catalogue{
     Entry{"misplaced",
           "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
           "check its place, and that it is in millimetres."},
+    Entry{
+        "misplaced_or_faulty",
+        "The same readings may come from {@name} at its described place: check it before you change the description."},
     Entry{"clock_jumped",
           "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
           "and the "

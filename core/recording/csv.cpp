@@ -93,6 +93,19 @@ bool means_missing(std::string_view cell) {
   return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN";
 }
 
+/// A column of words, under a name that says no unit: what the engineer noted beside the numbers, and no channel.
+bool is_remark(const TextTable& table, std::size_t column) {
+  if (kind_of(table.header[column]) != ChannelKind::input) return false;
+  bool any = false;
+  for (const auto& row : table.rows) {
+    const std::string& cell = row[column];
+    if (means_missing(cell)) continue;
+    if (std::string_view("+-.,0123456789").find(cell.front()) != std::string_view::npos) return false;
+    any = true;
+  }
+  return any;
+}
+
 /// Times in another unit than seconds would make each simulated step thousands of steps, and every time constant wrong.
 Status check_times(const Recording& recording, const std::string& file) {
   constexpr double longest_period_s = 3600.0;
@@ -214,7 +227,12 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
   }
   Recording out;
   out.name = file;
-  for (std::size_t c = 1; c < table.header.size(); ++c) out.channels.push_back({table.header[c], {}});
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 1; c < table.header.size(); ++c) {
+    if (is_remark(table, c)) continue;
+    columns.push_back(c);
+    out.channels.push_back({table.header[c], {}});
+  }
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     ZD_TRY(const double time_s, number_in(table, r, 0));
     if (std::isnan(time_s) || (!out.time_s.empty() && time_s <= out.time_s.back())) {
@@ -222,9 +240,9 @@ Result<Recording> parse_recording(std::string_view text, const std::string& file
                   {{"file", file}, {"line", std::to_string(table.lines[r])}, {"found", table.rows[r][0]}});
     }
     out.time_s.push_back(time_s);
-    for (std::size_t c = 1; c < table.header.size(); ++c) {
-      ZD_TRY(const double value, number_in(table, r, static_cast<int>(c)));
-      out.channels[c - 1].values.push_back(value);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      ZD_TRY(const double value, number_in(table, r, static_cast<int>(columns[i])));
+      out.channels[i].values.push_back(value);
     }
   }
   ZD_CHECK(check_times(out, file));

@@ -33,6 +33,7 @@ Result<TextTable> read_table(const std::filesystem::path& path);
 /// The number in a cell of a parsed table; an empty cell is NaN; anything else csv_bad_number.
 Result<double> number_in(const TextTable& table, std::size_t row, int column);
 
+/// Columns of words under names that say no unit are remarks and left out; a word in any other is csv_bad_number.
 Result<Recording> parse_recording(std::string_view text, const std::string& file, const CsvOptions& options = {});
 Result<Recording> read_recording(const std::filesystem::path& path, const CsvOptions& options = {});
 std::string to_csv(const Recording& recording);

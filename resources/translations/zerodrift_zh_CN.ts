@@ -3622,6 +3622,10 @@
         <translation>{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm 处的：请检查其位置以及单位是否为毫米。</translation>
     </message>
     <message>
+        <source>The same readings may come from {@name} at its described place: check it before you change the description.</source>
+        <translation>同样的读数也可能来自位置与描述一致的{@name}：更改描述之前请先检查该传感器。</translation>
+    </message>
+    <message>
         <source>In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, and the times were taken so.</source>
         <translation>记录 {recording} 的时钟在第 {at} 分钟向前跳了 {by} 分钟：机床的变化表明其间没有时间流逝，时间已据此更正。</translation>
     </message>

@@ -48,13 +48,14 @@ TEST(WrongColumns, WithoutTheCoolantsColumnNothingIsInvented) {
 TEST(WrongColumns, WhatMovesADisplacementIsNotRuledOutWithoutItsColumn) {
   proof::Case one = proof::make_case(301, "structure_ambient");
   for (auto& run : one.recordings) {
-    std::erase_if(run.channels, [](const auto& channel) { return channel.name == "dZ_um"; });
+    std::erase_if(run.channels, [](const auto& channel) { return channel.name == "dZ_um" || channel.name == "T3_C"; });
   }
   const auto answer = answer_with_details(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   EXPECT_EQ(answer->verdict, Verdict::consistent);
   EXPECT_TRUE(says(*answer, "verdict_consistent_in_part"));
   EXPECT_TRUE(says(*answer, "not_recorded"));
+  EXPECT_TRUE(notes(*answer, "not_recorded:T3_C,dZ_um"));
 }
 
 TEST(WrongColumns, TheRoomsColumnAndASensorsExchangedAreRefusedByName) {

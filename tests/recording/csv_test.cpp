@@ -54,6 +54,19 @@ TEST(Csv, FaultsNameLineAndColumn) {
   EXPECT_EQ(parse_recording("time_s,T1_C\n0,20,5\n", "a").error().code, ErrorCode::csv_cell_count);
 }
 
+TEST(Csv, RemarksBesideTheNumbersAreNoChannel) {
+  const auto noted = parse_recording("time_s,Remark,T1_C,feed\n0,,20,1\n10,door open,21,\n20,,22,2\n", "a.csv");
+  ASSERT_TRUE(noted.has_value()) << describe(noted.error());
+  ASSERT_EQ(noted->channels.size(), 2U);
+  EXPECT_EQ(noted->find("Remark"), nullptr);
+  EXPECT_EQ(noted->find("T1_C")->values, (std::vector{20.0, 21.0, 22.0}));
+  EXPECT_EQ(noted->find("feed")->values.back(), 2.0);
+  // A word among numbers, or where a unit says that there should be some, is a fault.
+  EXPECT_EQ(parse_recording("time_s,feed\n0,1\n10,on\n", "a").error().code, ErrorCode::csv_bad_number);
+  EXPECT_EQ(parse_recording("time_s,T1_C\n0,off\n10,off\n", "a").error().code, ErrorCode::csv_bad_number);
+  EXPECT_EQ(parse_recording("time_s,feed\n0,1e999\n", "a").error().code, ErrorCode::csv_bad_number);
+}
+
 TEST(Csv, TimesInAnotherUnitAreNamed) {
   std::string in_ms = "time_s,T1_C\n", with_one_far = in_ms, slow = in_ms;
   for (int k = 0; k < 20; ++k) {

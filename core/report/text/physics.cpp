@@ -121,6 +121,8 @@ std::vector<TextEntry> texts_of_physics() {
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "
        "处的：请检查其位置以及单位是否为毫米。"},
+      {"The same readings may come from {@name} at its described place: check it before you change the description.",
+       "同样的读数也可能来自位置与描述一致的{@name}：更改描述之前请先检查该传感器。"},
       {"In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
        "and the "
        "times were taken so.",
