@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 155> diagnosis = {{
+constexpr std::array<const char*, 157> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -220,6 +220,12 @@ constexpr std::array<const char*, 155> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
                       "it changes first."),
+    QT_TRANSLATE_NOOP("core",
+                      "What drives the machine was recorded about {seconds} s after it acted, and was taken as that "
+                      "much earlier: give all columns one clock."),
+    QT_TRANSLATE_NOOP("core",
+                      "What drives the machine was recorded about {seconds} s before it acted, and was taken as that "
+                      "much later: give all columns one clock."),
     QT_TRANSLATE_NOOP("core",
                       "What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns "
                       "have one clock?"),

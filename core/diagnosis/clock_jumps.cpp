@@ -15,6 +15,12 @@ constexpr std::size_t most_jumps = 3;  // a logger that stores on change has gap
 constexpr std::size_t most_rows = 1000;
 constexpr double least_evidence = 10.0;  // of log evidence: loggers miss samples more often than their clocks are set
 
+void move_back(recording::Recording& recording, std::size_t from_row, double by_s) {
+  for (std::size_t k = from_row; k < recording.rows(); ++k) recording.time_s[k] -= by_s;
+}
+
+}  // namespace
+
 double log_evidence_of(const physics::Machine& machine, const recording::Recording& whole) {
   const recording::Recording recording = thinned(whole, most_rows);
   const physics::Network network = physics::build_network(machine, recording);
@@ -24,12 +30,6 @@ double log_evidence_of(const physics::Machine& machine, const recording::Recordi
   model.fit({});
   return model.log_evidence();
 }
-
-void move_back(recording::Recording& recording, std::size_t from_row, double by_s) {
-  for (std::size_t k = from_row; k < recording.rows(); ++k) recording.time_s[k] -= by_s;
-}
-
-}  // namespace
 
 std::vector<ClockJump> take_out_clock_jumps(const physics::Machine& machine, recording::Recording& recording) {
   std::vector<ClockJump> found;

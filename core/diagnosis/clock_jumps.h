@@ -13,6 +13,9 @@ struct ClockJump {
   double by_s = 0.0;  // what the clock has too much from there on
 };
 
+/// Of the simulation as described, fitted to the recording.
+double log_evidence_of(const physics::Machine& machine, const recording::Recording& whole);
+
 /// Takes the jumps out of the recording's times: gaps of several sample intervals and at most half an hour after which
 /// the machine goes on as if no time had passed, by the evidence of its simulation as described.
 std::vector<ClockJump> take_out_clock_jumps(const physics::Machine& machine, recording::Recording& recording);

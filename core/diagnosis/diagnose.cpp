@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/base/memory.h"
+#include "core/diagnosis/another_clock.h"
 #include "core/diagnosis/apart.h"
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/checked_runs.h"
@@ -143,6 +144,7 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show(asleep);
   notes();
+  if (of_use() && (m_out.verdict == Verdict::unexplained || clocks_apart() != 0.0)) m_out.clock = clock_offset();
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   m_context.progress(1.0, "done");
   return std::move(m_out);
@@ -328,12 +330,15 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
   if (given.empty())
     return fail(ErrorCode::bad_argument, {{"what", "recordings"}, {"found", "none"}, {"expected", "at least one"}});
   keep_freed_memory();
-  ZD_TRY(const CheckedRuns runs, checked_runs(machine, given));
+  ZD_TRY(CheckedRuns runs, checked_runs(machine, given));
   const bool apart = falls_apart(machine);
   Result<Diagnosis> result = apart ? diagnose_apart(machine, runs.recordings, options, context)
                                    : Diagnoser(machine, runs.recordings, options, context).run();
+  if (result && !apart) result = with_one_clock(std::move(*result), machine, runs.recordings, options, context);
+  const ClockOffset clock = result && !apart ? result->clock : ClockOffset{};
   if (result && !apart) result = settled(std::move(*result), machine, runs.recordings, options, context);
   if (!result) return result;
+  tell_clock(*result, clock);
   doubt_whole(*result, machine);
   if (const auto& raised = machine.tolerances.raised; !raised.empty()) {
     result->notes.push_back(fmt::format("tolerances_raised:{}", fmt::join(raised, ",")));

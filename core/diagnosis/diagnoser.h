@@ -83,6 +83,7 @@ class Diagnoser {
   std::vector<std::string> never_driven() const;
   double room_jump_K(const FoundEffect& found) const;
   double clocks_apart() const;
+  ClockOffset clock_offset() const;
   bool rows_are_coarse() const;
   void coarse_rows();
   void few_sensors();

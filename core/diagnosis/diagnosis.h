@@ -118,6 +118,12 @@ struct RunFinding {
   analysis::Finding finding;
 };
 
+/// Of what drives the machine to everything else.
+struct ClockOffset {
+  double late_s = 0.0;       // below zero: it was logged before it acted
+  double rest_before = 0.0;  // share of the time before its first row in which nothing ran; then as in that row
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::consistent;
   Mismatch mismatch;
@@ -127,6 +133,7 @@ struct Diagnosis {
   std::vector<double> sizes;       // of the same: first amplitude, in its own unit
   double unusual_start = 0.0;      // the largest start that one of them needs, over how far it usually is off
   bool refuted = false;            // unexplained because it makes a held-out recording worse
+  ClockOffset clock;               // with what drives the machine moved by it the recording is explained better
   bool wrong_set_up = false;       // unexplained because places or a size are not as described
   bool doubtful = false;           // unexplained because the description is bent beyond what units and sizes can be off
   std::vector<Rival> ambiguous_with;
@@ -159,25 +166,26 @@ struct DiagnoseOptions {
 /// much, the recording is explained as well without an effect that is named (misstated.h). Note "room_jumps": at the
 /// moment when a draught is said to begin. Note "at_its_limit:ID": that effect is at the limit of what it can be. Note
 /// "sensor_alone:CHANNEL": nothing is missing without that sensor. Note "inputs_late" or "inputs_early": what drives
-/// the machine is recorded a row or more after or before it acts. Note "sign_turned:CHANNEL": the displacement follows
-/// the description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something
-/// moves the nose that the description has not. Note "shows_too_little": nothing is found missing, but most effects of
-/// usual size would not have shown. Note "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the
-/// sensors are not where the description has them (misplaced.h); "misplaced_or_faulty:ID": or that sensor is at fault. "overlong:COMPONENT", "other_end:COMPONENT",
-/// "datum:COMPONENT" or "diameter:COMPONENT": nor is that part of the shape described (wrong_geometry.h). Note
-/// "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much (clock_jumps.h). Note
-/// "input_gaps:RECORDING:COLUMN": that input was not logged all the time. Note "load_in_other_unit:RECORDING:UNIT": its
-/// load would be one in kW or %, and is next to nothing in W. Note "warm_start:COMPONENT": it was not at rest when the
-/// recording began. Note "held_out_differs:RECORDING:CHANNEL": that recording does not fit this machine. Note
-/// "room_not_logged": the recording lacks the room's channel. Note "inputs_not_logged:COLUMN, COLUMN": unexplained or a
-/// draught, and it lacks these. Note "not_recorded:COLUMN,COLUMN": sensors and displacements that it lacks. Note
-/// "settles_by_itself:CHANNEL": a displacement moves by itself and slows down, and nothing shows that it follows the
-/// room. Note "no_excitation": nothing moves, or nothing drives the machine. Note "never_driven:ID,ID": what drives
-/// them never acted. Note "coarse_rows": switching times are hardly known. Note "never_changes:RECORDING:CHANNEL": a
-/// displacement that repeats one value while the machine moves; it is not used. Note "few_sensors:COMPONENT:COUNT": so
-/// few see where along it something happens. Note "tolerances_raised:KEY,KEY": the description has them smaller than
-/// such numbers can be known. Note "counts_from_each_start": oil and preload, and the refined description states no
-/// reference temperature.
+/// the machine is recorded a row or more after or before it acts; "clock_late:S" or "clock_early:S": it was, by S s,
+/// and was moved to when it acted (another_clock.h). Note "sign_turned:CHANNEL": the displacement follows the
+/// description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something moves
+/// the nose that the description has not. Note "shows_too_little": nothing is found missing, but most effects of usual
+/// size would not have shown. Note "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the sensors
+/// are not where the description has them (misplaced.h); "misplaced_or_faulty:ID": or that sensor is at fault.
+/// "overlong:COMPONENT", "other_end:COMPONENT", "datum:COMPONENT" or "diameter:COMPONENT": nor is that part of the
+/// shape described (wrong_geometry.h). Note "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much
+/// (clock_jumps.h). Note "input_gaps:RECORDING:COLUMN": that input was not logged all the time. Note
+/// "load_in_other_unit:RECORDING:UNIT": its load would be one in kW or %, and is next to nothing in W. Note
+/// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that
+/// recording does not fit this machine. Note "room_not_logged": the recording lacks the room's channel. Note
+/// "inputs_not_logged:COLUMN, COLUMN": unexplained or a draught, and it lacks these. Note "not_recorded:COLUMN,COLUMN":
+/// sensors and displacements that it lacks. Note "settles_by_itself:CHANNEL": a displacement moves by itself and slows
+/// down, and nothing shows that it follows the room. Note "no_excitation": nothing moves, or nothing drives the
+/// machine. Note "never_driven:ID,ID": what drives them never acted. Note "coarse_rows": switching times are hardly
+/// known. Note "never_changes:RECORDING:CHANNEL": a displacement that repeats one value while the machine moves; it is
+/// not used. Note "few_sensors:COMPONENT:COUNT": so few see where along it something happens. Note
+/// "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be known. Note
+/// "counts_from_each_start": oil and preload, and the refined description states no reference temperature.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                            const DiagnoseOptions& options = {}, const TaskContext& context = {});
 

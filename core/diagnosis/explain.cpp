@@ -47,6 +47,7 @@ constexpr std::array shown_parameters{Shown{"h_W_m2K", "h", "W/m²K"},
                                       Shown{"gain_error", "gain", "%", 100.0},
                                       Shown{"share", "η", "%", 100.0},
                                       Shown{"excess_share", "excess", "%", 100.0},
+                                      Shown{"ln_decay_s", "τ", "min", 1.0 / 60.0},
                                       Shown{"step_um", "step", "µm"},
                                       Shown{"time_s", "t", "min", 1.0 / 60.0},
                                       Shown{"from_s", "from", "min", 1.0 / 60.0},
@@ -160,6 +161,10 @@ std::map<std::string, double> speeds_of_figures(const std::map<std::string, doub
 }
 
 std::string parameter_in_words(const std::string& key, double value, double sigma, double at_rpm) {
+  if (key.starts_with("ln_")) {  // the width of a logarithm is relative
+    value = std::exp(value);
+    sigma *= value;
+  }
   for (const Shown& shown : shown_parameters) {
     if (shown.key != key) continue;
     const double width = sigma * shown.factor;
@@ -222,6 +227,8 @@ Sentence about_effect(const FoundEffect& effect, double end_s, const std::string
              {"regime", regime_of_effect(effect, end_s)}};
   const auto bearing = effect.words.find("bearing");
   put_place(s, effect.channel, effect.position_mm, bearing == effect.words.end() ? effect.component : bearing->second);
+  if (effect.position_mm && effect.position_sigma_mm > 0.0)
+    s.facts["position"] = with_sigma(*effect.position_mm, effect.position_sigma_mm);
   put_heat(s, effect);
   const auto from = effect.parameters.find("from_mm");
   const auto to = effect.parameters.find("to_mm");

@@ -56,6 +56,12 @@ constexpr std::array catalogue{
         "room_jumps",
         "The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or "
         "touched?"},
+    Entry{"clock_late",
+          "What drives the machine was recorded about {seconds} s after it acted, and was taken as that much earlier: "
+          "give all columns one clock."},
+    Entry{"clock_early",
+          "What drives the machine was recorded about {seconds} s before it acted, and was taken as that much later: "
+          "give all columns one clock."},
     Entry{"inputs_late",
           "What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one "
           "clock?"},

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/diagnosis/bodies.h"
+#include "core/physics/builder.h"
 #include "core/physics/initial_state.h"
 
 namespace zerodrift::diagnosis {

@@ -3650,6 +3650,14 @@
         <translation>记录中没有列 {columns}：只在该列中显现的效应无法查明。</translation>
     </message>
     <message>
+        <source>What drives the machine was recorded about {seconds} s after it acted, and was taken as that much earlier: give all columns one clock.</source>
+        <translation>驱动机床各量的记录比其实际作用晚约 {seconds} s，已据此提前处理：请让各列使用同一时钟。</translation>
+    </message>
+    <message>
+        <source>What drives the machine was recorded about {seconds} s before it acted, and was taken as that much later: give all columns one clock.</source>
+        <translation>驱动机床各量的记录比其实际作用早约 {seconds} s，已据此推后处理：请让各列使用同一时钟。</translation>
+    </message>
+    <message>
         <source>What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one clock?</source>
         <translation>驱动机床各量的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？</translation>
     </message>
