@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 157> diagnosis = {{
+constexpr std::array<const char*, 158> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -191,6 +191,9 @@ constexpr std::array<const char*, 157> diagnosis = {{
         "core",
         "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
         "check its place, and that it is in millimetres."),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again."),
     QT_TRANSLATE_NOOP("core",
                       "The same readings may come from {@name} at its described place: check it before you change the "
                       "description."),

@@ -1,9 +1,14 @@
 // What one gauge has to itself: a displacement that moves by itself, a sensor without which nothing is missing.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "core/diagnosis/diagnoser.h"
 #include "core/diagnosis/parallel.h"
+#include "core/diagnosis/places_tried.h"
 
 namespace zerodrift::diagnosis {
 
@@ -35,22 +40,37 @@ void Diagnoser::sensor_alone() {
   }
   constexpr std::size_t fewest = 4;  // without one the others still show how heat spreads
   if (tried.size() < fewest) return;
-  in_parallel(tried.size(), [&](std::size_t i) {
-    auto data = std::make_shared<Dataset>(*m_default_data);
-    MeasuredChannel& channel = data->channels[tried[i].channel];
-    std::fill(channel.present.begin(), channel.present.end(), false);
-    channel.samples = 0;
-    data->prepare();
-    Model others(m_selection.base->machine(), data);
-    others.fit({});
-    tried[i].left = excess_of(others).largest;
-  });
-  const auto best =
-      std::min_element(tried.begin(), tried.end(), [](const Without& a, const Without& b) { return a.left < b.left; });
-  if (best->left > least_evident) return;
-  const std::string& name = m_default_data->channels[best->channel].name;
+  const auto least_left = [&](const physics::Machine& machine) {
+    in_parallel(tried.size(), [&](std::size_t i) {
+      auto data = std::make_shared<Dataset>(*m_default_data);
+      MeasuredChannel& channel = data->channels[tried[i].channel];
+      std::fill(channel.present.begin(), channel.present.end(), false);
+      channel.samples = 0;
+      data->prepare();
+      Model others(machine, data);
+      others.fit({});
+      tried[i].left = excess_of(others).largest;
+    });
+    return *std::min_element(tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.left < b.left; });
+  };
+  Without best = least_left(m_selection.base->machine());
+  std::string beside;  // what explains the others
+  if (best.left > least_evident) {
+    const physics::Machine sound = without_sensor_faults(m_selection.best->machine());
+    std::set<std::string> ids;
+    for (const physics::EffectSpec& spec : sound.effects) {
+      if (spec.candidate) ids.insert(spec.id);
+    }
+    beside = fmt::format("{}", fmt::join(ids, ","));
+    if (beside.empty()) return;
+    best = least_left(sound);
+  }
+  if (best.left > least_evident) return;
+  const std::string& name = m_default_data->channels[best.channel].name;
   m_out.notes.push_back("sensor_alone:" + name);
-  m_out.sentences.push_back(explain_note("sensor_alone", {{"channel", name}}));
+  m_out.sentences.push_back(beside.empty()
+                                ? explain_note("sensor_alone", {{"channel", name}})
+                                : explain_note("sensor_alone_beside", {{"channel", name}, {"effects", beside}}));
 }
 
 }  // namespace zerodrift::diagnosis

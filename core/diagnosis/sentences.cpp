@@ -145,6 +145,9 @@ constexpr std::array catalogue{
         "sensor_alone",
         "Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how "
         "it is mounted before what is beside it."},
+    Entry{
+        "sensor_alone_beside",
+        "All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again."},
     Entry{"moves_by_itself",
           "Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
           "drifts. Check how it is mounted."},

@@ -29,9 +29,10 @@ double noise_width(const std::vector<double>& values, double floor) {
     for (std::size_t i = 0; i < kept; ++i) sum += second[i] * second[i];
     // 1.267 restores what the trimming of a tenth of a normal sample takes away.
     const double trimmed = 1.267 * std::sqrt(sum / static_cast<double>(kept) / 6.0);
-    // Where spikes are in more than a tenth only the median is free of them.
-    constexpr double spikes_alone = 8.0;
-    if (trimmed < spikes_alone * std::max({sigma, resolution, floor})) sigma = trimmed;
+    // Where spikes are in more than a tenth only the median is free of them, which steps of a coarse gauge leave blind.
+    const double coarsest = std::max(resolution, floor);
+    const double spikes_alone = sigma > 1.5 * coarsest ? 3.0 : 8.0;
+    if (trimmed < spikes_alone * std::max(sigma, coarsest)) sigma = trimmed;
   }
   return std::max({sigma, resolution, floor});
 }

@@ -3622,6 +3622,10 @@
         <translation>{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm 处的：请检查其位置以及单位是否为毫米。</translation>
     </message>
     <message>
+        <source>All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again.</source>
+        <translation>除 {channel} 外，其余均可由{+effects}解释：请检查该传感器及其安装方式，然后重新诊断。</translation>
+    </message>
+    <message>
         <source>The same readings may come from {@name} at its described place: check it before you change the description.</source>
         <translation>同样的读数也可能来自位置与描述一致的{@name}：更改描述之前请先检查该传感器。</translation>
     </message>

@@ -172,6 +172,23 @@ TEST(WrongColumns, ASensorThatDriftsAloneIsNamedAndAHeatThatWandersIsNoSensor) {
   ASSERT_TRUE(wanders.has_value()) << describe(wanders.error());
   EXPECT_EQ(wanders->verdict, Verdict::unexplained);
   EXPECT_FALSE(says(*wanders, "sensor_alone"));
+  EXPECT_FALSE(says(*wanders, "sensor_alone_beside"));
+}
+
+TEST(WrongColumns, ASensorThatStepsBesideAHiddenEffectIsNamedWithIt) {
+  for (const auto& [seed, hidden] : {std::pair{305U, "draught"}, std::pair{307U, "coolant"}}) {
+    proof::Case one = proof::make_case(seed, hidden);
+    std::vector<double>& values = one.recordings[0].find("T3_C")->values;
+    for (std::size_t k = values.size() / 2; k < values.size(); ++k) values[k] += 3.0;
+    const auto steps = answer_with_details(one);
+    ASSERT_TRUE(steps.has_value()) << describe(steps.error());
+    EXPECT_EQ(steps->verdict, Verdict::unexplained) << seed;
+    EXPECT_TRUE(notes(*steps, "sensor_alone:T3_C")) << seed;
+    const auto told = std::find_if(steps->sentences.begin(), steps->sentences.end(),
+                                   [](const auto& sentence) { return sentence.id == "sensor_alone_beside"; });
+    ASSERT_NE(told, steps->sentences.end()) << seed;
+    EXPECT_EQ(told->facts.at("effects"), hidden);
+  }
 }
 
 TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {

@@ -36,6 +36,18 @@ TEST(Inputs, SpikesInEveryTwelfthSampleDoNotPassForNoise) {
   EXPECT_EQ(marked(values), spiked);
 }
 
+TEST(Inputs, SmallSpikesInEveryEighteenthSampleDoNotPassForNoise) {
+  std::vector<double> values = ramp_C();
+  const double without = noise_width(values, 0.01);
+  std::vector<std::size_t> spiked;
+  for (std::size_t k = 7; k < values.size(); k += 18) {
+    values[k] += spiked.size() % 2 == 0 ? 2.0 : -3.0;
+    spiked.push_back(k);
+  }
+  EXPECT_LT(noise_width(values, 0.01), 1.5 * without);
+  EXPECT_EQ(marked(values), spiked);
+}
+
 TEST(Inputs, SpikesAreMarkedAloneAndTwoInARow) {
   std::vector<double> values = ramp_C();
   EXPECT_TRUE(marked(values).empty());

@@ -121,6 +121,8 @@ std::vector<TextEntry> texts_of_physics() {
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "
        "处的：请检查其位置以及单位是否为毫米。"},
+      {"All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again.",
+       "除 {channel} 外，其余均可由{+effects}解释：请检查该传感器及其安装方式，然后重新诊断。"},
       {"The same readings may come from {@name} at its described place: check it before you change the description.",
        "同样的读数也可能来自位置与描述一致的{@name}：更改描述之前请先检查该传感器。"},
       {"In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
