@@ -144,7 +144,9 @@ Result<Diagnosis> Diagnoser::run(Of use) {
   m_out.sentences.insert(m_out.sentences.end(), far.begin(), far.end());
   if (m_out.verdict != Verdict::unexplained && !blind) cannot_show(asleep);
   notes();
-  if (of_use() && (m_out.verdict == Verdict::unexplained || clocks_apart() != 0.0)) m_out.clock = clock_offset();
+  if (m_use == Of::any && (m_out.verdict == Verdict::unexplained || clocks_apart() != 0.0)) {
+    m_out.clock = clock_offset();
+  }
   m_out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   m_context.progress(1.0, "done");
   return std::move(m_out);

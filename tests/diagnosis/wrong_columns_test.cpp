@@ -136,6 +136,30 @@ TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
   }
 }
 
+/// By as many rows in both recordings, which have rows of their own: no one time suits both.
+TEST(WrongColumns, InputsOfAnotherClockAreToldAndWhatTheyLookLikeIsInDoubt) {
+  for (const auto& [rows, note] : {std::pair{0, ""}, std::pair{3, "late"}, std::pair{-5, "early"}}) {
+    proof::Case one = proof::make_case(332, "none");
+    for (auto& run : one.recordings) {
+      for (const char* name : {"spindle_rpm", "coolant_on", "load_percent"}) {
+        recording::Channel* column = run.find(name);
+        if (column == nullptr) continue;
+        const std::vector<double> then = column->values;
+        const auto last = static_cast<int>(then.size()) - 1;
+        for (int k = 0; k <= last; ++k) {
+          column->values[static_cast<std::size_t>(k)] = then[static_cast<std::size_t>(std::clamp(k - rows, 0, last))];
+        }
+      }
+    }
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    for (const std::string told : {"late", "early"}) {  // moved, or in doubt
+      EXPECT_EQ(says(*answer, "clock_" + told) || says(*answer, "inputs_" + told), told == note) << "by " << rows;
+    }
+    for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << found.id;
+  }
+}
+
 TEST(WrongColumns, InputsOfAnotherClockAreMovedToWhenTheyActed) {
   for (const auto& [seed, hidden] : {std::pair{332U, "none"}, std::pair{303U, "coolant"}, std::pair{334U, "none"}}) {
     for (const double late_s : {0.0, 120.0, -120.0, 300.0}) {
