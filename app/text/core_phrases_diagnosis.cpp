@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 158> diagnosis = {{
+constexpr std::array<const char*, 159> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -308,6 +308,9 @@ constexpr std::array<const char*, 158> diagnosis = {{
         "core",
         "The description states a smaller tolerance for {+quantities} than anybody can know such a number to: {values} "
         "was taken instead."),
+    QT_TRANSLATE_NOOP("core",
+                      "To fit, the joint {part} had to conduct {factor} times what is described, {widths} times its "
+                      "tolerance: look at its seat, its bolts and what fills its gap, and then at its figure."),
     QT_TRANSLATE_NOOP("core", "the conductance of joints"),
     QT_TRANSLATE_NOOP(
         "core",

@@ -84,12 +84,18 @@ bool stands_still(const Model& model, std::size_t effect) {
 
 bool within_tolerance(const Model& model) {
   constexpr double sound_gain = 0.01;
+  constexpr double widths = 2.0;
   const int last = static_cast<int>(model.machine().effects.size()) - 1;
-  if (last >= 0 && stands_still(model, static_cast<std::size_t>(last))) return true;
-  if (last < 0 || model.machine().effects.back().id != "sensor_gain") return false;
+  if (last < 0) return false;
+  if (stands_still(model, static_cast<std::size_t>(last))) return true;
+  const std::string& id = model.machine().effects.back().id;
   for (std::size_t i = 0; i < model.unknowns(); ++i) {
     const physics::Parameter& unknown = model.unknown(i);
-    if (unknown.effect == last && unknown.amplitude) return std::abs(model.value(i)) < sound_gain;
+    if (unknown.effect != last || !unknown.amplitude) continue;
+    if (id == "sensor_gain") return std::abs(model.value(i)) < sound_gain;
+    if (id == "bearing_preload" && unknown.key != "growth_1_K") {
+      return std::abs(model.value(i)) < widths * model.machine().tolerances.heat_source_power;
+    }
   }
   return false;
 }

@@ -17,7 +17,9 @@ bool worth_naming(const Model& model);
 /// Whether an effect is a chiller that does not come and go: a heat, whatever else.
 bool stands_still(const Model& model, std::size_t effect);
 /// Whether the last effect is no more than a sound part may have: the gain of a sensor within 1 %, the proportional
-/// part of IEC 60751's class C, its widest; or is a chiller that stands still.
+/// part of IEC 60751's class C, its widest; a bearing's load within two widths of what its heat is known to - load, f0
+/// and f1 are catalogue figures, and the two terms of the friction moment are not known better against each other than
+/// their sum; or is a chiller that stands still.
 bool within_tolerance(const Model& model);
 
 /// Sets for each model the log evidence that the other recordings, in turn, have beside `without`: of each recording

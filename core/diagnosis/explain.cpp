@@ -277,7 +277,7 @@ Sentence explain_bent(const FoundEffect& effect, double end_s, const std::string
 }
 
 Sentence explain_far(const FarParameter& far) {
-  Sentence s{"far_from_description", {}, ""};
+  Sentence s{far.quantity == "quantity_conductance" ? "far_joint" : "far_from_description", {}, ""};
   put_far(s, far);
   return finished(std::move(s));
 }

@@ -18,6 +18,7 @@ struct FitOptions {
   int iterations = 12;
   double tolerance = 0.05;  // of the cost, when all columns are fresh
   bool final_refresh = true;
+  bool to_the_bottom = false;  // until a whole step promises less than the tolerance, however little one has gained
 };
 
 /// Another recording's sensors: those of the first with the offsets they had there, or mounted anew.
@@ -82,6 +83,8 @@ class Model {
   /// Takes the derivatives of a prediction at m_z over into the Jacobian.
   void take_columns(const physics::Prediction& prediction, const std::vector<int>& unknowns);
   void refresh(const std::vector<int>& unknowns);
+  /// By how much a whole step would lower the cost were the model linear.
+  double promised_by_a_whole_step() const;
   void keep(const physics::Prediction& prediction, const std::vector<int>& unknowns);
   double prior_cost(const Eigen::VectorXd& z) const;
   Eigen::VectorXd prior_slope() const;

@@ -249,7 +249,7 @@ ModelPtr with_places_tried(const ModelPtr& model) {
       tries.push_back(std::move(moved));
     }
   }
-  in_parallel(tries.size(), [&](std::size_t t) { tries[t]->fit({15, 0.05, true}); });
+  in_parallel(tries.size(), [&](std::size_t t) { tries[t]->fit({15, 0.05, true, true}); });
   ModelPtr best = model;
   for (const auto& one : tries) {
     if (by_evidence(one, best)) best = one;

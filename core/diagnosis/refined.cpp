@@ -69,7 +69,8 @@ void take_value(Machine& machine, const physics::Parameter& p, double value) {
     if (component.id != p.component) continue;
     if (p.key == "conductivity_W_mK") component.material.conductivity_W_mK = value;
     if (p.key == "heat_capacity_J_kgK") component.material.heat_capacity_J_kgK = value;
-    if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value;
+    if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value, component.capacity_is_guessed = false;
+    if (p.key == "area_mm2") component.area_mm2 = value, component.area_is_guessed = false;
     if (p.key == "expansion_1_K") component.material.expansion_1_K = value;
     if (component.inner) take_inside(*component.inner, p, value);
     for (auto& source : component.sources) {

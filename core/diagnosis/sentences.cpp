@@ -177,6 +177,10 @@ constexpr std::array catalogue{
     Entry{"far_from_description",
           "To fit, {@quantity} of {part} had to become {factor} times what is described, {widths} times its tolerance: "
           "check units, sizes and powers."},
+    Entry{
+        "far_joint",
+        "To fit, the joint {part} had to conduct {factor} times what is described, {widths} times its tolerance: look "
+        "at its seat, its bolts and what fills its gap, and then at its figure."},
     Entry{"quantity_heat", "the heat"},
     Entry{"quantity_conductivity", "the conductivity"},
     Entry{"quantity_capacity", "the heat capacity"},

@@ -16,7 +16,7 @@ inline constexpr double m_per_mm = 1e-3;
 inline constexpr double stand_in_capacity_J_K = 1000.0;
 
 struct BuildOptions {
-  int cells = 40;  // of a rod
+  int cells = 0;  // of a rod; 0: 40, or more where a described source is narrow
 };
 
 /// What an effect does to the friction of one bearing.

@@ -7,8 +7,24 @@
 
 #include "core/physics/effects/laws.h"
 #include "core/physics/initial_state.h"
+#include "core/physics/unknown_sizes.h"
 
 namespace zerodrift::physics {
+
+/// Two at least within each described source: heat that is spread over more than it reaches is simulated too cold
+/// there.
+static int cells_of(const Component& rod) {
+  constexpr double fewest = 40.0;
+  constexpr double most = 200.0;
+  constexpr double in_a_source = 2.0;
+  constexpr double rounding = 1e-6;
+  double cells = fewest;
+  for (const auto& source : rod.sources) {
+    const double width_mm = source.to_mm - source.from_mm;
+    if (width_mm > 0.0) cells = std::max(cells, std::ceil(in_a_source * rod.length_mm / width_mm - rounding));
+  }
+  return static_cast<int>(std::min(cells, most));
+}
 
 /// A row of cells of this section with conduction along it; the component's conductivity and capacity are there.
 void NetworkBuilder::add_cells(const Component& component, int first, int count, double section_m2, const char* label) {
@@ -31,7 +47,7 @@ void NetworkBuilder::add_rod(const Component& component) {
   Network::Place at;
   at.component = component.id;
   at.first = static_cast<int>(m_network.nodes());
-  at.count = m_options.cells;
+  at.count = m_options.cells > 0 ? m_options.cells : cells_of(component);
   at.cell_m = component.length_mm * m_per_mm / at.count;
   if (component.inner) at.inner_share = component.inner->section_share;
   const Material& m = component.material;
@@ -64,7 +80,7 @@ void NetworkBuilder::add_lump(const Component& component) {
     c.key = "heat_capacity_J_K";
     c.component = component.id;
     c.mean = c.start = *component.heat_capacity_J_K;
-    c.sigma = m_machine.tolerances.heat_capacity;
+    c.sigma = component.capacity_is_guessed ? guess_width : m_machine.tolerances.heat_capacity;
     c.logarithmic = true;
     m_capacity[component.id] = add_parameter(c);
     add_node(1.0, m_capacity[component.id], reference_C(component.id));
@@ -242,9 +258,9 @@ void NetworkBuilder::add_displacements() {
     seen.temperature = false;
     seen.accuracy = displacement.accuracy_um;
     const Component* component = displacement.component.empty() ? nullptr : m_machine.find(displacement.component);
-    const bool across = displacement.direction == "X" || displacement.direction == "Y";
     const bool grows = component != nullptr && !component->prescribed && component->length_mm > 0.0 &&
-                       component->material.expansion_1_K != 0.0 && (component->lump || !across);
+                       component->material.expansion_1_K != 0.0 &&
+                       (component->lump || !is_across(m_machine, displacement));
     if (grows) {
       Parameter alpha;
       alpha.key = "expansion_1_K";

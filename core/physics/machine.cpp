@@ -52,6 +52,13 @@ std::string coupling_name(const std::vector<Coupling>& couplings, std::size_t in
   return before == 0 ? between(index) : between(index) + ":" + std::to_string(before + 1);
 }
 
+bool is_across(const Machine& machine, const Displacement& displacement) {
+  if (displacement.direction != "X") return displacement.direction == "Y";
+  return std::any_of(machine.displacements.begin(), machine.displacements.end(), [&](const Displacement& other) {
+    return other.component == displacement.component && (other.direction == "Z" || other.direction == "Y");
+  });
+}
+
 const Sensor* Machine::sensor(const std::string& channel) const {
   for (const auto& one : sensors) {
     if (one.channel == channel) return &one;

@@ -89,6 +89,8 @@ struct Component {
   Material material;
   std::optional<double> heat_capacity_J_K;  // lumps
   std::optional<double> area_mm2;           // lumps: surface towards the room
+  bool capacity_is_guessed = false;         // not described: identified (unknown_sizes.h)
+  bool area_is_guessed = false;
   std::vector<HeatSource> sources;
   std::optional<InnerBody> inner;  // rods
   double section_m2() const;
@@ -187,6 +189,10 @@ struct Machine {
   /// The speed that stands for "full": the largest rated speed, 0 if none is named.
   double rated_speed_rpm() const;
 };
+
+/// Across its component, where a rod does not grow: Y, and X beside a displacement of the same component along Z or Y.
+/// A component that is seen along X alone - the screw of a cross axis - grows there.
+bool is_across(const Machine& machine, const Displacement& displacement);
 
 /// Channels of measured temperatures that drive the simulation: the room, fluids, prescribed parts.
 std::set<std::string> measured_boundaries(const Machine& machine);

@@ -7,6 +7,7 @@
 #include "core/physics/effects/effect.h"
 #include "core/physics/effects/physical_range.h"
 #include "core/physics/machine.h"
+#include "core/physics/unknown_sizes.h"
 
 // Ranges are wide enough for anything that stands in a workshop and narrow enough that a unit off by 1000
 // (metres for millimetres, kW for W, kJ for J, kelvin for Celsius, um/m for 1/K) falls outside.
@@ -366,6 +367,7 @@ Result<Machine> machine_from_json(const json& document, const std::string& file,
   ZD_TRY(Machine machine, from_json<Machine>(document, file, warnings, read_root));
   machine.file = file;
   machine.document = json_text(document);
+  guess_unknown_sizes(machine);
   return machine;
 }
 

@@ -28,8 +28,9 @@ void write_source(json& out, const HeatSource& source) {
 void write_component(json& out, const Component& component) {
   if (component.lump) {
     out["kind"] = "lump";
-    if (component.heat_capacity_J_K) out["heat_capacity_J_K"] = *component.heat_capacity_J_K;
-    if (component.area_mm2) out["area_mm2"] = *component.area_mm2;
+    if (component.heat_capacity_J_K && !component.capacity_is_guessed)
+      out["heat_capacity_J_K"] = *component.heat_capacity_J_K;
+    if (component.area_mm2 && !component.area_is_guessed) out["area_mm2"] = *component.area_mm2;
   } else {
     json& material = out["material"];
     material["conductivity_W_mK"] = component.material.conductivity_W_mK;

@@ -3794,6 +3794,10 @@
         <translation>描述中{+quantities}的容差小于任何人所能确知的程度：已改用 {values}。</translation>
     </message>
     <message>
+        <source>To fit, the joint {part} had to conduct {factor} times what is described, {widths} times its tolerance: look at its seat, its bolts and what fills its gap, and then at its figure.</source>
+        <translation>为了吻合，接合处 {part} 的热导必须变为所述值的 {factor} 倍，是其容差的 {widths} 倍：请先检查其配合面、螺栓和间隙中的填充物，再检查其数值。</translation>
+    </message>
+    <message>
         <source>the conductance of joints</source>
         <translation>接合处的热导</translation>
     </message>

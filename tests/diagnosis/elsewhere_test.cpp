@@ -36,6 +36,29 @@ double evidence_of_both(const physics::Machine& machine, const std::shared_ptr<c
 
 }  // namespace
 
+/// Load, f0 and f1 are catalogue figures, and oil and load are not known better against each other than in their sum.
+TEST(Elsewhere, ABearingsLoadWithinItsTolerancesIsNoEffect) {
+  const proof::Case one = proof::make_case(42, "none");
+  physics::Machine machine = *physics::machine_from_json(one.machine, one.name);
+  machine.tolerances.heat_source_power = 0.1;
+  const auto data = dataset_of(machine, one.recordings[0]);
+  const auto within = [&](const char* key, double value) {
+    physics::Machine with = machine;
+    with.effects.push_back({"bearing_preload", true, {{key, 0.0}}, {}});
+    Model model(with, data);
+    for (std::size_t i = 0; i < model.unknowns(); ++i) {
+      if (model.unknown(i).key == key) model.set_z(i, model.unknown(i).z_of(value));
+    }
+    return within_tolerance(model);
+  };
+  EXPECT_TRUE(within("constant_share", 0.09));
+  EXPECT_TRUE(within("constant_share", -0.09));
+  EXPECT_TRUE(within("speed_share", 0.06));
+  EXPECT_FALSE(within("constant_share", 0.4));
+  EXPECT_FALSE(within("constant_share", -0.3));
+  EXPECT_FALSE(within("growth_1_K", 0.02));
+}
+
 /// p(a) p(b | a) = p(b) p(a | b).
 TEST(Elsewhere, TheEvidenceOfTwoRecordingsDoesNotDependOnTheirOrder) {
   const proof::Case one = proof::make_case(42, "none");

@@ -48,6 +48,21 @@ TEST(Place, TwoPeaksAreOneStretch) {
   EXPECT_GT(place.to_mm, 98.0);
 }
 
+/// The first recording runs at one speed all the time, and its fit had stopped on the way along a bent valley.
+TEST(Place, IsTheSameWhicheverRecordingComesFirst) {
+  proof::Case one = proof::make_case(372290522, "", proof::StrengthRule::shown);
+  ASSERT_EQ(one.hidden.front().id, "extra_heat_source");
+  for (int order = 0; order < 2; ++order) {
+    const Diagnosis d = answer_of(one);
+    ASSERT_EQ(d.effects.size(), 1u);
+    const FoundEffect& found = d.effects.front();
+    EXPECT_EQ(found.id, "extra_heat_source");
+    EXPECT_NEAR(*found.position_mm, one.hidden.front().position_mm, 1.5 * found.position_sigma_mm);
+    EXPECT_LT(found.position_sigma_mm, 8.0);
+    std::swap(one.recordings[0], one.recordings[1]);
+  }
+}
+
 /// 0.7 W at the rear: from there to 75 mm every place explains the recordings within a log evidence of 2.
 TEST(Place, AWeakHeatWhosePlaceHardlyMattersIsToldAsAStretch) {
   const proof::Case one = proof::make_case(909436864);

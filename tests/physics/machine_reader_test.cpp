@@ -138,6 +138,25 @@ TEST(MachineReader, WritesWhatItReads) {
   EXPECT_DOUBLE_EQ(again->effect("convection")->number_or("h_W_m2K", 0), 15.25);
 }
 
+/// A rod grows along Z, or along X where that is all that is seen of it.
+TEST(MachineReader, KnowsWhichWayAComponentGrows) {
+  const auto across = [](const std::vector<std::string>& directions) {
+    nlohmann::json document = test::spindle_json();
+    document["displacements"] = nlohmann::json::array();
+    for (const auto& direction : directions)
+      document["displacements"].push_back(
+          {{"channel", "d" + direction + "_um"}, {"direction", direction}, {"component", "spindle"}});
+    const Machine machine = *machine_from_json(document, "machine.json");
+    std::vector<bool> list;
+    for (const auto& one : machine.displacements) list.push_back(is_across(machine, one));
+    return list;
+  };
+  EXPECT_EQ(across({"X", "Y", "Z"}), (std::vector<bool>{true, true, false}));
+  EXPECT_EQ(across({"X", "Y"}), (std::vector<bool>{true, true}));
+  EXPECT_EQ(across({"X"}), (std::vector<bool>{false}));
+  EXPECT_EQ(across({"Y"}), (std::vector<bool>{true}));
+}
+
 TEST(MachineReader, SensorsAloneMakeLumps) {
   const auto machine = machine_from_json(
       json::parse(R"({"format": "zerodrift-machine/1", "sensors": [{"channel": "a_C"}, {"channel": "b_C"}]})"),

@@ -188,6 +188,30 @@ TEST(Simulator, TheInsideOfARodIsKeptInTheDescription) {
   EXPECT_EQ(machine.components[0].inner->contact_W_K.at("front_bearing"), 30.0);
 }
 
+/// A bearing of 40 mm on a screw of 1500 mm: in forty cells its heat is spread over twice its width.
+TEST(Simulator, ASourceHasTwoCellsAtLeast) {
+  nlohmann::json document = test::spindle_json();
+  nlohmann::json& screw = document["components"][0];
+  screw["length_mm"] = 1500;
+  document["sensors"][0]["position_mm"] = 40;
+  screw["heat_sources"] = {{{"id", "fixed_bearing"},
+                            {"kind", "input"},
+                            {"channel", "spindle_load_W"},
+                            {"watts_per_unit", 0.02},
+                            {"from_mm", 20},
+                            {"to_mm", 60}}};
+  const Machine machine = *machine_from_json(document, "screw.json");
+  const recording::Recording run = test::stepped_run();
+  const auto rise_K = [&](int cells) {
+    const Network network = build_network(machine, run, {cells});
+    const Prediction seen = predict(network, make_inputs(network, run), network.start_values());
+    return *std::max_element(seen.channels[0].values.begin(), seen.channels[0].values.end()) - 20.0;
+  };
+  const double fine_K = rise_K(600);
+  EXPECT_GT(std::abs(rise_K(40) / fine_K - 1.0), 0.03);
+  EXPECT_LT(std::abs(rise_K(0) / fine_K - 1.0), 0.015);
+}
+
 TEST(Simulate, PredictsTheChannelsOfTheRecordingAndNamesTheRest) {
   const Machine machine = test::spindle();
   recording::Recording run = test::stepped_run(1.0);

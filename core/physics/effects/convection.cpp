@@ -6,6 +6,7 @@
 
 #include "core/physics/effects/laws.h"
 #include "core/physics/initial_state.h"
+#include "core/physics/unknown_sizes.h"
 
 namespace zerodrift::physics {
 namespace convection {
@@ -65,6 +66,14 @@ void add_end_loss(NetworkBuilder& builder, const Component& component, const Eff
   add_end(builder, component, true, std::move(nose));
 }
 
+Strength product_law(const LawPoint& at) {
+  Strength s;
+  s.value = at.values[0] * at.values[1];
+  s.by_parameter[0] = at.values[1];
+  s.by_parameter[1] = at.values[0];
+  return s;
+}
+
 /// h (1 + t (x / L - 1/2)): one end sits in its seat, the other in moving air. How much, the data say.
 void add_tilt(NetworkBuilder& builder, const Component& component, const EffectSpec& spec, int index, int strength) {
   Parameter tilt;
@@ -83,14 +92,21 @@ void add_tilt(NetworkBuilder& builder, const Component& component, const EffectS
   term.law_kind = LawKind::constant;
   term.environment = builder.room();
   term.parameters = {strength, builder.add_parameter(tilt)};
-  term.law = [](const LawPoint& at) {
-    Strength s;
-    s.value = at.values[0] * at.values[1];
-    s.by_parameter[0] = at.values[1];
-    s.by_parameter[1] = at.values[0];
-    return s;
-  };
+  term.law = product_law;
   builder.add(std::move(term));
+}
+
+/// The surface that the film acts on is identified with it: h A (T - T_room).
+void film_of_unknown_area(NetworkBuilder& builder, const Component& component, Term& film) {
+  Parameter area;
+  area.key = "area_mm2";
+  area.component = component.id;
+  area.mean = area.start = *component.area_mm2;
+  area.logarithmic = true;
+  area.sigma = guess_width;
+  for (double& weight : film.weights) weight /= *component.area_mm2;
+  film.parameters.push_back(builder.add_parameter(area));
+  film.law = product_law;
 }
 
 /// What stands between a part and the room - a cover, the machine around it - and is too large to be moved by the part.
@@ -150,6 +166,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
     film.environment = builder.room();
     film.parameters = {strength};
     film.law = proportional_law;
+    if (!by_conductance && component.area_is_guessed) film_of_unknown_area(builder, component, film);
     builder.add(std::move(film));
     if (!component.lump) add_end_loss(builder, component, spec, index);
     if (component.inner) add_tilt(builder, component, spec, index, strength);

@@ -32,10 +32,6 @@ inline int room_rise_signal(NetworkBuilder& builder, std::optional<double> from_
                          }});
 }
 
-inline bool is_across(const Displacement& displacement) {
-  return displacement.direction == "X" || displacement.direction == "Y";
-}
-
 /// The structure need not have been in balance with the room when the recording began.
 inline int unknown_start(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   Parameter start;

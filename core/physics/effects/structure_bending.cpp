@@ -103,7 +103,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
   const double watts = std::max(10.0, facts.typical_heat_W);
   for (const auto& displacement : machine.displacements) {
     const Component* component = machine.find(displacement.component);
-    if (!is_across(displacement) || component == nullptr || component->lump) continue;
+    if (!is_across(machine, displacement) || component == nullptr || component->lump) continue;
     for (const char* driver :
          {"bearing_heat", "motor_heat", "front", "rear", "mean", "difference", "difference_of_ends"}) {
       const bool heat = by_heat(driver);

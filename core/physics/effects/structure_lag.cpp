@@ -29,7 +29,8 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
   for (const auto& displacement : machine.displacements) {
     const Component* component = machine.find(displacement.component);
     if (component == nullptr || component->prescribed || component->length_mm <= 0.0) continue;
-    if (displacement.direction != "Z" && !component->lump) continue;
+    const bool along = displacement.direction == "Z" || displacement.direction == "X";
+    if (!component->lump && (!along || is_across(machine, displacement))) continue;
     list.push_back({"structure_lag", true, {{"lag_s", 0.0}}, {{"channel", displacement.channel}}});
     if (!component->lump) continue;  // of a rod the length is simulated
     for (const double lag_s : {300.0, 3000.0}) {
