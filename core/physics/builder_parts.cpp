@@ -12,16 +12,18 @@
 namespace zerodrift::physics {
 
 /// Two at least within each described source: heat that is spread over more than it reaches is simulated too cold
-/// there.
+/// there. A source that is narrower than the rod is thick spreads within the section before it does along it, which no
+/// chain of cells shows.
 static int cells_of(const Component& rod) {
   constexpr double fewest = 40.0;
   constexpr double most = 200.0;
   constexpr double in_a_source = 2.0;
+  constexpr double thick = 0.75;  // of the diameter
   constexpr double rounding = 1e-6;
   double cells = fewest;
   for (const auto& source : rod.sources) {
-    const double width_mm = source.to_mm - source.from_mm;
-    if (width_mm > 0.0) cells = std::max(cells, std::ceil(in_a_source * rod.length_mm / width_mm - rounding));
+    const double width_mm = std::max(source.to_mm - source.from_mm, thick * rod.outer_diameter_mm);
+    cells = std::max(cells, std::ceil(in_a_source * rod.length_mm / width_mm - rounding));
   }
   return static_cast<int>(std::min(cells, most));
 }
