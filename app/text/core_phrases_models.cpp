@@ -79,7 +79,9 @@ constexpr std::array<const char*, 262> models = {{
                       "seconds: a row an hour at least, 100 days at most (is it in milliseconds, or is one "
                       "time wrong?)"),
     QT_TRANSLATE_NOOP("core", "the simulation left all bounds"),
-    QT_TRANSLATE_NOOP("core", "Bearings are simulated too cold, more so the warmer or the faster they run"),
+    QT_TRANSLATE_NOOP("core",
+                      "Bearings are simulated too cold - with less load than described, too hot - more so the warmer "
+                      "or the faster they run"),
     QT_TRANSLATE_NOOP("core",
                       "Bearings are simulated too cold in the first hours only, whatever the temperature is later"),
     QT_TRANSLATE_NOOP("core",

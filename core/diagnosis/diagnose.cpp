@@ -308,7 +308,7 @@ ShownBy Diagnoser::show_best(FoundEffect& found, const physics::Prediction& with
     const double widths = found.contribution[channel.name] / std::hypot(channel.white, channel.drift);
     const bool named = m_selection.effects().size() == 1 && m_out.mismatch.channels.front() == channel.name;
     const bool own = channel.name == found.channel;  // what is wrong with a channel shows in it
-    const double weight = widths <= 1.0 ? widths : own ? 2e300 : named ? 1e300 : widths;
+    const double weight = own ? 2e300 : widths <= 1.0 ? widths : named ? 1e300 : widths;
     if (weight < largest && !best.channel.empty()) continue;
     best = {channel.name, before, after, channel.white};
     largest = weight;

@@ -46,6 +46,16 @@ bool shows_noise(const recording::Channel& channel) {
   return static_cast<double>(differ) > as_a_rule * static_cast<double>(there.size() - 1);
 }
 
+/// On the line of the two samples before or after it: a bend where the speed changed, and not alone.
+bool is_a_bend(const std::vector<double>& values, std::size_t k) {
+  constexpr double near = 0.5;  // of what it stands off its neighbours
+  if (k < 2 || k + 2 >= values.size()) return false;
+  const double off = std::abs(values[k] - 0.5 * (values[k - 1] + values[k + 1]));
+  const double before = std::abs(values[k] - (2.0 * values[k - 1] - values[k - 2]));
+  const double after = std::abs(values[k] - (2.0 * values[k + 1] - values[k + 2]));
+  return std::min(before, after) < near * off;
+}
+
 }  // namespace
 
 std::vector<StillGauge> take_out_still_gauges(const physics::Machine& machine, recording::Recording& recording,
@@ -86,7 +96,8 @@ std::vector<analysis::Finding> spikes_left_out(const physics::Machine& machine, 
     const recording::Channel* channel = recording.find(name);
     if (channel == nullptr) return;
     const std::vector<bool> spike = spikes_of(channel->values, temperature);
-    const auto count = std::count(spike.begin(), spike.end(), true);
+    std::ptrdiff_t count = 0;
+    for (std::size_t k = 0; k < spike.size(); ++k) count += spike[k] && !is_a_bend(channel->values, k) ? 1 : 0;
     if (count < fewest_told) return;
     list.push_back({analysis::FindingKind::spikes, analysis::FindingAction::repaired, name,
                     fmt::format("{} of {} samples left out", count, channel->values.size())});

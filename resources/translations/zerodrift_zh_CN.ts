@@ -2402,8 +2402,8 @@
         <translation>仿真结果发散</translation>
     </message>
     <message>
-        <source>Bearings are simulated too cold, more so the warmer or the faster they run</source>
-        <translation>轴承的仿真温度偏低，温度越高、转速越快，偏差越大</translation>
+        <source>Bearings are simulated too cold - with less load than described, too hot - more so the warmer or the faster they run</source>
+        <translation>轴承的仿真温度偏低（载荷小于描述值时偏高），温度越高、转速越快，偏差越大</translation>
     </message>
     <message>
         <source>Bearings are simulated too cold in the first hours only, whatever the temperature is later</source>

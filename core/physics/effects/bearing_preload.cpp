@@ -46,7 +46,8 @@ extern const Effect bearing_preload_effect;
 const Effect bearing_preload_effect = {"bearing_preload",
                                        "P = P0 (1 + kT (T_bearing - T0) + kn (n / n_full)^2 + k0) in M1 = f1 P dm",
                                        "Palmgren; thermally induced preload of spindle bearings (Stein and Tu 1994)",
-                                       "Bearings are simulated too cold, more so the warmer or the faster they run",
+                                       "Bearings are simulated too cold - with less load than described, too hot - "
+                                       "more so the warmer or the faster they run",
                                        "bearing_viscosity extra_heat_source",
                                        {{"growth_1_K", 0.04, 0.0, 0.8, true},
                                         {"speed_share", 1.0, 0.0, 20.0, true},

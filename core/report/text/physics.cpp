@@ -338,8 +338,9 @@ std::vector<TextEntry> texts_of_physics() {
       {"half speed cold, full speed for half of the time, half speed hot, then stop",
        "冷态半速，一半时间全速，热态半速，然后停机"},
       {"half speed, no cutting and cutting in turn, four equal parts", "半速运行，不切削与切削交替，共四个等长阶段"},
-      {"Bearings are simulated too cold, more so the warmer or the faster they run",
-       "轴承的仿真温度偏低，温度或转速越高偏差越大"},
+      {"Bearings are simulated too cold - with less load than described, too hot - more so the warmer or the faster "
+       "they run",
+       "轴承的仿真温度偏低（载荷小于描述值时偏高），温度或转速越高偏差越大"},
       {"Bearings are simulated too cold in the first hours only, whatever the temperature is later",
        "轴承的仿真温度仅在最初几小时偏低，与其后的温度无关"},
       {"Bearings are simulated too cold at first and too hot later; friction falls as the oil warms",
