@@ -29,7 +29,7 @@ constexpr double fitted_start = 0.9;  // a start not at rest that the run outlas
 constexpr double more_is_missing = 0.8;  // beyond what is named
 constexpr double far_numbers = 0.5;      // of the description, out of all tolerance: it may stand for what is wrong
 constexpr double or_a_number = 0.5;      // at most, where one wrong number explains as much
-constexpr double worse_elsewhere = 0.5;  // of lumps, which other runs do not refute
+constexpr double worse_elsewhere = 0.5;  // of lumps, and beside what happened once: other runs do not refute them
 constexpr double imitated = 0.4;         // unexplained: whatever the library lacks is imitated as well as it can be
 constexpr double unknown_machine = 0.7;  // lumps about its sensors take up whatever flows between them
 

@@ -212,9 +212,12 @@ void Diagnoser::worse_elsewhere() {
   constexpr double clearly = 1.05;  // of all squares, in widths of noise
   constexpr double in_one = 1.5;    // of one channel's rms
   constexpr double noticed = 2.0;   // widths of noise
+  constexpr double far = 1.5;       // of all squares
   if (m_out.effects.empty()) return;
   const bool once = std::any_of(m_out.effects.begin(), m_out.effects.end(),
                                 [](const FoundEffect& found) { return physics::happens_once(found.id); });
+  const bool lasts = std::any_of(m_out.effects.begin(), m_out.effects.end(),
+                                 [](const FoundEffect& found) { return !physics::happens_once(found.id); });
   for (const HeldOut& other : m_out.held_out) {
     if (of_another_machine(other)) continue;
     double without = 0.0, with = 0.0, largest = 0.0;
@@ -234,8 +237,9 @@ void Diagnoser::worse_elsewhere() {
       worst = &channel;
     }
     if (worst == nullptr || (with <= clearly * without && !one_is_worse)) continue;
-    // Other runs refute nothing of lumps (borne_out_elsewhere): doubt is all that they leave.
-    if (m_lumps_only && !once && with > clearly * without) {
+    // Other runs refute nothing of lumps (borne_out_elsewhere), nor of what happened once (refuted): doubt is all that
+    // they leave, of what lasts beside that.
+    if ((m_lumps_only && !once && with > clearly * without) || (once && lasts && with > far * without)) {
       for (FoundEffect& found : m_out.effects) found.confidence *= doubt::worse_elsewhere;
     }
     m_out.notes.push_back("held_out_worse:" + other.recording + ":" + worst->channel);
