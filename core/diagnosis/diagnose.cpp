@@ -155,10 +155,7 @@ Result<Diagnosis> Diagnoser::run(Of use) {
 Status Diagnoser::select() {
   ZD_TRY(m_selection, select_effects(m_bodies, m_data, m_facts, m_limits, m_context));
   m_data = m_selection.best->shared_data();
-  ZD_CHECK(choose_drift());
-  // Models are compared by whole units of evidence, but a power is told with its width.
-  if (!m_selection.effects().empty()) m_selection.best->fit({15, 0.05, true, true});
-  return {};
+  return choose_drift();
 }
 
 Status Diagnoser::prepare() {
