@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/physics/hat.h"
 #include "core/physics/initial_state.h"
 #include "core/physics/sources.h"
 
@@ -194,13 +195,15 @@ Term NetworkBuilder::source_over(const std::string& component, double from_mm, d
     term.weights = {1.0};
     return term;
   }
+  constexpr double rounding = 1e-9;
   const double cell_mm = at.cell_m / m_per_mm;
-  const int low = std::clamp(static_cast<int>(std::floor(from_mm / cell_mm + 1e-9)), 0, at.count - 1);
-  const int high = std::clamp(static_cast<int>(std::ceil(to_mm / cell_mm - 1e-9)), low + 1, at.count);
+  const double from = from_mm / cell_mm;
+  const double to = to_mm / cell_mm;
+  const int low = std::clamp(static_cast<int>(std::floor(from - 0.5 + rounding)), 0, at.count - 1);
+  const int high = std::clamp(static_cast<int>(std::ceil(to + 0.5 - rounding)), low + 1, at.count);
   term.first_node = at.first + low;
   for (int i = low; i < high; ++i) {
-    const double overlap = std::min(to_mm, (i + 1) * cell_mm) - std::max(from_mm, i * cell_mm);
-    term.weights.push_back(std::max(0.0, overlap) / (to_mm - from_mm));
+    term.weights.push_back((hat_of_cell(i, at.count, to) - hat_of_cell(i, at.count, from)) / (to - from));
   }
   return term;
 }
@@ -228,9 +231,9 @@ Term NetworkBuilder::film_up_to(const std::string& component, int place_paramete
     weights.resize(at.count);
     by.resize(at.count);
     for (int i = 0; i < at.count; ++i) {
-      const double covered_mm = place_mm - i * cell_mm;
-      weights[i] = perimeter_mm * std::clamp(covered_mm, 0.0, cell_mm);
-      by[i] = covered_mm > 0.0 && covered_mm <= cell_mm ? perimeter_mm : 0.0;
+      const double place = place_mm / cell_mm;
+      weights[i] = perimeter_mm * cell_mm * hat_of_cell(i, at.count, place);
+      by[i] = perimeter_mm * hat_at(i, at.count, place);
     }
   };
   return term;

@@ -94,6 +94,9 @@ class NetworkBuilder {
   void add_lump(const Component& component);
   void add_initial_state();
   void add_start_shapes(const Network::Place& at, double above_K);
+  void add_past();
+  void add_past_shape(const std::string& key, const std::string& component, double above_K,
+                      const std::vector<double>& left_K);
   void add_sources();
   void add_source(const Component& component, const HeatSource& source);
   void join_body(const Component& component, const Term& spread, const std::string& source, int share);

@@ -1,9 +1,6 @@
-// What every machine has: conduction, capacities, start, couplings, sensors, displacements.
-#include <fmt/format.h>
-
+// What every machine has: conduction, capacities, couplings, sensors, displacements.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/physics/effects/laws.h"
 #include "core/physics/initial_state.h"
@@ -110,69 +107,6 @@ void NetworkBuilder::add_components() {
     } else {
       add_rod(component);
     }
-  }
-}
-
-void NetworkBuilder::add_initial_state() {
-  // From end to end, after a rest: steel evens out over half a metre within half an hour.
-  constexpr double even_K = 0.05;
-  const auto warm = warm_start_profiles(m_machine, m_inputs);
-  for (const auto& at : m_network.places) {
-    double accuracy_C = 0.0;
-    int sensors = 0;
-    for (const auto& sensor : m_machine.sensors) {
-      if (sensor.component == at.component) accuracy_C += sensor.accuracy_C, ++sensors;
-    }
-    // The start temperature is known from the description, or from the mean of the sensors with their offsets.
-    const double from_sensors_K = sensors == 0 ? 1.0 : accuracy_C / sensors / std::sqrt(sensors);
-    Parameter level;
-    level.key = "initial_temperature_K";
-    level.component = at.component;
-    level.sigma = m_machine.initial_temperature_C ? 0.15 : std::max(0.15, from_sensors_K);
-    level.per_recording = true;
-    InitialPart uniform{add_parameter(level), {}};
-    for (int i = 0; i < at.count; ++i) uniform.nodes.emplace_back(at.first + i, 1.0);
-    for (int i = 0; i < at.count && at.inner >= 0; ++i) uniform.nodes.emplace_back(at.inner + i, 1.0);
-    m_network.initial_parts.push_back(std::move(uniform));
-    if (at.cell_m == 0.0) continue;
-    Parameter tilt = level;
-    tilt.key = "initial_tilt_K";
-    tilt.sigma = std::clamp(uneven_start_K(m_machine, at.component, m_inputs), even_K, level.sigma);
-    InitialPart slope{add_parameter(tilt), {}};
-    for (int i = 0; i < at.count; ++i) slope.nodes.emplace_back(at.first + i, (i + 0.5) / at.count - 0.5);
-    for (int i = 0; i < at.count && at.inner >= 0; ++i)
-      slope.nodes.emplace_back(at.inner + i, (i + 0.5) / at.count - 0.5);
-    m_network.initial_parts.push_back(std::move(slope));
-    const auto profile = warm.find(at.component);
-    const double above_K = std::abs(start_above_room_K(m_machine, at.component, m_inputs));
-    if (above_K > 0.0) add_start_shapes(at, above_K);
-    if (above_K > 0.0 || profile != warm.end()) m_network.notes.push_back("warm_start:" + at.component);
-    if (profile == warm.end()) continue;
-    for (int i = 0; i < at.count; ++i) {
-      m_network.initial_C[at.first + i] = profile_at(profile->second, (i + 0.5) * at.cell_m / m_per_mm);
-      if (at.inner >= 0) m_network.initial_C[at.inner + i] = m_network.initial_C[at.first + i];
-    }
-  }
-}
-
-/// What ran before left a shape between the sensors that nobody saw: half waves along the rod, the longer the larger,
-/// as conduction leaves them.
-void NetworkBuilder::add_start_shapes(const Network::Place& at, double above_K) {
-  constexpr double uneven = 0.1;  // of what the rod is above its room, for the half wave from end to end
-  constexpr int half_waves = 5;
-  for (int wave = 1; wave <= half_waves; ++wave) {
-    Parameter shape;
-    shape.key = fmt::format("initial_wave_{}_K", wave);
-    shape.component = at.component;
-    shape.sigma = uneven * above_K / wave;
-    shape.per_recording = true;
-    InitialPart part{add_parameter(shape), {}};
-    for (int i = 0; i < at.count; ++i) {
-      const double height = std::cos(std::numbers::pi * wave * (i + 0.5) / at.count);
-      part.nodes.emplace_back(at.first + i, height);
-      if (at.inner >= 0) part.nodes.emplace_back(at.inner + i, height);
-    }
-    m_network.initial_parts.push_back(std::move(part));
   }
 }
 
@@ -331,6 +265,7 @@ void NetworkBuilder::build() {
   }
   add_sources();
   add_couplings();
+  add_past();
 }
 
 Network build_network(const Machine& machine, const recording::Recording& inputs, const BuildOptions& options) {

@@ -212,6 +212,32 @@ TEST(Simulator, ASourceHasTwoCellsAtLeast) {
   EXPECT_LT(std::abs(rise_K(0) / fine_K - 1.0), 0.015);
 }
 
+/// Edges anywhere between the faces: beside the source forty cells are as good as six hundred.
+TEST(Simulator, ASourcesHeatKeepsItsCentre) {
+  nlohmann::json document = test::spindle_json();
+  const recording::Recording run = test::stepped_run();
+  for (const double from_mm : {200.0, 202.0, 204.0, 206.0, 208.0}) {
+    document["components"][0]["heat_sources"] = {{{"id", "nut"},
+                                                  {"kind", "input"},
+                                                  {"channel", "spindle_load_W"},
+                                                  {"watts_per_unit", 0.05},
+                                                  {"from_mm", from_mm},
+                                                  {"to_mm", from_mm + 33.0}}};
+    const Machine machine = *machine_from_json(document, "screw.json");
+    const auto rise_K = [&](int cells) {
+      const Network network = build_network(machine, run, {cells});
+      const Prediction seen = predict(network, make_inputs(network, run), network.start_values());
+      std::vector<double> rise;
+      for (const auto& channel : seen.channels)
+        rise.push_back(*std::max_element(channel.values.begin(), channel.values.end()) - 20.0);
+      return rise;
+    };
+    const std::vector<double> fine_K = rise_K(600);
+    const std::vector<double> coarse_K = rise_K(40);
+    for (const std::size_t beside : {1, 3}) EXPECT_NEAR(coarse_K[beside] / fine_K[beside], 1.0, 4e-4) << from_mm;
+  }
+}
+
 TEST(Simulate, PredictsTheChannelsOfTheRecordingAndNamesTheRest) {
   const Machine machine = test::spindle();
   recording::Recording run = test::stepped_run(1.0);

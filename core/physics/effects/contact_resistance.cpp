@@ -3,6 +3,7 @@
 // by the faces next to it, so that x and the breadth are continuous. A cell's temperature is then its mean, part of the
 // step within it included; a sensor reads the step's own share at its place and not what is straight between two cells.
 #include "core/physics/effects/laws.h"
+#include "core/physics/hat.h"
 
 namespace zerodrift::physics {
 namespace contact_resistance {
@@ -11,18 +12,6 @@ namespace contact_resistance {
 constexpr double usual_half_width = 0.005;  // of the length
 constexpr double widest = 0.05;             // wider, it would take the place of the rod beside it
 constexpr double narrow_cells = 1e-3;       // of a cell: a plane
-
-/// How much of what lies at u, in cells from a face, counts for that face.
-double hat(double u) {
-  return std::max(0.0, 1.0 - std::abs(u));
-}
-
-/// Integral of the hat from far left to u.
-double hat_until(double u) {
-  if (u <= -1.0) return 0.0;
-  if (u >= 1.0) return 1.0;
-  return u < 0.0 ? 0.5 * (1.0 + u) * (1.0 + u) : 1.0 - 0.5 * (1.0 - u) * (1.0 - u);
-}
 
 struct FaceShare {
   double value = 0.0;

@@ -1,5 +1,7 @@
 // Cooling by a liquid while it flows: -c(t) h P (T - T_coolant) over a region. A fluid that the description measures is
 // used with its own temperature and flow; a lump of unknown surface has a conductance instead of a film.
+#include <numeric>
+
 #include "core/physics/effects/sensor_effects.h"
 
 namespace zerodrift::physics {
@@ -24,6 +26,12 @@ int edge(NetworkBuilder& builder, const EffectSpec& spec, int index, const std::
   p.low = low;
   p.high = high;
   return parameter;
+}
+
+/// A conductance that is spread as the surface is, or evenly where no surface is known.
+void share_out(std::vector<double>& weights) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights) weight = sum > 0.0 ? weight / sum : 1.0 / static_cast<double>(weights.size());
 }
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
@@ -77,7 +85,7 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
       return;
     }
     Term film = builder.film_over(component.id, from_mm, to_mm);
-    if (by_conductance) film.weights.assign(film.weights.size(), 1.0 / static_cast<double>(film.weights.size()));
+    if (by_conductance) share_out(film.weights);
     put(std::move(film), false);
   });
 }
