@@ -25,6 +25,27 @@ Machine part_of(const Machine& whole, const std::string& id) {
   return part;
 }
 
+/// By how much a part is off without what was found, in widths of noise: its worst channel.
+double size_of(const Diagnosis& part) {
+  double largest = 0.0;
+  for (const auto& channel : part.channels)
+    largest = std::max(largest, channel.rms_refitted / std::max(1e-9, channel.noise));
+  return largest;
+}
+
+/// Worst part first: place, time and heat are told of the worst.
+Mismatch mismatch_of(std::vector<std::pair<double, Mismatch>> parts) {
+  std::erase_if(parts, [](const auto& part) { return part.second.channels.empty(); });
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (parts.empty()) return {};
+  Mismatch all = parts.front().second;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto& more = parts[i].second.channels;
+    all.channels.insert(all.channels.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
 /// Channels that stay unexplained, with nothing named of their part and beside something.
 struct Unexplained {
   std::vector<std::string> without, beside;
@@ -57,7 +78,6 @@ void merge(Diagnosis& all, Diagnosis part, std::size_t described, Unexplained& l
   append(all.effects, part.effects);
   append(all.ambiguous_with, part.ambiguous_with);
   append(all.channels, part.channels);
-  append(all.mismatch.channels, part.mismatch.channels);
   all.time_s = part.time_s;
   if (all.held_out.empty()) all.held_out.resize(part.held_out.size());
   for (std::size_t i = 0; i < part.held_out.size(); ++i) {
@@ -85,6 +105,7 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
   int unexplained = 0;
   Unexplained left;
   std::vector<std::string> assumed;
+  std::vector<std::pair<double, Mismatch>> mismatches;
   for (std::size_t i = 0; i < machine.components.size(); ++i) {
     const Machine part = part_of(machine, machine.components[i].id);
     if (part.sensors.empty()) continue;
@@ -102,6 +123,7 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
     for (const auto& note : result.notes) {
       if (note.starts_with("capacity_unknown:")) assumed.push_back(machine.components[i].id);
     }
+    mismatches.emplace_back(size_of(result), result.mismatch);
     merge(all, std::move(result), part.effects.size(), left);
     context.progress(static_cast<double>(i + 1) / static_cast<double>(machine.components.size()), "parts");
     if (context.cancelled()) return fail(ErrorCode::cancelled);
@@ -109,6 +131,7 @@ Result<Diagnosis> diagnose_apart(const Machine& machine, const std::vector<recor
   all.verdict = !all.effects.empty() ? Verdict::missing_effect
                 : unexplained > 0    ? Verdict::unexplained
                                      : Verdict::consistent;
+  all.mismatch = mismatch_of(std::move(mismatches));
   all.sentences.insert(all.sentences.begin(), explain_verdict(all));
   const auto tell = [&](const char* id, const char* fact, const std::vector<std::string>& names) {
     if (!names.empty()) all.sentences.push_back(explain_note(id, {{fact, fmt::format("{}", fmt::join(names, ", "))}}));

@@ -69,6 +69,8 @@ class Diagnoser {
   void without_effects();
   std::string driver_of_first() const;
   void mismatch();
+  std::string where_to_look() const;
+  void map_of_first_rod(const Model& nominal);
   void locate();
   void times();
   void place_from_effect();

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double block_s = 1800.0;
-constexpr int places = 17;
+constexpr double longest_block_s = 1800.0;
+constexpr int places_of_a_rod = 17;
 constexpr int sizes = 8;
 
 /// The nominal network with a source at every place whose strength is one parameter; responses to a first half hat and
@@ -26,8 +26,8 @@ struct Responses {
   std::vector<physics::Prediction> whole;
 };
 
-physics::Law hat(double centre_s) {
-  return [centre_s](const physics::LawPoint& at) {
+physics::Law hat(double centre_s, double block_s) {
+  return [centre_s, block_s](const physics::LawPoint& at) {
     physics::Strength s;
     s.by_parameter[0] = std::max(0.0, 1.0 - std::abs(at.time_s - centre_s) / block_s);
     s.value = at.values[0] * s.by_parameter[0];
@@ -36,7 +36,7 @@ physics::Law hat(double centre_s) {
 }
 
 physics::Prediction responses(const Model& nominal, const std::string& component,
-                              const std::vector<double>& position_mm, double centre_s) {
+                              const std::vector<double>& position_mm, double centre_s, double block_s) {
   physics::NetworkBuilder builder(nominal.machine(), *nominal.data().recording, {});
   builder.build();
   const double length_mm = nominal.machine().find(component)->length_mm;
@@ -50,7 +50,7 @@ physics::Prediction responses(const Model& nominal, const std::string& component
     physics::Term source = builder.source_at(component, builder.add_parameter(place), 0.03 * length_mm);
     source.law_kind = physics::LawKind::time;
     source.parameters = {parameters.back()};
-    source.law = hat(centre_s);
+    source.law = hat(centre_s, block_s);
     builder.add(std::move(source));
   }
   const physics::InputSet inputs = physics::make_inputs(builder.network(), *nominal.data().recording);
@@ -98,14 +98,21 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
   SourceScan scan;
   scan.component = component;
   const Dataset& data = nominal.data();
-  const double length_mm = nominal.machine().find(component)->length_mm;
-  for (int i = 0; i < places; ++i) scan.position_mm.push_back(length_mm * (0.02 + 0.96 * i / (places - 1)));
+  const physics::Component& part = *nominal.machine().find(component);
+  const int places = part.lump ? 1 : places_of_a_rod;
+  const double length_mm = part.lump ? 0.0 : part.length_mm;
+  for (int i = 0; i < places; ++i) {
+    scan.position_mm.push_back(length_mm * (0.02 + 0.96 * i / (places_of_a_rod - 1)));
+  }
   const double duration_s = data.time_s.back() - data.time_s.front();
+  constexpr double least_blocks = 12.0;  // a lump may be a heater that is done in minutes
+  const double block_s = part.lump ? std::min(longest_block_s, duration_s / least_blocks) : longest_block_s;
   const double period_s = duration_s / static_cast<double>(data.rows() - 1);
   const std::size_t blocks = static_cast<std::size_t>(std::ceil(duration_s / block_s)) + 1;
   const std::size_t shift = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(block_s / period_s)));
-  const physics::Prediction first = responses(nominal, component, scan.position_mm, data.time_s.front());
-  const physics::Prediction whole = responses(nominal, component, scan.position_mm, data.time_s.front() + block_s);
+  const physics::Prediction first = responses(nominal, component, scan.position_mm, data.time_s.front(), block_s);
+  const physics::Prediction whole =
+      responses(nominal, component, scan.position_mm, data.time_s.front() + block_s, block_s);
   const Eigen::MatrixXd base = nominal.hessian();
   const Eigen::VectorXd base_gradient = nominal.jacobian().transpose() * nominal.residual() - nominal.z();
   const Eigen::LDLT<Eigen::MatrixXd> without(base);
@@ -158,7 +165,7 @@ SourceScan scan_sources(const Model& nominal, const std::string& component) {
     scan.evidence[place] = highest + std::log(sum / sizes);  // every size is as likely
   });
   const auto best = std::max_element(scan.evidence.begin(), scan.evidence.end()) - scan.evidence.begin();
-  const double step_mm = scan.position_mm[1] - scan.position_mm[0];
+  const double step_mm = 0.96 * length_mm / (places_of_a_rod - 1);
   scan.best_mm = scan.position_mm[best];
   if (best > 0 && best + 1 < places) {  // vertex of the parabola through the three best
     const double l = scan.evidence[best - 1], m = scan.evidence[best], r = scan.evidence[best + 1];
@@ -186,7 +193,7 @@ double evidence_of_wandering_heat(const Model& model) {
     const SourceScan scan = scan_sources(model, component.id);
     const double best = *std::max_element(scan.evidence.begin(), scan.evidence.end());
     double sum = 0.0;  // every place is as likely
-    for (const double evidence : scan.evidence) sum += std::exp(evidence - best) / places;
+    for (const double evidence : scan.evidence) sum += std::exp(evidence - best) / places_of_a_rod;
     largest = std::max(largest, best + std::log(sum) - scan.evidence_without);
   }
   return largest;
@@ -195,8 +202,8 @@ double evidence_of_wandering_heat(const Model& model) {
 namespace {
 
 /// Over a block; none where no sample is there.
-std::optional<double> mean_about(const recording::Recording& recording, const std::vector<double>& values,
-                                 double at_s) {
+std::optional<double> mean_about(const recording::Recording& recording, const std::vector<double>& values, double at_s,
+                                 double block_s = longest_block_s) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < recording.rows(); ++k) {
@@ -239,7 +246,7 @@ History history_of(const recording::Recording& recording, const std::vector<doub
   History history;
   std::vector<double> off(recording.rows());
   for (std::size_t k = 0; k < off.size(); ++k) off[k] = one[k] - other[k];
-  for (double t = recording.time_s.front(); t <= recording.time_s.back(); t += block_s) {
+  for (double t = recording.time_s.front(); t <= recording.time_s.back(); t += longest_block_s) {
     history.time_s.push_back(t);
     history.value.push_back(mean_about(recording, off, t).value_or(0.0));
   }
@@ -265,6 +272,7 @@ std::string regime_of(const History& missing, const recording::Recording& record
   spread = std::sqrt(spread / static_cast<double>(missing.value.size()));
   if (spread < 0.35 * std::abs(mean)) return "all the time";
   std::string best = "at irregular times";
+  const double block_s = missing.time_s.size() > 1 ? missing.time_s[1] - missing.time_s[0] : longest_block_s;
   constexpr double least = 0.55;
   constexpr double least_of_the_named = 0.3;
   double largest = least;
@@ -281,7 +289,7 @@ std::string regime_of(const History& missing, const recording::Recording& record
     }
     std::vector<double> level;
     for (const double t : missing.time_s) {
-      level.push_back(mean_about(recording, acts, t).value_or(0.0));
+      level.push_back(mean_about(recording, acts, t, block_s).value_or(0.0));
     }
     const double r = std::abs(correlation(level, missing.value));
     if (driven_by == driver.channel && r > largest_of_the_named) {

@@ -21,6 +21,7 @@ struct SourceScan {
 };
 
 /// Linearised at the base's nominal values (every unknown at its mean): at the fitted values they absorb the place.
+/// A lump has one place, 0 mm.
 SourceScan scan_sources(const Model& nominal, const std::string& component);
 /// Log evidence of a heat that comes and goes as it likes at one place of a rod, over the fitted model alone.
 double evidence_of_wandering_heat(const Model& model);

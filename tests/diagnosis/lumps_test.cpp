@@ -110,6 +110,50 @@ TEST(Lumps, HeatThatFallsWithSpeedIsUnexplained) {
   EXPECT_EQ(std::count(d.notes.begin(), d.notes.end(), "heat_falls_with_speed:T1_C"), 1);
 }
 
+/// A heat that comes and goes as it likes, into a part whose capacity is described: where, and how many watts.
+TEST(Lumps, WhatIsMissingIsToldInWatts) {
+  constexpr double capacity_J_K = 5000.0, film_W_K = 1.0;
+  recording::Recording run = empty_run(32.0, 120.0, {"spindle_rpm", "room_C", "T1_C", "T2_C"});
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise_K(0.0, 0.02);
+  double sum_W = 0.0;
+  const auto heat_W = [](double hours) { return 3.0 + 2.5 * std::sin(hours) + 1.5 * std::sin(2.3 * hours + 1.0); };
+  integrate(
+      run, {22.0, 22.0},
+      [&](double t_s, const std::vector<double>& state) -> std::vector<double> {
+        return {(heat_W(t_s / 3600.0) - film_W_K * (state[0] - 22.0)) / capacity_J_K,
+                (4.0 * (speed_rpm(t_s) > 0.0) - film_W_K * (state[1] - 22.0)) / capacity_J_K};
+      },
+      [&](std::size_t k, const std::vector<double>& state) {
+        run.channels[0].values[k] = speed_rpm(run.time_s[k]);
+        run.channels[1].values[k] = 22.0;
+        run.channels[2].values[k] = state[0] + noise_K(random);
+        run.channels[3].values[k] = state[1] + noise_K(random);
+        sum_W += std::abs(heat_W(run.time_s[k] / 3600.0));
+      });
+  const auto machine = physics::machine_from_json(nlohmann::json::parse(R"({"format": "zerodrift-machine/1",
+    "components": [{"id": "tank", "kind": "lump", "heat_capacity_J_K": 5000, "area_mm2": 100000},
+                   {"id": "head", "kind": "lump", "heat_capacity_J_K": 5000, "area_mm2": 100000, "heat_sources": [
+      {"id": "turning", "kind": "speed", "channel": "spindle_rpm", "law": ["on"], "power_unknown": true}]}],
+    "sensors": [{"channel": "T1_C", "component": "tank", "accuracy_C": 0.1},
+                {"channel": "T2_C", "component": "head", "accuracy_C": 0.1},
+                {"channel": "room_C", "component": "ambient"}],
+    "effects": ["convection"], "effect_parameters": {"convection": {"h_W_m2K": 10}},
+    "room": {"channel": "room_C"}})"),
+                                                  "tank.json");
+  ASSERT_TRUE(machine.has_value());
+  const auto d = diagnose(*machine, {run}, {false});
+  ASSERT_TRUE(d.has_value());
+  EXPECT_EQ(d->verdict, Verdict::unexplained);
+  ASSERT_FALSE(d->mismatch.channels.empty());
+  EXPECT_EQ(d->mismatch.channels.front(), "T1_C");
+  EXPECT_EQ(d->mismatch.component, "tank");
+  EXPECT_FALSE(d->mismatch.position_mm.has_value());
+  EXPECT_FALSE(d->mismatch.regime.empty());
+  const double mean_W = sum_W / static_cast<double>(run.rows());
+  EXPECT_NEAR(d->mismatch.missing_heat_W, mean_W, 0.15 * mean_W);
+}
+
 /// A law that the description lacks, but a rising one.
 TEST(Lumps, HeatThatRisesLessAndLessIsNotCalledFalling) {
   const auto saturating = [](double rpm) { return 2e-3 * std::tanh(rpm / 1500.0); };
