@@ -160,25 +160,31 @@ TEST(WrongColumns, InputsOfAnotherClockAreToldAndWhatTheyLookLikeIsInDoubt) {
   }
 }
 
-TEST(WrongColumns, InputsOfAnotherClockAreMovedToWhenTheyActed) {
-  for (const auto& [seed, hidden] : {std::pair{332U, "none"}, std::pair{303U, "coolant"}, std::pair{334U, "none"}}) {
-    for (const double late_s : {0.0, 120.0, -120.0, 300.0}) {
-      proof::Case one = proof::make_case(seed, hidden);
-      log_inputs_late(one, late_s);
-      const auto answer = answer_with_details(one);
-      ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-      EXPECT_EQ(says(*answer, "clock_late"), late_s > 0.0) << seed << " by " << late_s;
-      EXPECT_EQ(says(*answer, "clock_early"), late_s < 0.0) << seed << " by " << late_s;
-      for (const auto& told : answer->sentences) {
-        if (!told.id.starts_with("clock_")) continue;
-        const double row_s = one.recordings[0].time_s[1] - one.recordings[0].time_s[0];
-        EXPECT_NEAR(std::stod(told.facts.at("seconds")), std::abs(late_s), row_s) << seed << " by " << late_s;
-      }
-      ASSERT_EQ(answer->effects.size(), hidden == std::string("none") ? 0U : 1U) << seed << " by " << late_s;
-      for (const FoundEffect& found : answer->effects) EXPECT_EQ(found.id, hidden) << seed << " by " << late_s;
+/// One machine a test: they take long enough to be shared out.
+class AnotherClock : public testing::TestWithParam<std::pair<unsigned, const char*>> {};
+
+TEST_P(AnotherClock, ItsInputsAreMovedToWhenTheyActed) {
+  const auto& [seed, hidden] = GetParam();
+  for (const double late_s : {0.0, 120.0, -120.0, 300.0}) {
+    proof::Case one = proof::make_case(seed, hidden);
+    log_inputs_late(one, late_s);
+    const auto answer = answer_with_details(one);
+    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
+    EXPECT_EQ(says(*answer, "clock_late"), late_s > 0.0) << seed << " by " << late_s;
+    EXPECT_EQ(says(*answer, "clock_early"), late_s < 0.0) << seed << " by " << late_s;
+    for (const auto& told : answer->sentences) {
+      if (!told.id.starts_with("clock_")) continue;
+      const double row_s = one.recordings[0].time_s[1] - one.recordings[0].time_s[0];
+      EXPECT_NEAR(std::stod(told.facts.at("seconds")), std::abs(late_s), row_s) << seed << " by " << late_s;
     }
+    ASSERT_EQ(answer->effects.size(), hidden == std::string("none") ? 0U : 1U) << seed << " by " << late_s;
+    for (const FoundEffect& found : answer->effects) EXPECT_EQ(found.id, hidden) << seed << " by " << late_s;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Machines, AnotherClock,
+                         testing::Values(std::pair{332U, "none"}, std::pair{303U, "coolant"}, std::pair{334U, "none"}),
+                         [](const auto& machine) { return "Seed" + std::to_string(machine.param.first); });
 
 TEST(WrongColumns, ASensorThatDriftsAloneIsNamedAndAHeatThatWandersIsNoSensor) {
   proof::Case one = proof::make_case(332, "none");

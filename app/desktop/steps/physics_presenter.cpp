@@ -225,10 +225,6 @@ void PhysicsPresenter::searchTrial() {
         m_shownTrial.stage = answer ? ui::TrialStage::answered : ui::TrialStage::none;
         if (answer) {
           m_trialAnswer = std::move(*answer);
-          m_shownTrial.answer = effects_in_words(m_trialAnswer.effects);
-          if (m_trialAnswer.confidence > 0) {
-            m_shownTrial.answer += tr(", %1 %").arg(100.0 * m_trialAnswer.confidence, 0, 'f', 0);
-          }
           m_shownTrial.curves = trial_curves(m_trial.recorded, m_trial.simulated, m_trialAnswer.refined);
         }
         refresh();
@@ -242,14 +238,11 @@ void PhysicsPresenter::openTrial() {
     return;
   }
   m_shownTrial.stage = ui::TrialStage::opened;
-  m_shownTrial.hidden = effect_name(opened->hidden);
-  m_shownTrial.right = same_effect(opened->hidden, m_trialAnswer.effects);
   m_shownTrial.kept = opened->kept;
-  m_trials.append({m_shownTrial.hidden, effects_in_words(m_trialAnswer.effects), m_shownTrial.right,
-                   m_trialAnswer.improvement_percent});
-  bench().log(LogKind::note,
-              tr("Blind trial: hidden %1, answered %2, seal %3")
-                  .arg(m_shownTrial.hidden, m_trials.last().answer, opened->kept ? tr("whole") : tr("broken")));
+  m_finishedTrials.append({opened->hidden, m_trialAnswer.effects, m_trialAnswer.improvement_percent});
+  bench().log(LogKind::note, tr("Blind trial: hidden %1, answered %2, seal %3")
+                                 .arg(effect_name(opened->hidden), effects_in_words(m_trialAnswer.effects),
+                                      opened->kept ? tr("whole") : tr("broken")));
   refresh();
 }
 
@@ -329,9 +322,27 @@ void PhysicsPresenter::refresh() {
   for (auto& card : state.explanations) {
     for (QString* text : {&card.sentence, &card.magnitude, &card.rivals, &card.couldDetect}) plain(*text);
   }
-  state.trials = m_trials;
-  state.trial = m_shownTrial;
+  fillTrials(state);
   m_page->setState(state);
+}
+
+void PhysicsPresenter::fillTrials(ui::PhysicsState& state) const {
+  for (const auto& finished : m_finishedTrials) {
+    state.trials.append({effect_name(finished.hidden), effects_in_words(finished.answer),
+                         same_effect(finished.hidden, finished.answer), finished.improvement_percent});
+  }
+  state.trial = m_shownTrial;
+  const bool opened = m_shownTrial.stage == ui::TrialStage::opened;
+  if (opened || m_shownTrial.stage == ui::TrialStage::answered) {
+    state.trial.answer = effects_in_words(m_trialAnswer.effects);
+    if (m_trialAnswer.confidence > 0) {
+      state.trial.answer += tr(", %1 %").arg(100.0 * m_trialAnswer.confidence, 0, 'f', 0);
+    }
+  }
+  if (opened) {
+    state.trial.hidden = state.trials.last().effect;
+    state.trial.right = state.trials.last().right;
+  }
 }
 
 void PhysicsPresenter::tour(std::function<void(bool good)> done) {

@@ -32,6 +32,7 @@ class PhysicsPresenter : public Presenter {
   void watchTrial();
   void searchTrial();
   void openTrial();
+  void fillTrials(ui::PhysicsState& state) const;
   void proposePlan();
   void findRegion();
   QString regionInWords();
@@ -47,8 +48,12 @@ class PhysicsPresenter : public Presenter {
   QTimer m_watching;
   TrialCase m_trial;
   TrialAnswer m_trialAnswer;
-  ui::BlindTrial m_shownTrial;
-  QVector<ui::TrialScore> m_trials;
+  ui::BlindTrial m_shownTrial;  // without its words
+  struct FinishedTrial {
+    std::string hidden, answer;  // ids: the language may change
+    double improvement_percent = 0.0;
+  };
+  QVector<FinishedTrial> m_finishedTrials;
 };
 
 }  // namespace zerodrift::desktop
