@@ -9,6 +9,7 @@
 
 #include "core/diagnosis/parallel.h"
 #include "core/diagnosis/screening.h"
+#include "core/physics/hat.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -26,10 +27,10 @@ struct Responses {
   std::vector<physics::Prediction> whole;
 };
 
-physics::Law hat(double centre_s, double block_s) {
+physics::Law hat_in_time(double centre_s, double block_s) {
   return [centre_s, block_s](const physics::LawPoint& at) {
     physics::Strength s;
-    s.by_parameter[0] = std::max(0.0, 1.0 - std::abs(at.time_s - centre_s) / block_s);
+    s.by_parameter[0] = physics::hat((at.time_s - centre_s) / block_s);
     s.value = at.values[0] * s.by_parameter[0];
     return s;
   };
@@ -50,7 +51,7 @@ physics::Prediction responses(const Model& nominal, const std::string& component
     physics::Term source = builder.source_at(component, builder.add_parameter(place), 0.03 * length_mm);
     source.law_kind = physics::LawKind::time;
     source.parameters = {parameters.back()};
-    source.law = hat(centre_s, block_s);
+    source.law = hat_in_time(centre_s, block_s);
     builder.add(std::move(source));
   }
   const physics::InputSet inputs = physics::make_inputs(builder.network(), *nominal.data().recording);
