@@ -31,13 +31,16 @@ void on_signal(int signal) {
   signal_seen = signal;
 }
 
-/// Turns Ctrl+C into a stop request, so that a write to a machine is finished or restored and files are whole. A second
-/// one ends the program whatever it does; what arrives with the first (timeout signals a group twice) is no second one.
+/// Turns Ctrl+C and the other requests to end into a stop request, so that a write to a machine is finished or restored
+/// and files are whole. A second one ends the program whatever it does; what arrives with the first (timeout signals a
+/// group twice) is no second one.
 std::jthread watch_signals(std::stop_source& stop) {
   using Clock = std::chrono::steady_clock;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+    // One that was ignored at the start (nohup) stays so.
+    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);  // the write that meets it fails instead
   return std::jthread([&stop](const std::stop_token& done) {
     constexpr auto together = std::chrono::milliseconds(500);
     Clock::time_point first;

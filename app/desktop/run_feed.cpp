@@ -22,7 +22,7 @@ constexpr double trail_enlargement = 20.0;
 /// The recorder is without its machine and asks again.
 bool is_silence(const Error& problem) {
   return problem.code == ErrorCode::machine_silent || problem.code == ErrorCode::machine_link_lost ||
-         problem.code == ErrorCode::machine_unreachable;
+         problem.code == ErrorCode::machine_unreachable || problem.code == ErrorCode::machine_gateway;
 }
 
 int decimals_of(recording::ChannelKind kind) {

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 326> machines = {{
+constexpr std::array<const char*, 345> machines = {{
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),
@@ -102,6 +102,29 @@ constexpr std::array<const char*, 326> machines = {{
     QT_TRANSLATE_NOOP("core", "the compensation switch is off"),
     QT_TRANSLATE_NOOP("core", "its heartbeat"),
     QT_TRANSLATE_NOOP("core", "check sum wrong"),
+    QT_TRANSLATE_NOOP("core", "3 (read holding registers)"),
+    QT_TRANSLATE_NOOP("core", "4 (read input registers)"),
+    QT_TRANSLATE_NOOP("core", "6 (write a single register)"),
+    QT_TRANSLATE_NOOP("core", "16 (write several registers)"),
+    QT_TRANSLATE_NOOP("core", "6 or 16 (write registers)"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "the serial adapter hears what it sends (local echo); the copies are dropped, its echo is better switched off"),
+    QT_TRANSLATE_NOOP(
+        "core",
+        "zero bytes come before the replies and are dropped; check the termination and the bias of the serial line"),
+    QT_TRANSLATE_NOOP("core", "the controller has no function 6 (write a single register); function 16 is used"),
+    QT_TRANSLATE_NOOP("core", "taking the offset out"),
+    QT_TRANSLATE_NOOP("core", "the controller keeps the offset"),
+    QT_TRANSLATE_NOOP("core", "unknown, last read X %1, Y %2, Z %3 um"),
+    QT_TRANSLATE_NOOP("core", "unknown"),
+    QT_TRANSLATE_NOOP("core", "X %1, Y %2, Z %3 um"),
+    QT_TRANSLATE_NOOP("core", "it was stopped"),
+    QT_TRANSLATE_NOOP("core", "the sign check is done"),
+    QT_TRANSLATE_NOOP("core", "the controller holds an offset already: X %1, Y %2, Z %3 um"),
+    QT_TRANSLATE_NOOP("core", "compensating"),
+    QT_TRANSLATE_NOOP("core", "the number of values of %1"),
+    QT_TRANSLATE_NOOP("core", "Compensating"),
     QT_TRANSLATE_NOOP("core", "wrong serial settings"),
     QT_TRANSLATE_NOOP("core", "length %1"),
     QT_TRANSLATE_NOOP("core", "%1 bytes only"),

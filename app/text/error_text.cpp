@@ -131,6 +131,27 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Check for a second master or a faulty gateway.")},
     Row{ErrorCode::machine_busy, QT_TRANSLATE_NOOP("errors", "The controller is busy ({what})."),
         QT_TRANSLATE_NOOP("errors", "Wait a little and try again.")},
+    Row{ErrorCode::machine_gateway,
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "The gateway got no answer from the controller behind it ({what}, Modbus exception {exception})."),
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "Check the line behind the gateway, the unit number and the gateway's own timeout; the request is "
+            "repeated by itself.")},
+    Row{ErrorCode::machine_failed,
+        QT_TRANSLATE_NOOP("errors", "The controller failed at a request, or refused it ({what}, Modbus exception 4)."),
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "If it stays, look at the controller's own messages: some refuse in this way what the state of "
+            "the machine forbids.")},
+    Row{ErrorCode::machine_function_missing,
+        QT_TRANSLATE_NOOP("errors", "The controller does not have the Modbus function {function}, needed for {what}."),
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "Switch it on in the controller's Modbus server. Reading may use input registers (function 4) "
+            "instead of holding registers (function 3) in the register map; writing more than one register "
+            "needs function 16.")},
     Row{ErrorCode::machine_exception,
         QT_TRANSLATE_NOOP("errors", "The controller refused {what} (Modbus exception {exception})."),
         QT_TRANSLATE_NOOP("errors", "Check the register map against the controller's manual.")},
@@ -210,6 +231,29 @@ constexpr std::array rows = {
                           "known."),
         QT_TRANSLATE_NOOP("errors",
                           "Do not machine parts. Switch the compensation off at the controller, then use rollback.")},
+    Row{ErrorCode::upload_left_off,
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "The upload failed ({reason}). The old table is still active, but the compensation switch could "
+            "not be turned on again ({detail})."),
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "The machine runs without compensation until the switch is turned on: do it at the controller, or "
+            "here when the controller answers again.")},
+    Row{ErrorCode::compensation_ended,
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "The compensation ended: {reason}. The offset is back at 0; the compensation switch is {switch}."),
+        QT_TRANSLATE_NOOP("errors", "Find the cause, then start it again.")},
+    Row{ErrorCode::compensation_left,
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "The compensation ended ({reason}), but the machine could NOT be left as it was found ({detail}). "
+            "The controller holds this offset: {held}; the compensation switch is {switch}."),
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "Do not machine parts. Look at the offset at the controller and switch its compensation off; a "
+            "watchdog in the controller takes the offset out by itself.")},
     Row{ErrorCode::sign_check_failed,
         QT_TRANSLATE_NOOP("errors",
                           "The sign check failed on axis {axis}: commanded {commanded_um} um, seen in um: {seen_um}."),

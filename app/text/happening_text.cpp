@@ -18,6 +18,8 @@ constexpr std::array rows = {
     Row{"gap", QT_TRANSLATE_NOOP("happenings", "gap in the recording")},
     Row{"interrupted", QT_TRANSLATE_NOOP("happenings", "recording interrupted")},
     Row{"machine_busy", QT_TRANSLATE_NOOP("happenings", "controller busy")},
+    Row{"machine_gateway", QT_TRANSLATE_NOOP("happenings", "gateway without an answer from the controller")},
+    Row{"machine_failed", QT_TRANSLATE_NOOP("happenings", "controller failed at a request")},
     Row{"machine_silent", QT_TRANSLATE_NOOP("happenings", "controller silent")},
     Row{"machine_bad_reply", QT_TRANSLATE_NOOP("happenings", "reply that does not belong to the question")},
     Row{"machine_link_lost", QT_TRANSLATE_NOOP("happenings", "connection to the controller lost")},

@@ -44,7 +44,7 @@ class Run {
   Status accept(const MachineSample& sample);
   Status command(double spindle_rpm, bool coolant_on, bool path_cycle);
   Status move_to_measuring_position();
-  /// Calls again, with growing pauses, while the link is broken.
+  /// Calls again, with growing pauses, while what fails may pass.
   template <class Call>
   auto patiently(Call call) -> decltype(call());
   Status wait_for_link(const Error& error, double& waited_s, int attempt);
@@ -91,8 +91,6 @@ class Run {
   bool m_link_was_lost = false;
 };
 
-/// Errors of the link to the machine, which may heal: the run waits for them to pass.
-bool is_link_failure(const Error& error);
 /// {"code": ..., "context": {...}} for a problem's event.
 std::string details_of(const Error& error);
 

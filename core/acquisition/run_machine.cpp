@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/acquisition/machine_fault.h"
 #include "core/acquisition/run.h"
 #include "core/base/json.h"
 
@@ -18,19 +19,6 @@ constexpr double asleep_s = 20.0;      // machine
 constexpr double asleep_wall_s = 5.0;  // on a quick machine jitter of ours is long
 
 }  // namespace
-
-bool is_link_failure(const Error& error) {
-  switch (error.code) {
-    case ErrorCode::machine_unreachable:
-    case ErrorCode::machine_silent:
-    case ErrorCode::machine_link_lost:
-    case ErrorCode::machine_bad_reply:
-    case ErrorCode::machine_busy:
-      return true;
-    default:
-      return false;
-  }
-}
 
 std::string details_of(const Error& error) {
   const nlohmann::json details = {{"code", name_of(error.code)}, {"context", error.context}};
@@ -59,7 +47,7 @@ auto Run::patiently(Call call) -> decltype(call()) {
       clear("link");
       return result;
     }
-    if (!is_link_failure(result.error())) return result;
+    if (!may_pass(result.error())) return result;
     ZD_CHECK(wait_for_link(result.error(), waited_s, attempt));
   }
 }

@@ -69,16 +69,16 @@ FollowerOutput Follower::step(double time_s, const Temperatures& channels,
     output.mode = FollowerMode::safe_zero;
     output.reasons.push_back(describe(predicted.error()));
   }
-  if (m_stopping) {
-    output.mode = FollowerMode::stopping;
-    wanted_um = {};
-  }
   limit(dt_s, wanted_um, output);
   return output;
 }
 
-bool Follower::at_zero() const {
-  return std::all_of(m_offset_um.begin(), m_offset_um.end(), [](double offset) { return offset == 0.0; });
+double Follower::slowest_rate_um_s() const {
+  std::optional<double> slowest_um_s;
+  for (const auto& [name, axis] : m_table.axes) {
+    slowest_um_s = std::min(slowest_um_s.value_or(axis.max_um_per_s), axis.max_um_per_s);
+  }
+  return slowest_um_s.value_or(default_rate_um_s);
 }
 
 }  // namespace zerodrift::compensation

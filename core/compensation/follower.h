@@ -46,11 +46,10 @@ class Follower {
 
   /// One turn at the machine's time: temperatures (and inputs) by channel, positions by axis.
   FollowerOutput step(double time_s, const Temperatures& channels, const std::map<std::string, double>& positions_mm);
-  /// From now on run to 0.
-  void stop() { m_stopping = true; }
   /// What the controller holds now; it may have taken the offset out by itself (switch off, watchdog).
   void start_from(const std::array<double, 3>& offset_um) { m_offset_um = offset_um; }
-  bool at_zero() const;
+  /// The slowest of the axes, um/s of the machine's time.
+  double slowest_rate_um_s() const;
   const Table& table() const { return m_table; }
 
  private:
@@ -63,7 +62,6 @@ class Follower {
   FollowerOptions m_options;
   Predictor m_predictor;
   std::optional<double> m_time_s;
-  bool m_stopping = false;
   std::array<double, 3> m_offset_um{};
 };
 

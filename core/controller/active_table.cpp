@@ -11,6 +11,12 @@ constexpr std::size_t empty_table_words = 2;  // version of the layout, number o
 
 }  // namespace
 
+Status require_table(const acquisition::MachineIdentity& identity) {
+  if (identity.accepts_table) return {};
+  return fail(ErrorCode::machine_unsupported,
+              {{"what", "the controller's table"}, {"found", "none"}, {"expected", "a table it computes itself"}});
+}
+
 Result<ActiveMark> read_active_mark(ModbusMachine& machine) {
   ZD_TRY(const RegisterValues values,
          machine.read_values({"table_active_crc", "table_active_count", "table_active_sequence"}));

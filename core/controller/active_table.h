@@ -11,6 +11,9 @@
 
 namespace zerodrift::controller {
 
+/// machine_unsupported for a controller without a table of its own.
+Status require_table(const acquisition::MachineIdentity& identity);
+
 /// By what a controller tells one table from another; a few registers, quick to read.
 struct ActiveMark {
   std::uint32_t crc = 0;

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/acquisition/machine_fault.h"
 #include "core/compensation/interlock.h"
-#include "core/controller/upload.h"
+#include "core/controller/active_table.h"
+#include "core/controller/offset_exit.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -24,18 +26,13 @@ class Loop {
 
   Result<CompensatorSummary> run() {
     ZD_CHECK(prepare());
-    ZD_TRY(const bool on, m_machine.compensation_on());
-    ZD_CHECK(compensation::allow_offset_write(on));
-    double next = m_clock.steady().count();
-    while (!ending()) {
-      const double late_s = m_clock.steady().count() - next;
-      ZD_CHECK(turn(late_s));
-      // A turn that came more than a period late is not made up for: the schedule begins anew.
-      next += m_options.period_s + (late_s > m_options.period_s ? late_s : 0.0);
-      m_clock.wait_until(Seconds(next), m_context.stop);
-    }
-    ZD_CHECK(run_to_zero());
-    return m_summary;
+    const Status worked = without_throwing([this] { return follow(); });
+    const std::string reason = worked ? "it was stopped" : describe(worked.error());
+    const Status left = without_throwing([&] { return leave(reason); });
+    if (!left) return fail(left.error());
+    if (worked) return m_summary;
+    const auto on = m_machine.compensation_on();
+    return fail(ErrorCode::compensation_ended, {{"reason", reason}, {"switch", !on ? "unknown" : *on ? "on" : "off"}});
   }
 
  private:
@@ -46,19 +43,60 @@ class Loop {
     return out;
   }
 
+  /// Refusals before anything is written.
   Status prepare() {
+    ZD_CHECK(m_machine.may_write("Compensating"));
     ZD_TRY(const auto identity, m_machine.identify());
     if (!identity.accepts_host_offset) {
       return fail(ErrorCode::machine_unsupported,
                   {{"what", "the host offset"}, {"found", "none"}, {"expected", "one to write to"}});
     }
-    if (!identity.accepts_table) return {};
+    if (identity.accepts_table) ZD_CHECK(refuse_active_table());
+    ZD_TRY(m_was_on, m_machine.compensation_on());
+    return m_was_on || m_options.switch_on ? Status() : compensation::allow_offset_write(false);
+  }
+
+  Status refuse_active_table() {
     ZD_TRY(const ActiveTable active, read_active(m_machine));
-    if (active.words.size() <= 2) return {};
+    if (is_empty_table(active.words.size())) return {};
     return fail(ErrorCode::data_does_not_fit,
                 {{"what", "the controller's own table"},
                  {"found", fmt::format("an active one (version {}) that compensates already", active.sequence)},
                  {"expected", "none beside the host compensator; roll it back first"}});
+  }
+
+  /// What an earlier end without an exit left in the registers would move the axes with the switch.
+  Status turn_on() {
+    ZD_TRY(auto held_um, read_host_offset(m_machine));
+    const double end_s = m_clock.steady().count() + m_machine.host_seconds(60.0);
+    while (!is_zero(held_um)) {
+      const Status cleared = m_machine.clear_host_offset();
+      if (!cleared && !acquisition::may_pass(cleared.error())) return cleared;
+      m_clock.wait_for(Seconds(0.1), m_context.stop);
+      ZD_TRY(held_um, read_host_offset(m_machine));
+      if (m_clock.steady().count() > end_s || m_context.cancelled()) break;
+    }
+    if (!is_zero(held_um)) {
+      return fail(
+          ErrorCode::machine_not_ready,
+          {{"what", "compensating"}, {"reason", "the controller holds an offset already: " + text_of_offset(held_um)}});
+    }
+    m_turned_on = true;
+    return m_machine.switch_compensation(true);
+  }
+
+  Status follow() {
+    if (!m_was_on) ZD_CHECK(turn_on());
+    m_last_good_s = m_clock.steady().count();
+    double next = m_last_good_s;
+    while (!ending()) {
+      const double late_s = m_clock.steady().count() - next;
+      ZD_CHECK(turn(late_s));
+      // A turn that came more than a period late is not made up for: the schedule begins anew.
+      next += m_options.period_s + (late_s > m_options.period_s ? late_s : 0.0);
+      m_clock.wait_until(Seconds(next), m_context.stop);
+    }
+    return {};
   }
 
   bool ending() const {
@@ -79,24 +117,14 @@ class Loop {
     } else {
       ++m_summary.lost_turns;
       report.link_lost = true;
-      if (!is_link_error(done.error()) || m_clock.steady().count() - m_last_good_s > m_options.give_up_s) return done;
+      report.fault = done.error();
+      if (!acquisition::may_pass(done.error()) || without_machine_s() > m_options.give_up_s) return done;
     }
     if (m_observer) m_observer(report);
     return {};
   }
 
-  static bool is_link_error(const Error& error) {
-    switch (error.code) {
-      case ErrorCode::machine_unreachable:
-      case ErrorCode::machine_silent:
-      case ErrorCode::machine_link_lost:
-      case ErrorCode::machine_bad_reply:
-      case ErrorCode::machine_busy:
-        return true;
-      default:
-        return false;
-    }
-  }
+  double without_machine_s() const { return m_clock.steady().count() - m_last_good_s; }
 
   /// Temperatures, and the inputs a model that remembers may want, in the recording's names.
   std::map<std::string, double> channels_of(const acquisition::MachineSample& sample) const {
@@ -113,7 +141,9 @@ class Loop {
   Status exchange(CompensatorTurn& report) {
     ZD_TRY(const auto sample, m_machine.read());
     const std::map<std::string, double> channels = channels_of(sample);
-    report.machine_time_s = sample.machine_time_s;
+    const bool has_clock = std::isfinite(sample.machine_time_s);
+    report.machine_time_s =
+        has_clock ? sample.machine_time_s : m_clock.steady().count() * m_machine.profile().time_factor;
     report.axes = sample.axes;
     report.moving = sample.moving;
     report.applied_um = sample.applied_um;
@@ -129,15 +159,20 @@ class Loop {
     if (beats) ZD_CHECK(hear(held.at("heartbeat").front()));
     const auto& values = held.at("host_offset_um");
     const std::array<double, 3> offset_um{values.at(0), values.at(1), values.at(2)};
+    m_held_um = offset_um;
     watch_applied(sample, offset_um, report);
     m_follower.start_from(offset_um);
     auto reasons = std::move(report.output.reasons);
-    report.output = m_follower.step(sample.machine_time_s, channels, sample.axes);
+    report.output = m_follower.step(report.machine_time_s, channels, sample.axes);
     report.output.reasons.insert(report.output.reasons.end(), reasons.begin(), reasons.end());
     for (std::size_t i = 0; i < 3; ++i) {
       m_summary.largest_offset_um[i] = std::max(m_summary.largest_offset_um[i], std::abs(report.output.offset_um[i]));
     }
-    return m_machine.write_host_offset(report.output.offset_um);
+    const Status written = m_machine.write_host_offset(report.output.offset_um);
+    if (!written && written.error().code == ErrorCode::interlock_compensation_off) return {};  // turned off just now
+    ZD_CHECK(written);
+    m_held_um = report.output.offset_um;
+    return {};
   }
 
   /// What the controller applies must be what it was given: anything else is another compensation, or a wrong map.
@@ -175,14 +210,43 @@ class Loop {
                 {{"what", "its heartbeat"}, {"timeout_ms", fmt::format("{:.0f}", 1e3 * (now_s - m_beat_s))}});
   }
 
-  Status run_to_zero() {
-    m_follower.stop();
-    const double end_s = m_clock.steady().count() + m_machine.host_seconds(600.0);
-    while (!m_follower.at_zero() && m_clock.steady().count() < end_s) {
-      ZD_CHECK(turn(0.0));
-      m_clock.wait_for(Seconds(std::min(m_options.period_s, 0.2)), {});
+  Status leave(const std::string& reason) {
+    OffsetExitOptions exit;
+    exit.rate_um_s = m_follower.slowest_rate_um_s();
+    exit.patience_s = m_options.give_up_s;
+    exit.without_machine_s = m_held_um ? without_machine_s() : 0.0;
+    exit.pause_s = std::min(m_options.period_s, 0.2);
+    exit.switch_off = m_turned_on;
+    exit.last_um = m_held_um;
+    exit.may_write = [this]() -> Status {
+      if (m_machine.map().find("heartbeat") == nullptr) return {};
+      ZD_TRY(const double beat, m_machine.read_value("heartbeat"));
+      return hear(beat);
+    };
+    exit.observer = [this](const auto& held_um, const Status& done) { tell_exit(held_um, done); };
+    return leave_without_offset(m_machine, exit, reason);
+  }
+
+  void tell_exit(const std::array<double, 3>& held_um, const Status& done) {
+    if (!m_observer) return;
+    CompensatorTurn report;
+    report.machine_time_s = std::nan("");
+    report.output.mode = compensation::FollowerMode::stopping;
+    report.output.offset_um = held_um;
+    report.link_lost = !done;
+    if (!done) report.fault = done.error();
+    if (const auto sample = done ? m_machine.read() : Result<acquisition::MachineSample>(fail(done.error()))) {
+      report.machine_time_s = sample->machine_time_s;
+      report.axes = sample->axes;
+      report.moving = sample->moving;
+      report.applied_um = sample->applied_um;
+      report.switch_on = sample->compensation_on;
     }
-    return {};
+    // An observer that throws must not keep the offset in the machine.
+    static_cast<void>(without_throwing([&]() -> Status {
+      m_observer(report);
+      return {};
+    }));
   }
 
   ModbusMachine& m_machine;
@@ -192,11 +256,14 @@ class Loop {
   compensation::Follower m_follower;
   SystemClock m_clock;
   CompensatorSummary m_summary;
+  bool m_was_on = false;
+  bool m_turned_on = false;
   double m_last_good_s = 0.0;
-  std::optional<double> m_foreign_since_s;  // machine time
-  std::optional<double> m_beat;             // the controller's, as last read
-  double m_beat_s = 0.0;                    // when it changed
-  bool m_beats = false;                     // it has been seen to change
+  std::optional<std::array<double, 3>> m_held_um;  // by the controller, as last read or written
+  std::optional<double> m_foreign_since_s;         // machine time
+  std::optional<double> m_beat;                    // the controller's, as last read
+  double m_beat_s = 0.0;                           // when it changed
+  bool m_beats = false;                            // it has been seen to change
 };
 
 }  // namespace

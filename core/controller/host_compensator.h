@@ -2,7 +2,9 @@
 // The host compensator (C1): once a second or faster it reads the temperatures, lets the model predict and writes the
 // offset, interlocked with the switch. Both sides watch: the host beats a heartbeat, the controller ramps the offset to
 // 0 when it stops; and when the controller's own heartbeat stands still, a reply or not, nothing more is written to it,
-// as if it were gone. At the end the offset is run to 0. Runs for days in constant memory.
+// as if it were gone. Whatever ends it - asked to, the time over, an error, an exception thrown by the model or the
+// observer - the offset is run to 0 and read back, and the switch goes back to where it was found. Runs for days in
+// constant memory.
 
 #include <array>
 #include <functional>
@@ -22,6 +24,7 @@ namespace zerodrift::controller {
 struct HostCompensatorOptions {
   double period_s = 1.0;             // host seconds
   std::optional<double> duration_s;  // host seconds; none: until stopped
+  bool switch_on = false;            // turn the compensation on first; otherwise it must be on
   double give_up_s = 60.0;           // host seconds without the machine before it ends with the link's error
   double silence_s = 3.0;   // host seconds its heartbeat may stand still; a controller that never beats is not watched
   double foreign_um = 2.0;  // applied beside what is written, for foreign_s of the machine's time: something else moves
@@ -38,8 +41,9 @@ struct CompensatorTurn {
   compensation::FollowerOutput output;
   std::array<double, 3> applied_um{};  // as the controller tells
   bool switch_on = true;               // off: nothing was written (R4)
-  bool link_lost = false;
-  bool foreign = false;  // the controller applies something else than what was written
+  bool link_lost = false;              // no turn: the machine did not answer, or not as it should
+  std::optional<Error> fault;          // why not
+  bool foreign = false;                // the controller applies something else than what was written
 };
 
 /// How late turns began against their schedule, in bins of 1 ms up to a second: a figure for days in constant memory.
@@ -66,8 +70,9 @@ struct CompensatorSummary {
   std::array<double, 3> largest_offset_um{};  // absolute
 };
 
-/// Runs until stopped, or for the duration. data_does_not_fit when the controller's own table already compensates, or
-/// when it applies something although nothing is written.
+/// Runs until stopped, or for the duration; the offset is back at 0 then. data_does_not_fit when the controller's own
+/// table already compensates, or when it applies something although nothing is written. Once it has begun, an error is
+/// compensation_ended when the machine was left as it was found, else compensation_left, with what it holds.
 Result<CompensatorSummary> run_host_compensator(ModbusMachine& machine, const compensation::Table& table,
                                                 const HostCompensatorOptions& options, const TaskContext& context,
                                                 const std::function<void(const CompensatorTurn&)>& observer = {});

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,9 @@
 #include <cstring>
 #include <thread>
 #include <utility>
+
+#include "core/acquisition/machine_fault.h"
+#include "core/controller/rtu_reply.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -24,11 +28,27 @@ constexpr std::size_t mbap_bytes = 6;                 // transaction, protocol, 
 constexpr std::size_t header_bytes = mbap_bytes + 1;  // and the unit
 constexpr std::chrono::milliseconds idle{5};          // after so long without a request the wire is looked at first
 constexpr int most_pieces = 8;                        // of a reply; a healthy device sends one or two
-constexpr int exception_busy = 6;
-constexpr int exception_acknowledge = 5;
+constexpr int exception_function = 1;
+constexpr int function_read_holding = 3;
+constexpr int function_write_one = 6;
+constexpr int function_write = 16;
+constexpr std::size_t longest_serial_read = 256;
 
 std::string place_of(const ControllerSettings& settings) {
   return settings.kind == LinkKind::tcp ? settings.host : settings.device;
+}
+
+std::string name_of_function(int function) {
+  switch (function) {
+    case function_read_holding:
+      return "3 (read holding registers)";
+    case 4:
+      return "4 (read input registers)";
+    case function_write_one:
+      return "6 (write a single register)";
+    default:
+      return "16 (write several registers)";
+  }
 }
 
 Error bad_reply(const std::string& what, std::string detail) {
@@ -39,9 +59,28 @@ Error from_errno(int code, const std::string& what, int timeout_ms) {
   if (code == ETIMEDOUT || code == EAGAIN) {
     return Error{ErrorCode::machine_silent, {{"what", what}, {"timeout_ms", std::to_string(timeout_ms)}}};
   }
-  if (code == EMBBADCRC) return bad_reply(what, "check sum wrong");
   if (code > MODBUS_ENOBASE) return bad_reply(what, modbus_strerror(code));
   return Error{ErrorCode::machine_link_lost, {{"what", what}, {"detail", std::strerror(code)}}};
+}
+
+Error function_missing(int function, const std::string& what) {
+  return Error{ErrorCode::machine_function_missing, {{"what", what}, {"function", name_of_function(function)}}};
+}
+
+/// Modbus application protocol V1.1b3, clause 7.
+Error exception_error(int exception, const std::string& what) {
+  switch (exception) {
+    case 4:
+      return Error{ErrorCode::machine_failed, {{"what", what}}};
+    case 5:  // accepted, and still at it
+    case 6:
+      return Error{ErrorCode::machine_busy, {{"what", what}}};
+    case 10:
+    case 11:
+      return Error{ErrorCode::machine_gateway, {{"what", what}, {"exception", std::to_string(exception)}}};
+    default:
+      return Error{ErrorCode::machine_exception, {{"what", what}, {"exception", std::to_string(exception)}}};
+  }
 }
 
 int word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
@@ -74,6 +113,7 @@ class Link::Wire {
     modbus_set_byte_timeout(context, 0, 0);
     if (modbus_connect(context) != 0) return unreachable(modbus_strerror(errno));
     if (wire->m_tcp) wire->wait_in_calls();
+    if (!wire->m_tcp) modbus_flush(context);  // what came late for a former connection
     return wire;
   }
   ~Wire() {
@@ -93,14 +133,14 @@ class Link::Wire {
       modbus_flush(m_context);
       return false;
     }
-    const auto last = std::exchange(m_started, SteadyClock::now());
-    if (!surely && m_started - last < idle) return false;
+    if (!surely && SteadyClock::now() - m_started < idle) return false;
     std::uint8_t byte = 0;
     const auto got = ::recv(modbus_get_socket(m_context), &byte, 1, MSG_PEEK | MSG_DONTWAIT);
     return got >= 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
   }
 
   Status send(std::span<const std::uint8_t> pdu, const std::string& what) {
+    m_started = SteadyClock::now();
     std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> frame;
     std::size_t size = 0;
     if (m_tcp) {
@@ -113,7 +153,10 @@ class Link::Wire {
     frame[size++] = static_cast<std::uint8_t>(m_settings.unit);
     std::copy(pdu.begin(), pdu.end(), frame.begin() + static_cast<std::ptrdiff_t>(size));
     size += pdu.size();
-    if (!m_tcp) {  // adds the CRC
+    if (!m_tcp) {
+      m_sent.assign(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size));
+      append_rtu_crc(m_sent);
+      // Adds the CRC by itself.
       const int sent = modbus_send_raw_request(m_context, frame.data(), static_cast<int>(size));
       if (sent < 0) return fail(from_errno(errno, what, m_settings.timeout_ms));
       return {};
@@ -125,16 +168,15 @@ class Link::Wire {
   }
 
   Result<Pdu> receive(const std::string& what) {
+    if (!m_tcp) return receive_rtu(what);
     std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH + 1> buffer;  // one more, to see bytes beyond a full frame
-    int got = 0;
-    if (m_tcp) {
-      ZD_TRY(got, receive_tcp(buffer, what));
-    } else {
-      got = modbus_receive_confirmation(m_context, buffer.data());
-      if (got < 0) return fail(from_errno(errno, what, m_settings.timeout_ms));
-    }
+    ZD_TRY(const int got, receive_tcp(buffer, what));
     return checked(std::span(buffer).first(static_cast<std::size_t>(got)), what);
   }
+
+  bool is_serial() const { return !m_tcp; }
+  LocalEcho echo() const { return m_echo; }
+  bool had_zeros() const { return m_zeros; }
 
  private:
   explicit Wire(const ControllerSettings& settings)
@@ -173,6 +215,24 @@ class Link::Wire {
     return static_cast<int>(have);
   }
 
+  /// The library's own receiving takes whatever comes first for the reply.
+  Result<Pdu> receive_rtu(const std::string& what) {
+    const int handle = modbus_get_socket(m_context);
+    RtuReply reply(m_sent, m_echo);
+    std::array<std::uint8_t, longest_serial_read> buffer;
+    while (reply.state() == RtuReply::State::incomplete) {
+      if (!wait_for_more(handle)) return fail(from_errno(ETIMEDOUT, what, m_settings.timeout_ms));
+      const auto got = ::read(handle, buffer.data(), buffer.size());
+      if (got < 0 && (errno == EAGAIN || errno == EINTR)) continue;
+      if (got <= 0) return fail(from_errno(got == 0 ? EIO : errno, what, m_settings.timeout_ms));
+      reply.add(std::span(buffer).first(static_cast<std::size_t>(got)));
+      m_echo = reply.echo();
+      m_zeros = m_zeros || reply.had_zeros();
+    }
+    if (reply.state() == RtuReply::State::spoilt) return fail(bad_reply(what, reply.detail()));
+    return checked(reply.frame(), what);
+  }
+
   bool wait_for_more(int handle) const {
     const auto end = m_started + std::chrono::milliseconds(m_settings.timeout_ms);
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - SteadyClock::now()).count();
@@ -183,8 +243,7 @@ class Link::Wire {
   /// The reply without its envelope, if the envelope is right.
   Result<Pdu> checked(std::span<const std::uint8_t> frame, const std::string& what) const {
     const std::size_t lead = m_tcp ? header_bytes : 1;
-    const std::size_t trail = m_tcp ? 0 : 2;  // CRC, checked by the library
-    if (frame.size() < lead + trail + 2) return fail(bad_reply(what, fmt::format("{} bytes only", frame.size())));
+    if (frame.size() < lead + 2) return fail(bad_reply(what, fmt::format("{} bytes only", frame.size())));
     if (m_tcp) {
       const int transaction = word_at(frame, 0);
       if (transaction != m_transaction) {
@@ -198,7 +257,7 @@ class Link::Wire {
     }
     const int unit = frame[lead - 1];
     if (unit != m_settings.unit) return fail(bad_reply(what, fmt::format("unit {}, not {}", unit, m_settings.unit)));
-    const auto pdu = frame.subspan(lead, frame.size() - lead - trail);
+    const auto pdu = frame.subspan(lead);
     return Pdu(pdu.begin(), pdu.end());
   }
 
@@ -206,6 +265,9 @@ class Link::Wire {
   bool m_tcp;
   modbus_t* m_context;
   int m_transaction = 0;
+  LocalEcho m_echo = LocalEcho::unknown;
+  bool m_zeros = false;                                    // before a reply
+  std::vector<std::uint8_t> m_sent;                        // the last request over the serial line, with its CRC
   int m_pieces = 0;                                        // that the last reply came in
   SteadyClock::time_point m_started = SteadyClock::now();  // of the last request
 };
@@ -218,30 +280,56 @@ void Link::close() {
 }
 
 Result<Link::Pdu> Link::exchange_once(const Pdu& request, const std::string& what, Retry retry) {
+  std::this_thread::sleep_until(m_in_peace_until);
   if (m_wire && m_wire->stale(retry == Retry::no)) m_wire.reset();
   if (!m_wire) {
     ZD_TRY(m_wire, Wire::open(m_settings));
     if (m_was_connected) ++m_health.reconnects;
     m_was_connected = true;
   }
+  ZD_CHECK(find_local_echo(request, what));
   ++m_health.requests;
   ZD_CHECK(m_wire->send(request, what));
-  ZD_TRY(Pdu reply, m_wire->receive(what));
+  auto received = m_wire->receive(what);
+  keep_remarks();
+  ZD_TRY(Pdu reply, std::move(received));
   if (m_wire->in_pieces()) ++m_health.faults["reply_in_pieces"];
   if (reply[0] == (request[0] | 0x80)) {
-    const int code = reply[1];
-    if (code == exception_busy || code == exception_acknowledge) return fail(ErrorCode::machine_busy, {{"what", what}});
-    return fail(ErrorCode::machine_exception, {{"what", what}, {"exception", std::to_string(code)}});
+    const bool unknown = reply[1] == exception_function && !m_answered.contains(request[0]);
+    return fail(unknown ? function_missing(request[0], what) : exception_error(reply[1], what));
   }
   if (reply[0] != request[0]) {
     return fail(bad_reply(what, fmt::format("function {} instead of {}", reply[0], request[0])));
   }
+  m_answered.insert(request[0]);
   return reply;
 }
 
+/// On a serial line the reply to function 6 is the request once more. Where it is not known whether the adapter hears
+/// itself, a read tells first; what it reads is nobody's business.
+Status Link::find_local_echo(const Pdu& request, const std::string& what) {
+  if (!m_wire->is_serial() || request[0] != function_write_one || m_wire->echo() != LocalEcho::unknown) return {};
+  ++m_health.requests;
+  ZD_CHECK(m_wire->send(Pdu{function_read_holding, request[1], request[2], 0, 1}, what));
+  ZD_CHECK(m_wire->receive(what).map([](const Pdu&) {}));
+  keep_remarks();
+  return {};
+}
+
+void Link::keep_remarks() {
+  const auto keep = [this](bool so, const char* remark) {
+    auto& all = m_health.remarks;
+    if (so && std::find(all.begin(), all.end(), remark) == all.end()) all.emplace_back(remark);
+  };
+  keep(m_wire && m_wire->echo() == LocalEcho::heard,
+       "the serial adapter hears what it sends (local echo); the copies are dropped, its echo is better switched off");
+  keep(m_wire && m_wire->had_zeros(),
+       "zero bytes come before the replies and are dropped; check the termination and the bias of the serial line");
+  keep(m_without_6, "the controller has no function 6 (write a single register); function 16 is used");
+}
+
 bool Link::again(const Error& error, int attempt, Retry retry) const {
-  if (retry == Retry::no || attempt + 1 >= m_attempts) return false;
-  if (error.code == ErrorCode::machine_exception) return false;
+  if (retry == Retry::no || attempt + 1 >= m_attempts || !acquisition::may_pass(error)) return false;
   // A host that has never answered is a wrong address; one that has is a pulled cable or a restart.
   return error.code != ErrorCode::machine_unreachable || m_was_connected;
 }
@@ -251,8 +339,17 @@ Result<Link::Pdu> Link::exchange(const Pdu& request, const std::string& what, Re
     auto reply = exchange_once(request, what, retry);
     if (reply) return reply;
     const ErrorCode code = reply.error().code;
-    if (code != ErrorCode::machine_exception) ++m_health.faults[std::string(name_of(code))];
-    if (code != ErrorCode::machine_exception && code != ErrorCode::machine_busy) m_wire.reset();
+    if (acquisition::may_pass(reply.error())) ++m_health.faults[std::string(name_of(code))];
+    const bool answered = code == ErrorCode::machine_busy || code == ErrorCode::machine_gateway ||
+                          code == ErrorCode::machine_failed || code == ErrorCode::machine_exception ||
+                          code == ErrorCode::machine_function_missing;
+    if (!answered) {
+      // Over a serial line nothing tells a late reply from the answer to the next question.
+      if (m_wire && m_wire->is_serial()) {
+        m_in_peace_until = SteadyClock::now() + std::chrono::milliseconds(m_settings.timeout_ms);
+      }
+      m_wire.reset();
+    }
     if (!again(reply.error(), attempt, retry)) return reply;
     ++m_health.retries;
     std::this_thread::sleep_for(std::chrono::milliseconds(std::min(10 << (2 * attempt), 500)));
@@ -261,7 +358,7 @@ Result<Link::Pdu> Link::exchange(const Pdu& request, const std::string& what, Re
 
 Result<std::vector<std::uint16_t>> Link::read(RegisterSpace space, int address, int count, const std::string& what) {
   Pdu request(5);
-  request[0] = space == RegisterSpace::holding ? 3 : 4;
+  request[0] = space == RegisterSpace::holding ? function_read_holding : 4;
   put_word(request, 1, address);
   put_word(request, 3, count);
   for (int attempt = 0;; ++attempt) {
@@ -280,9 +377,26 @@ Result<std::vector<std::uint16_t>> Link::read(RegisterSpace space, int address, 
 }
 
 Status Link::write(int address, std::span<const std::uint16_t> words, const std::string& what, Retry retry) {
-  const bool one = words.size() == 1;
+  const auto is_missing = [](const Status& done) {
+    return !done && done.error().code == ErrorCode::machine_function_missing;
+  };
+  const bool by_6 = words.size() == 1 && !m_without_6;
+  const Status done = write_by(by_6 ? function_write_one : function_write, address, words, what, retry);
+  if (!by_6 || !is_missing(done)) return done;
+  const Status by_16 = write_by(function_write, address, words, what, retry);
+  if (is_missing(by_16)) {
+    return fail(ErrorCode::machine_function_missing, {{"what", what}, {"function", "6 or 16 (write registers)"}});
+  }
+  m_without_6 = by_16.has_value();
+  keep_remarks();
+  return by_16;
+}
+
+Status Link::write_by(int function, int address, std::span<const std::uint16_t> words, const std::string& what,
+                      Retry retry) {
+  const bool one = function == function_write_one;
   Pdu request(one ? 5 : 6 + 2 * words.size());
-  request[0] = one ? 6 : 16;
+  request[0] = static_cast<std::uint8_t>(function);
   put_word(request, 1, address);
   if (!one) {
     put_word(request, 3, static_cast<int>(words.size()));

@@ -1,14 +1,18 @@
 #pragma once
 // One Modbus connection, TCP or RTU. Requests are framed and replies checked here - transaction, protocol, length,
 // unit, function, byte count - because libmodbus takes some wrong replies for good; it serves for connecting, the
-// serial line and receiving. Every call is bounded in time. After any error but a Modbus exception the connection is
-// closed and opened anew with a growing pause, so that a late reply can never be taken for the answer to a later
-// question. Reads, and writes that may be repeated, are tried again a few times; each fault is counted under its name.
+// serial line and sending. Every call is bounded in time. After any error but a Modbus exception the connection is
+// closed and opened anew with a growing pause, and a serial line is left in peace for a timeout, so that a late reply
+// can never be taken for the answer to a later question. Reads, and writes that may be repeated, are tried again a few
+// times while the fault may pass (acquisition/machine_fault.h); each fault is counted under its name. What a device or
+// an adapter does beside the standard and is overcome - no function 6, local echo, zero bytes - is in remarks.
 // One thread at a time.
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +33,7 @@ struct LinkHealth {
   long retries = 0;
   long reconnects = 0;
   std::map<std::string, int> faults;  // error name -> how often it was met and overcome or given up
+  std::vector<std::string> remarks;   // each once
 };
 
 class Link {
@@ -41,7 +46,8 @@ class Link {
 
   /// `what` names the request in errors: "temperatures", "staging area". At most 125 registers.
   Result<std::vector<std::uint16_t>> read(RegisterSpace space, int address, int count, const std::string& what);
-  /// Function 6 for one register, 16 for up to 123.
+  /// Function 6 for one register, 16 for up to 123 and for a device without 6. machine_function_missing when the device
+  /// has not what is needed.
   Status write(int address, std::span<const std::uint16_t> words, const std::string& what, Retry retry = Retry::yes);
   void close();
 
@@ -55,6 +61,10 @@ class Link {
   using Pdu = std::vector<std::uint8_t>;  // function code and data
 
   Result<Pdu> exchange(const Pdu& request, const std::string& what, Retry retry);
+  Status write_by(int function, int address, std::span<const std::uint16_t> words, const std::string& what,
+                  Retry retry);
+  Status find_local_echo(const Pdu& request, const std::string& what);
+  void keep_remarks();
   Result<Pdu> exchange_once(const Pdu& request, const std::string& what, Retry retry);
   bool again(const Error& error, int attempt, Retry retry) const;
 
@@ -63,6 +73,9 @@ class Link {
   LinkHealth m_health;
   int m_attempts = 5;
   bool m_was_connected = false;
+  std::set<int> m_answered;  // functions that the device has carried out: it does not lack them
+  bool m_without_6 = false;  // the device writes single registers by function 16
+  std::chrono::steady_clock::time_point m_in_peace_until{};  // a serial line after a reply that did not come
 };
 
 }  // namespace zerodrift::controller

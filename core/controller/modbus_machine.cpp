@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/acquisition/machine_fault.h"
 #include "core/base/json.h"
 #include "core/base/resources.h"
 #include "core/compensation/interlock.h"
@@ -71,8 +72,14 @@ std::vector<std::string> present(const RegisterMap& map, const std::vector<std::
   return out;
 }
 
+bool refuses(const Error& error, const char* exception) {
+  return error.code == ErrorCode::machine_exception && error.context.at("exception") == exception;
+}
 bool refuses_address(const Error& error) {
-  return error.code == ErrorCode::machine_exception && error.context.at("exception") == "2";
+  return refuses(error, "2");
+}
+bool refuses_count(const Error& error) {
+  return refuses(error, "3");
 }
 
 }  // namespace
@@ -107,8 +114,14 @@ Result<std::vector<std::uint16_t>> ModbusMachine::read_span(const ReadSpan& span
   while (static_cast<int>(words.size()) < span.count) {
     const int done = static_cast<int>(words.size());
     const int count = std::min(m_map.max_read, span.count - done);
-    ZD_TRY(const auto part, m_link.read(span.space, span.address + done, count, what));
-    words.insert(words.end(), part.begin(), part.end());
+    const auto part = m_link.read(span.space, span.address + done, count, what);
+    if (!part && refuses_count(part.error()) && count > 1) {
+      // A device that answers for fewer registers a request; even, so that no value of two words is read in halves.
+      m_map.max_read = std::max(1, count / 4 * 2);
+      continue;
+    }
+    if (!part) return fail(part.error());
+    words.insert(words.end(), part->begin(), part->end());
   }
   return words;
 }
@@ -124,7 +137,9 @@ Result<RegisterValues> ModbusMachine::read_values(const std::vector<std::string>
   RegisterValues values;
   for (const ReadSpan& span : plan_reads(m_single_reads ? strict : m_map, entries)) {
     const std::string what = names.size() == 1 ? names.front() : fmt::format("registers from {}", span.address);
+    const int most = m_map.max_read;
     auto words = read_span(span, what);
+    if (m_map.max_read < most) return read_values(names);  // planned anew: no value is read in two halves
     // Asked again: one refusal may be of a request that was spoilt on its way, a gap is refused each time.
     if (!words && refuses_address(words.error())) words = read_span(span, what);
     if (!words) {
@@ -153,6 +168,10 @@ Result<double> ModbusMachine::read_value(const std::string& name) {
 Status ModbusMachine::write_values(const std::string& name, const std::vector<double>& values, Retry retry) {
   ZD_CHECK(m_permit.check("Writing " + name));
   ZD_TRY(const Register entry, m_map.require(name));
+  if (static_cast<int>(values.size()) > entry.count) {
+    return fail(
+        not_fitting("the number of values of " + name, std::to_string(entry.count), std::to_string(values.size())));
+  }
   std::vector<std::uint16_t> words;
   for (const double value : values) {
     ZD_TRY(const auto part, encode(entry, value));
@@ -206,7 +225,8 @@ Result<MachineIdentity> ModbusMachine::identify() {
   const auto able = [&](int bit, const char* entry) {
     return listed ? (bits & bit) != 0 : m_map.find(entry) != nullptr;
   };
-  identity.accepts_host_offset = able(can_host_offset, "host_offset_um") && m_map.find("host_offset_um") != nullptr;
+  const Register* offset = m_map.find("host_offset_um");
+  identity.accepts_host_offset = able(can_host_offset, "host_offset_um") && offset != nullptr && offset->count == 3;
   identity.accepts_table = able(can_table, "table_commit") && m_map.find("table_commit") != nullptr;
   identity.has_probes = able(has_probes, "probe_um") && m_map.find("probe_um") != nullptr;
   const Register* staging = m_map.find("table_staging");
@@ -305,10 +325,12 @@ Status ModbusMachine::switch_compensation(bool on) {
   const auto end = after(host_seconds(10.0));
   auto command_again = std::chrono::steady_clock::now();
   for (;;) {
-    // Once a second: a command that came over spoilt is not waited for in vain, and one that came over means the same.
     if (std::chrono::steady_clock::now() >= command_again) {
-      ZD_CHECK(write_values("command_compensation", {on ? 1.0 : 0.0}));
-      command_again = after(1.0);
+      // After an answer that is missing or unclear, the switch itself is asked before it is commanded again.
+      const Status sent = write_values("command_compensation", {on ? 1.0 : 0.0}, Retry::no);
+      if (!sent && !acquisition::may_pass(sent.error())) return sent;
+      // Once a second: a command that came over spoilt is not waited for in vain.
+      command_again = after(sent ? 1.0 : 0.1);
     }
     ZD_TRY(const bool is_on, compensation_on());
     if (is_on == on) return {};
@@ -392,6 +414,10 @@ Status ModbusMachine::write_host_offset(const std::array<double, 3>& compensatio
   if (!m_watchdog_set) ZD_CHECK(set_watchdog(default_watchdog_s));
   ZD_CHECK(beat());
   return write_values("host_offset_um", {compensation_um.begin(), compensation_um.end()});
+}
+
+Status ModbusMachine::clear_host_offset() {
+  return write_values("host_offset_um", {0.0, 0.0, 0.0});
 }
 
 }  // namespace zerodrift::controller

@@ -37,6 +37,11 @@ class ModbusMachine : public acquisition::MachineIo {
   Status switch_compensation(bool on) override;
   /// Also beats the host heartbeat. interlock_compensation_off while the switch is off.
   Status write_host_offset(const std::array<double, 3>& compensation_um) override;
+  /// Takes the host offset out of the registers at once, with the switch off as well: 0 compensates nothing. With the
+  /// switch on it is no way out, for the axes would jump.
+  Status clear_host_offset();
+  /// access_locked without a permit to write.
+  Status may_write(const std::string& operation) const { return m_permit.check(operation); }
 
   /// Decoded values of registers of the map, read together.
   Result<RegisterValues> read_values(const std::vector<std::string>& names);

@@ -232,13 +232,21 @@ class ModbusServer::Impl {
     if (unit != m_options.unit && unit != 0 && unit != 255) {
       return deliver(handle, maker.exception(frame, ModbusException::gateway_target_silent), {}, stop);
     }
-    const auto request = understood(frame);
+    const auto request = m_options.without_functions.contains(frame[header_bytes])
+                             ? tl::expected<Request, ModbusException>(tl::unexpected(ModbusException::illegal_function))
+                             : understood(frame);
     if (!request) return deliver(handle, maker.exception(frame, request.error()), {}, stop);
     const bool is_write = request->function != function_read;
     const ReplyFault fault = m_options.fault ? m_options.fault(is_write) : ReplyFault{};
     if (fault.kind == ReplyFault::Kind::drop) return false;
     if (fault.kind == ReplyFault::Kind::busy) {
       return deliver(handle, maker.exception(frame, ModbusException::busy), fault, stop);
+    }
+    if (fault.kind == ReplyFault::Kind::refused || fault.kind == ReplyFault::Kind::refused_after) {
+      if (is_write && fault.kind == ReplyFault::Kind::refused_after) {
+        static_cast<void>(m_options.write(request->address, request->values));
+      }
+      return deliver(handle, maker.exception(frame, fault.exception), fault, stop);
     }
     if (is_write) {
       if (const auto refused = m_options.write(request->address, request->values)) {
@@ -274,6 +282,7 @@ class ModbusServer::Impl {
       reply[0] = static_cast<std::uint8_t>(next >> 8);
       reply[1] = static_cast<std::uint8_t>(next);
     }
+    if (fault.kind == ReplyFault::Kind::wrong_unit) ++reply[6];
     if (fault.kind == ReplyFault::Kind::truncated) reply.resize(reply.size() / 2);
     return send_all(handle, reply.data(), reply.size());
   }

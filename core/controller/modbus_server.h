@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
@@ -25,7 +26,9 @@ enum class ModbusException : std::uint8_t {
   illegal_address = 2,
   illegal_value = 3,
   device_failure = 4,
+  acknowledge = 5,
   busy = 6,
+  gateway_path_unavailable = 10,
   gateway_target_silent = 11,
 };
 
@@ -35,13 +38,17 @@ struct ReplyFault {
     none,
     late,               // sent whole, after the delay
     busy,               // exception 6 instead; the request is not carried out
+    refused,            // the exception chosen instead; the request is not carried out
+    refused_after,      // the exception chosen instead; the request is carried out all the same
+    wrong_unit,         // unit one too high
     wrong_transaction,  // transaction id one too high
     truncated,          // the last half never comes
     drop,               // the connection is closed instead of a reply
     bytewise,           // one byte a packet
   };
   Kind kind = Kind::none;
-  std::chrono::milliseconds delay{0};  // before the reply; for bytewise: between bytes
+  std::chrono::milliseconds delay{0};                 // before the reply; for bytewise: between bytes
+  ModbusException exception = ModbusException::busy;  // of refused and refused_after
 };
 
 using RegisterReply = tl::expected<std::vector<std::uint16_t>, ModbusException>;
@@ -53,6 +60,7 @@ struct ModbusServerOptions {
   std::function<RegisterReply(int address, int count)> read;
   std::function<std::optional<ModbusException>(int address, std::span<const std::uint16_t> values)> write;
   std::function<ReplyFault(bool is_write)> fault;  // may be empty
+  std::set<int> without_functions = {};            // answered with exception 1
 };
 
 class ModbusServer {

@@ -12,7 +12,8 @@ using Words = std::vector<std::uint16_t>;
 
 /// The device answered, but not for these registers: the others may be read all the same.
 bool only_these(const Error& error) {
-  return error.code == ErrorCode::machine_exception;
+  return error.code == ErrorCode::machine_exception || error.code == ErrorCode::machine_failed ||
+         error.code == ErrorCode::machine_function_missing;
 }
 
 RegisterValue decoded(const Register& shown, std::span<const std::uint16_t> words) {

@@ -94,6 +94,7 @@ UploadRecord push_table(ModbusMachine& machine, const compensation::Table& table
 Result<RollbackTarget> rollback_target(ModbusMachine& machine, const RollbackChoice& choice,
                                        const TableHistory& history) {
   ZD_TRY(const auto identity, machine.identify());
+  ZD_CHECK(require_table(identity));
   ZD_TRY(const TableLog before, history.read(identity.serial));
   RollbackTarget target;
   ZD_TRY(target.active, read_active(machine));

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+
+#include "core/controller/offset_exit.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -83,16 +86,16 @@ class SignCheck {
                   {{"what", "the host offset"}, {"found", "none"}, {"expected", "one, for the sign check"}});
     }
     ZD_TRY(const bool was_on, m_machine.compensation_on());
-    ZD_CHECK(m_machine.switch_compensation(true));
-    Status checked = watched();
+    Status checked = m_machine.switch_compensation(true);
+    if (checked) checked = without_throwing([this] { return watched(); });
     // The way back is not cancelled: offset 0, then the switch.
-    const Status zeroed = m_machine.write_host_offset({0.0, 0.0, 0.0});
+    OffsetExitOptions exit;
+    exit.rate_um_s = std::numeric_limits<double>::infinity();  // the controller limits the test offset's rate by itself
+    exit.patience_s = watchdog_s;
+    exit.switch_off = !was_on;
     const Status guarded = m_machine.set_watchdog(ModbusMachine::default_watchdog_s);
-    const Status switched = was_on ? Status{} : m_machine.switch_compensation(false);
-    for (const Status& status : {checked, zeroed, guarded, switched}) {
-      if (!status) return status;
-    }
-    return {};
+    ZD_CHECK(leave_without_offset(m_machine, exit, checked ? "the sign check is done" : describe(checked.error())));
+    return checked ? guarded : checked;
   }
 
   Status watched() {

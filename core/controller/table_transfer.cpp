@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "core/acquisition/machine_fault.h"
 #include "core/controller/table_words.h"
 
 namespace zerodrift::controller {
@@ -129,13 +130,16 @@ Status TableTransfer::announce() {
 }
 
 Status TableTransfer::commit() {
-  for (int attempt = 0;; ++attempt) {
+  constexpr int attempts = 3;
+  for (int attempt = 1;; ++attempt) {
     m_committed = true;  // from here on the controller may have taken it, whatever the link says
     const Status sent = m_machine.write_values("table_commit", {static_cast<double>(m_sequence)}, Retry::no);
-    if (sent) return {};
+    if (sent || !acquisition::may_pass(sent.error())) return sent;
+    // Unclear: the controller's own word decides, after time to take the commit up.
+    std::this_thread::sleep_for(std::chrono::milliseconds(50 * attempt));
     ZD_TRY(const TableStatus now, read_table_status(m_machine));
     if (now.sequence == m_sequence || now.commit == m_sequence) return {};  // it did arrive
-    if (attempt == 2) return fail(sent.error());
+    if (attempt == attempts) return sent;
   }
 }
 

@@ -47,10 +47,7 @@ class Upload {
     ZD_TRY(const auto identity, m_machine.identify());
     m_record.machine = identity.name;
     m_record.serial = identity.serial;
-    if (!identity.accepts_table) {
-      return fail(ErrorCode::machine_unsupported,
-                  {{"what", "the controller's table"}, {"found", "none"}, {"expected", "a table it computes itself"}});
-    }
+    ZD_CHECK(require_table(identity));
     if (table != nullptr) ZD_CHECK(check_machine(*table));
     ZD_TRY(m_record.new_words, make_words(identity.table_capacity_registers));
     m_record.crc = crc_of_words(m_record.new_words);
@@ -162,7 +159,10 @@ class Upload {
     const auto restored = restore(committed);
     if (!restored) {
       // Without a commit only the staging area was touched: the active table is known to be the old one.
-      if (!committed) return fail(reason);
+      if (!committed) {
+        if (!m_was_on || m_options.activation == Activation::off) return fail(reason);
+        return fail(ErrorCode::upload_left_off, {{"reason", why}, {"detail", describe(restored.error())}});
+      }
       enter(UploadState::restore_failed, describe(restored.error()));
       return fail(ErrorCode::upload_restore_failed, {{"reason", why}, {"detail", describe(restored.error())}});
     }

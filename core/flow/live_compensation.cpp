@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -74,13 +75,22 @@ class Watch {
     return true;
   }
 
+  /// On this thread an exception would end the program, and the offset would stay in the machine.
+  Result<acquisition::ErrorSample> measure(const TaskContext& context) {
+    try {
+      return m_source->measure(context);
+    } catch (const std::exception& thrown) {
+      return fail(ErrorCode::internal, {{"detail", thrown.what()}});
+    }
+  }
+
   void work(const std::stop_token& stop) {
     const TaskContext context{stop, {}};
     std::unique_lock lock(m_mutex);
     while (m_arrived.wait(lock, stop, [this] { return m_there; }) && !stop.stop_requested()) {
       const long moves = m_moves;
       lock.unlock();
-      auto sample = m_source->measure(context);
+      auto sample = measure(context);
       lock.lock();
       // A machine that moved meanwhile was not measured where it was thought to stand.
       if (sample && moves == m_moves) {
@@ -130,6 +140,7 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
   Watch watch(job, profile, options);
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;
+  how.switch_on = true;
   if (!model.is_static()) how.predictor = compensation::live_predictor(model);
 
   commissioning::AuditEntry entry;
@@ -141,17 +152,14 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
   entry.new_value = fmt::format("what the model says, at most {:.0f} um, every {} s", profile.max_um, options.period_s);
   controller::CompensatorSummary summary;
   const auto work = [&]() -> Status {
-    if (!was_on) ZD_CHECK(machine->switch_compensation(true));
     auto ran = controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {
       LiveTurn live{turn, {}, {}};
       watch.exchange(live);
       observer(live);
     });
-    // Also after a failure: the switch is not left on by us. A link that is gone is left to the controller's watchdog.
-    Status off = was_on ? Status() : machine->switch_compensation(false);
     if (!ran) return fail(ran.error());
     summary = *ran;
-    return off;
+    return {};
   };
   ZD_CHECK(audited(job, entry, work));
   return summary;

@@ -1,7 +1,8 @@
 #pragma once
 // The host compensator (C1) with the model of a job, and beside it what is left (C2): whenever the machine stands where
-// the camera was calibrated, the error that remains is measured, from the zero of the warm-up run. The switch is put
-// back to where it was found.
+// the camera was calibrated, the error that remains is measured, from the zero of the warm-up run. However it ends, the
+// offset is run to 0 and the switch is put back to where it was found, or compensation_left says what the machine
+// holds.
 
 #include <functional>
 #include <optional>

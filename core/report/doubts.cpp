@@ -50,6 +50,7 @@ std::string in_words(const Source& source, const Error& error) {
     case ErrorCode::machine_silent:
     case ErrorCode::machine_link_lost:
     case ErrorCode::machine_unreachable:
+    case ErrorCode::machine_gateway:
       return source.say("the controller did not answer");
     default:
       return source.tell("the program could not do it ({})", name_of(error.code));

@@ -750,6 +750,82 @@
         <translation>校验和错误</translation>
     </message>
     <message>
+        <source>3 (read holding registers)</source>
+        <translation>3（读保持寄存器）</translation>
+    </message>
+    <message>
+        <source>4 (read input registers)</source>
+        <translation>4（读输入寄存器）</translation>
+    </message>
+    <message>
+        <source>6 (write a single register)</source>
+        <translation>6（写单个寄存器）</translation>
+    </message>
+    <message>
+        <source>16 (write several registers)</source>
+        <translation>16（写多个寄存器）</translation>
+    </message>
+    <message>
+        <source>6 or 16 (write registers)</source>
+        <translation>6 或 16（写寄存器）</translation>
+    </message>
+    <message>
+        <source>the serial adapter hears what it sends (local echo); the copies are dropped, its echo is better switched off</source>
+        <translation>串口适配器会收到自己发送的数据（本地回显）；回显已丢弃，最好关闭其回显功能</translation>
+    </message>
+    <message>
+        <source>zero bytes come before the replies and are dropped; check the termination and the bias of the serial line</source>
+        <translation>应答前出现零字节，已丢弃；请检查串行线路的终端电阻和偏置</translation>
+    </message>
+    <message>
+        <source>the controller has no function 6 (write a single register); function 16 is used</source>
+        <translation>控制器没有功能码 6（写单个寄存器）；改用功能码 16</translation>
+    </message>
+    <message>
+        <source>taking the offset out</source>
+        <translation>撤除偏置</translation>
+    </message>
+    <message>
+        <source>the controller keeps the offset</source>
+        <translation>控制器仍保持偏置</translation>
+    </message>
+    <message>
+        <source>unknown, last read X %1, Y %2, Z %3 um</source>
+        <translation>未知，上次读取 X %1、Y %2、Z %3 um</translation>
+    </message>
+    <message>
+        <source>unknown</source>
+        <translation>未知</translation>
+    </message>
+    <message>
+        <source>X %1, Y %2, Z %3 um</source>
+        <translation>X %1、Y %2、Z %3 um</translation>
+    </message>
+    <message>
+        <source>it was stopped</source>
+        <translation>已被停止</translation>
+    </message>
+    <message>
+        <source>the sign check is done</source>
+        <translation>符号检查已完成</translation>
+    </message>
+    <message>
+        <source>the controller holds an offset already: X %1, Y %2, Z %3 um</source>
+        <translation>控制器中已有偏置：X %1、Y %2、Z %3 um</translation>
+    </message>
+    <message>
+        <source>compensating</source>
+        <translation>补偿</translation>
+    </message>
+    <message>
+        <source>the number of values of %1</source>
+        <translation>%1 的数值个数</translation>
+    </message>
+    <message>
+        <source>Compensating</source>
+        <translation>补偿</translation>
+    </message>
+    <message>
         <source>wrong serial settings</source>
         <translation>串口参数错误</translation>
     </message>
@@ -4869,6 +4945,54 @@
         <translation>控制器忙（{what}）。</translation>
     </message>
     <message>
+        <source>The gateway got no answer from the controller behind it ({what}, Modbus exception {exception}).</source>
+        <translation>网关未收到其后控制器的应答（{what}，Modbus 异常 {exception}）。</translation>
+    </message>
+    <message>
+        <source>Check the line behind the gateway, the unit number and the gateway&apos;s own timeout; the request is repeated by itself.</source>
+        <translation>请检查网关后的线路、站号以及网关自身的超时时间；请求会自动重发。</translation>
+    </message>
+    <message>
+        <source>The controller failed at a request, or refused it ({what}, Modbus exception 4).</source>
+        <translation>控制器执行请求失败或拒绝了请求（{what}，Modbus 异常 4）。</translation>
+    </message>
+    <message>
+        <source>If it stays, look at the controller&apos;s own messages: some refuse in this way what the state of the machine forbids.</source>
+        <translation>若持续出现，请查看控制器自身的消息：有些控制器以此拒绝当前机床状态所禁止的操作。</translation>
+    </message>
+    <message>
+        <source>The controller does not have the Modbus function {function}, needed for {what}.</source>
+        <translation>控制器没有 {what} 所需的 Modbus 功能码 {function}。</translation>
+    </message>
+    <message>
+        <source>Switch it on in the controller&apos;s Modbus server. Reading may use input registers (function 4) instead of holding registers (function 3) in the register map; writing more than one register needs function 16.</source>
+        <translation>请在控制器的 Modbus 服务器中启用该功能码。读取可在寄存器表中改用输入寄存器（功能码 4）代替保持寄存器（功能码 3）；一次写多个寄存器需要功能码 16。</translation>
+    </message>
+    <message>
+        <source>The upload failed ({reason}). The old table is still active, but the compensation switch could not be turned on again ({detail}).</source>
+        <translation>写入失败（{reason}）。原表仍然有效，但补偿开关未能重新打开（{detail}）。</translation>
+    </message>
+    <message>
+        <source>The machine runs without compensation until the switch is turned on: do it at the controller, or here when the controller answers again.</source>
+        <translation>在开关打开之前，机床无补偿运行：请在控制器上打开，或待控制器恢复应答后在此打开。</translation>
+    </message>
+    <message>
+        <source>The compensation ended: {reason}. The offset is back at 0; the compensation switch is {switch}.</source>
+        <translation>补偿已结束：{reason}。偏置已回到 0；补偿开关为{switch}。</translation>
+    </message>
+    <message>
+        <source>Find the cause, then start it again.</source>
+        <translation>请找出原因，然后重新启动。</translation>
+    </message>
+    <message>
+        <source>The compensation ended ({reason}), but the machine could NOT be left as it was found ({detail}). The controller holds this offset: {held}; the compensation switch is {switch}.</source>
+        <translation>补偿已结束（{reason}），但机床未能恢复原状（{detail}）。控制器中的偏置为：{held}；补偿开关为{switch}。</translation>
+    </message>
+    <message>
+        <source>Do not machine parts. Look at the offset at the controller and switch its compensation off; a watchdog in the controller takes the offset out by itself.</source>
+        <translation>请勿加工零件。请在控制器上查看偏置并关闭其补偿；控制器中的看门狗会自行撤除偏置。</translation>
+    </message>
+    <message>
         <source>Wait a little and try again.</source>
         <translation>请稍候再试。</translation>
     </message>
@@ -5114,6 +5238,14 @@
     <message>
         <source>controller busy</source>
         <translation>控制器忙</translation>
+    </message>
+    <message>
+        <source>gateway without an answer from the controller</source>
+        <translation>网关未收到控制器应答</translation>
+    </message>
+    <message>
+        <source>controller failed at a request</source>
+        <translation>控制器执行请求失败</translation>
     </message>
     <message>
         <source>controller silent</source>

@@ -77,8 +77,9 @@ class FakeMachine : public MachineIo {
 
   MachineIdentity identity;
   std::function<bool(double time_s)> cable_is_out;  // asked at every call
-  std::function<void(MachineSample&)> change;       // the last word on a reading
-  double clock_zero_s = -1000.0;                    // the machine was switched on 1000 s before
+  ErrorCode link_error = ErrorCode::machine_link_lost;
+  std::function<void(MachineSample&)> change;  // the last word on a reading
+  double clock_zero_s = -1000.0;               // the machine was switched on 1000 s before
   double move_s = 2.0;
   double rpm = 0.0;
   bool coolant = false;
@@ -90,7 +91,7 @@ class FakeMachine : public MachineIo {
  private:
   Status link() const {
     if (!cable_is_out || !cable_is_out(now_s())) return {};
-    return fail(ErrorCode::machine_link_lost, {{"what", "read"}, {"detail", "unplugged"}});
+    return fail(link_error, {{"what", "read"}, {"detail", "unplugged"}, {"exception", "11"}});
   }
 
   Clock& m_clock;

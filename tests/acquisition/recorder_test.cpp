@@ -182,6 +182,25 @@ TEST_F(RecorderTest, WaitsForAPulledCable) {
   EXPECT_EQ(sink.value(80, "spindle_rpm"), 3000.0);
 }
 
+// An exception of a gateway, a busy or a failing controller in an unattended run: nothing stops, next to nothing is
+// lost.
+TEST_F(RecorderTest, WaitsForWhateverMayPass) {
+  for (const auto code : {ErrorCode::machine_gateway, ErrorCode::machine_failed, ErrorCode::machine_busy}) {
+    SCOPED_TRACE(std::string(name_of(code)));
+    const double begin_s = clock.steady().count();
+    machine.link_error = code;
+    machine.commands.clear();
+    machine.cable_is_out = [begin_s](double time_s) { return time_s > begin_s + 305.0 && time_s < begin_s + 306.0; };
+    const auto summary = run();
+    ASSERT_TRUE(summary) << describe(summary.error());
+    EXPECT_EQ(summary->end, RunEnd::finished);
+    EXPECT_LE(summary->lost_samples, 1);
+    const auto stops = std::count_if(machine.commands.begin(), machine.commands.end() - 1,
+                                     [](const auto& command) { return command.spindle_rpm == 0.0; });
+    EXPECT_EQ(stops, 1) << "at the start, for the zero";
+  }
+}
+
 TEST_F(RecorderTest, GivesUpACableThatStaysOut) {
   machine.cable_is_out = [](double time_s) { return time_s > 305.0; };
   const auto summary = run();

@@ -17,12 +17,14 @@ void Device::reset_state() {
   for (std::size_t i = 96; i < 120; ++i) m_words[i] = 16 * 25;
 }
 
-Device::Device() : m_words(6000, 0) {
+Device::Device(std::set<int> without_functions) : m_words(6000, 0) {
   reset_state();
   ModbusServerOptions options;
+  options.without_functions = std::move(without_functions);
   options.read = [this](int address, int count) -> RegisterReply {
     const std::scoped_lock guard(m_lock);
     tick();
+    if (count > m_longest_read) return tl::unexpected(ModbusException::illegal_value);
     if (address + count > 6000) return tl::unexpected(ModbusException::illegal_address);
     return std::vector<std::uint16_t>(m_words.begin() + address, m_words.begin() + address + count);
   };
@@ -34,7 +36,7 @@ Device::Device() : m_words(6000, 0) {
     const std::scoped_lock guard(m_lock);
     const int n = m_requests++;
     const bool hit = m_spoil_at >= 0 && (m_lasting ? n >= m_spoil_at : n == m_spoil_at);
-    return hit ? m_fault : ReplyFault{};
+    return hit || (m_strikes && m_strikes(n)) ? m_fault : ReplyFault{};
   };
   auto started = ModbusServer::start(std::move(options));
   if (started) m_server = std::move(*started);
@@ -75,6 +77,10 @@ void Device::set_float(int address, double value) {
 
 double Device::float_at(int address) const {
   const std::scoped_lock guard(m_lock);
+  return float_unlocked(address);
+}
+
+double Device::float_unlocked(int address) const {
   return static_cast<double>(controller::float_at(m_words, static_cast<std::size_t>(address)));
 }
 
@@ -83,7 +89,14 @@ void Device::spoil(int n, ReplyFault fault, bool lasting) {
   m_fault = fault;
   m_lasting = lasting;
   m_requests = 0;
+  m_strikes = {};
   m_spoil_at = n;
+}
+
+void Device::spoil_where(std::function<bool(int)> strikes, ReplyFault fault) {
+  spoil(-1, fault);
+  const std::scoped_lock guard(m_lock);
+  m_strikes = std::move(strikes);
 }
 
 void Device::tick() {

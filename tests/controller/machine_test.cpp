@@ -152,7 +152,8 @@ class SporadicFault : public testing::TestWithParam<std::pair<Kind, const char*>
 
 TEST_P(SporadicFault, IsOvercomeAndCounted) {
   Bank bank;
-  bank.fault = {GetParam().first, std::chrono::milliseconds(GetParam().first == Kind::late ? 250 : 0)};
+  bank.fault = {GetParam().first, std::chrono::milliseconds(GetParam().first == Kind::late ? 250 : 0),
+                ModbusException::gateway_target_silent};
   bank.start();
   bank.every = 4;
   auto machine = ModbusMachine::open(bank.profile(), engineer());
@@ -176,7 +177,8 @@ TEST_P(SporadicFault, IsOvercomeAndCounted) {
 
 TEST_P(SporadicFault, WithoutEndIsNamed) {
   Bank bank;
-  bank.fault = {GetParam().first, std::chrono::milliseconds(GetParam().first == Kind::late ? 250 : 20)};
+  bank.fault = {GetParam().first, std::chrono::milliseconds(GetParam().first == Kind::late ? 250 : 20),
+                ModbusException::gateway_path_unavailable};
   bank.start();
   bank.every = 1;
   auto machine = ModbusMachine::open(bank.profile(), engineer());
@@ -193,7 +195,9 @@ INSTANTIATE_TEST_SUITE_P(Device, SporadicFault,
                          testing::Values(std::pair{Kind::busy, "machine_busy"}, std::pair{Kind::late, "machine_silent"},
                                          std::pair{Kind::wrong_transaction, "machine_bad_reply"},
                                          std::pair{Kind::truncated, "machine_silent"},
-                                         std::pair{Kind::drop, "machine_link_lost"}, std::pair{Kind::bytewise, ""}));
+                                         std::pair{Kind::drop, "machine_link_lost"}, std::pair{Kind::bytewise, ""},
+                                         std::pair{Kind::refused, "machine_gateway"},
+                                         std::pair{Kind::wrong_unit, "machine_bad_reply"}));
 
 TEST(ModbusMachine, UnreachableAndForeignDevicesAreNamed) {
   Profile nobody;

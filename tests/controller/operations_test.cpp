@@ -64,6 +64,7 @@ std::vector<Named> operations() {
 const std::set<ErrorCode> names = {
     ErrorCode::machine_silent,    ErrorCode::machine_link_lost,   ErrorCode::machine_bad_reply,
     ErrorCode::machine_busy,      ErrorCode::machine_exception,   ErrorCode::machine_unreachable,
+    ErrorCode::machine_gateway,   ErrorCode::machine_failed,      ErrorCode::machine_function_missing,
     ErrorCode::machine_not_ready, ErrorCode::machine_unsupported, ErrorCode::interlock_compensation_off,
     ErrorCode::data_does_not_fit, ErrorCode::limit_exceeded};
 

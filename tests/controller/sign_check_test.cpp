@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "core/controller/probe_source.h"
 #include "device.h"
@@ -74,6 +75,40 @@ class SignCheckTest : public testing::Test {
 };
 
 }  // namespace
+
+// However a look ends, the test offset is out of the machine afterwards; where it cannot be, what stands there is told.
+TEST_F(SignCheckTest, ALookThatFailsOrThrowsDoesNotKeepTheOffset) {
+  for (const bool throws : {false, true}) {
+    Watcher watcher(device);
+    watcher.on_look = [&](int look) {
+      if (look != 2) return;
+      EXPECT_GT(std::abs(device.float_at(140)), 5.0) << "this look is one with the offset";
+      if (throws) throw std::runtime_error("a picture of no size");
+      device.set_on_write(refusing_once(140));
+    };
+    const auto record = check(watcher);
+    ASSERT_FALSE(record.result);
+    EXPECT_EQ(record.result.error().code, throws ? ErrorCode::internal : ErrorCode::machine_exception)
+        << describe(record.result.error());
+    EXPECT_DOUBLE_EQ(device.float_at(140), 0.0);
+    EXPECT_EQ(device.word(17), 0);
+  }
+}
+
+TEST_F(SignCheckTest, AnOffsetThatStaysIsTold) {
+  Watcher watcher(device);
+  watcher.on_look = [&](int look) {
+    if (look != 2) return;
+    device.set_on_write([](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
+      return address == 140 ? std::optional(ModbusException::illegal_value) : std::nullopt;
+    });
+  };
+  const auto record = check(watcher);
+  ASSERT_FALSE(record.result);
+  EXPECT_EQ(record.result.error().code, ErrorCode::compensation_left) << describe(record.result.error());
+  EXPECT_EQ(record.result.error().context.at("held"), "X 10.0, Y 0.0, Z 0.0 um");
+  EXPECT_EQ(record.result.error().context.at("switch"), "off");
+}
 
 TEST_F(SignCheckTest, PassesWithTheRightSign) {
   Watcher watcher(device);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -148,6 +149,11 @@ TEST(Upload, CorruptStagingIsFoundBeforeTheCommit) {
   EXPECT_EQ(device.commits(), 0);
 }
 
+/// Exceptions are those of a gateway.
+ReplyFault fault_of(Kind kind) {
+  return {kind, std::chrono::milliseconds(kind == Kind::late ? 90 : 0), ModbusException::gateway_target_silent};
+}
+
 class UploadFault : public testing::TestWithParam<Kind> {};
 
 // One spoilt reply at each possible request: the table is the old or the new one, whole, and the record says which.
@@ -164,7 +170,7 @@ TEST_P(UploadFault, AtEveryRequest) {
   int failed = 0;
   for (int n = 0; n < all + 2; ++n) {
     const bool to_two = device.active() == at_one;
-    device.spoil(n, {GetParam(), std::chrono::milliseconds(GetParam() == Kind::late ? 90 : 0)});
+    device.spoil(n, fault_of(GetParam()));
     const auto record = upload_table(*machine, sample_table(to_two ? 2.0 : 1.0), {}, {});
     const auto now = device.active();
     ASSERT_TRUE(now == at_one || now == at_two) << "request " << n;
@@ -187,7 +193,7 @@ TEST_P(UploadFault, ForGoodFromEachRequest) {
   const int all = device.requests();
   machine->link().set_attempts(2);
   for (int n = 0; n < all; n += 2) {
-    device.spoil(n, {GetParam(), std::chrono::milliseconds(GetParam() == Kind::late ? 90 : 0)}, true);
+    device.spoil(n, fault_of(GetParam()), true);
     const auto record = upload_table(*machine, sample_table(2.0), {}, {});
     device.spoil(-1, {});
     const auto now = device.active();
@@ -202,7 +208,8 @@ TEST_P(UploadFault, ForGoodFromEachRequest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Device, UploadFault,
-                         testing::Values(Kind::busy, Kind::late, Kind::wrong_transaction, Kind::truncated, Kind::drop));
+                         testing::Values(Kind::busy, Kind::late, Kind::wrong_transaction, Kind::truncated, Kind::drop,
+                                         Kind::refused, Kind::refused_after, Kind::wrong_unit));
 
 class BadCableUpload : public testing::TestWithParam<BadCable::Fault> {};
 
@@ -294,22 +301,75 @@ TEST(Upload, RollbackOfAFullTableIsQuick) {
   EXPECT_EQ(device.active(), written.new_words);
 }
 
+// The answer to the commit is missing or unclear: what became of it is read, and it is not sent a second time.
 TEST(Upload, CommitIsNeverSentTwiceBlindly) {
   Device device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
-  int commit_at = -1;
-  device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
-    if (address == 205) commit_at = device.requests() - 1;
+  std::atomic<int> last_commit_at = -1;
+  std::atomic<int> switched_on = 0;
+  device.on_write = [&](int address, std::span<const std::uint16_t> values) -> std::optional<ModbusException> {
+    if (address == 205) last_commit_at = device.requests() - 1;
+    if (address == 76 && values[0] == 1) ++switched_on;
     return std::nullopt;
   };
   device.spoil(-1, {});
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
-  const int before = device.commits();
-  device.spoil(commit_at, {Kind::truncated, {}});  // the commit is carried out, its reply is lost
+  const int commit_at = last_commit_at;
+  double coefficient = 2.0;
+  const auto unclear = [&](const ReplyFault& fault) {
+    const int before = device.commits();
+    switched_on = 0;
+    device.spoil(commit_at, fault);
+    const auto record = upload_table(*machine, sample_table(coefficient += 0.1), {}, {});
+    EXPECT_TRUE(record.result) << text_of(record.result);
+    EXPECT_EQ(device.commits(), before + 1);
+    EXPECT_EQ(switched_on, 1);
+  };
+  unclear({Kind::truncated, {}});
+  for (const auto code : {ModbusException::device_failure, ModbusException::acknowledge, ModbusException::busy,
+                          ModbusException::gateway_path_unavailable, ModbusException::gateway_target_silent}) {
+    unclear({Kind::refused_after, {}, code});
+    unclear({Kind::refused, {}, code});
+  }
+}
+
+TEST(Upload, ARefusedCommitIsNotSentAgain) {
+  Device device;
+  auto machine = open(device.profile());
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
+  const auto old_words = device.active();
+  std::atomic<int> sent = 0;
+  device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
+    if (address != 205) return std::nullopt;
+    ++sent;
+    return ModbusException::illegal_value;
+  };
   const auto record = upload_table(*machine, sample_table(2.0), {}, {});
-  EXPECT_TRUE(record.result) << text_of(record.result);
-  EXPECT_EQ(device.commits(), before + 1);
+  ASSERT_FALSE(record.result);
+  EXPECT_EQ(record.result.error().code, ErrorCode::upload_restored) << text_of(record.result);
+  EXPECT_EQ(sent, 1);
+  EXPECT_EQ(device.active(), old_words);
+  EXPECT_EQ(device.word(17), 1) << "the switch is on, as it was found";
+}
+
+// The link dies for good while staging: the table is the old one, but the switch that was on is not.
+TEST(Upload, ASwitchThatStaysOffIsTold) {
+  Device device;
+  auto machine = open(device.profile());
+  ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
+  machine->link().set_attempts(2);
+  std::atomic<bool> staging = false;
+  UploadOptions options;
+  options.observer = [&](const UploadStep& step) { staging = staging || step.state == UploadState::staging; };
+  device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
+    if (staging && (address == 76 || address >= 1000)) return ModbusException::gateway_target_silent;
+    return std::nullopt;
+  };
+  const auto record = upload_table(*machine, sample_table(2.0), options, {});
+  ASSERT_FALSE(record.result);
+  EXPECT_EQ(record.result.error().code, ErrorCode::upload_left_off) << text_of(record.result);
+  EXPECT_EQ(device.word(17), 0);
 }
 
 TEST(Upload, APymodbusPeerTakesTheTable) {

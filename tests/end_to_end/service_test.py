@@ -1,5 +1,5 @@
-"""The host compensator as a service: tells its supervisor that it is ready, alive and ending; runs the offset to 0 when it
-is asked to end; and when it is killed, the controller's watchdog takes the offset out.
+"""The host compensator as a service: tells its supervisor that it is ready, alive and ending; runs the offset to 0 and turns
+the switch off again when it is asked to end, by whatever signal; and when it is killed, the controller's watchdog takes the offset out.
 
 Usage: service_test.py"""
 
@@ -77,6 +77,16 @@ def service(folder):
         assert process.wait(60) == 0
         assert any("ending" in message for message in heard), heard
         assert alive and offset_z(machine) == 0.0
+        assert word(machine.ready["modbus"], 17) == 0, "the switch is not off again"
+        # A terminal that is closed, Ctrl+\\, Ctrl+C: the same.
+        for request in (signal.SIGHUP, signal.SIGQUIT, signal.SIGINT):
+            process = supervisor.start(machine.profile, model)
+            supervisor.hear("READY=1")
+            time.sleep(2.0)
+            assert offset_z(machine) < -3.0
+            process.send_signal(request)
+            assert process.wait(60) == 0, request
+            assert offset_z(machine) == 0.0 and word(machine.ready["modbus"], 17) == 0, request
         process = supervisor.start(machine.profile, model)
         supervisor.hear("READY=1")
         time.sleep(3.0)

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
 #include "app/cli/access.h"
 #include "app/cli/service_notice.h"
+#include "app/text/error_text.h"
 #include "core/analysis/model.h"
 #include "core/base/real_time.h"
 #include "core/compensation/model_table.h"
@@ -36,7 +38,7 @@ class Log {
     return {};
   }
   void add(const controller::CompensatorTurn& turn) {
-    if (!m_stream.is_open() || turn.link_lost) return;
+    if (!m_stream.is_open() || turn.link_lost || !std::isfinite(turn.machine_time_s)) return;
     m_stream << fmt::format("{:.2f},{:.3f},{:.3f},{:.3f},{}\n", turn.machine_time_s,
                             fmt::join(turn.output.predicted_um, ","), fmt::join(turn.output.offset_um, ","),
                             fmt::join(turn.applied_um, ","), static_cast<int>(turn.output.mode))
@@ -47,22 +49,33 @@ class Log {
   std::ofstream m_stream;
 };
 
-/// Says each reason once while it lasts.
+/// Says each reason once while it lasts, and each remark on the link once.
 class Speaker {
  public:
+  explicit Speaker(const controller::LinkHealth& health) : m_health(health) {}
+
   void hear(const controller::CompensatorTurn& turn) {
     std::vector<std::string> reasons = turn.output.reasons;
-    if (turn.link_lost) reasons.emplace_back("no answer from the controller; its watchdog takes the offset out");
+    if (turn.fault) {
+      reasons.push_back(textOf(*turn.fault).sentence.toStdString() +
+                        " The controller's watchdog takes the offset out.");
+    }
     std::vector<std::string> kinds;
     for (const auto& reason : reasons) kinds.push_back(reason.substr(0, 12));  // without the changing figures
+    if (turn.fault) kinds.emplace_back(name_of(turn.fault->code));
     if (kinds != m_last) {
       for (const auto& reason : reasons) std::fprintf(stderr, "%s\n", reason.c_str());
     }
     m_last = std::move(kinds);
+    for (; m_remarks < m_health.remarks.size(); ++m_remarks) {
+      std::fprintf(stderr, "warning: %s\n", m_health.remarks[m_remarks].c_str());
+    }
   }
 
  private:
+  const controller::LinkHealth& m_health;
   std::vector<std::string> m_last;
+  std::size_t m_remarks = 0;
 };
 
 /// Under systemd: ready with the first turn that reached the machine, alive with every turn - also one that did not,
@@ -116,13 +129,13 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   ZD_CHECK(log.open(options.log));
   ZD_TRY(const auto permit, engineer(pin, "Compensating"));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
-  if (options.switch_on) ZD_CHECK(machine->switch_compensation(true));
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;
+  how.switch_on = options.switch_on;
   if (options.seconds > 0.0) how.duration_s = options.seconds;
   if (!model.is_static()) how.predictor = compensation::live_predictor(model);
   const bool real_time = ask_for_real_time();
-  Speaker speaker;
+  Speaker speaker(machine->health());
   Service service;
   ZD_TRY(const auto summary, controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {
            log.add(turn);
@@ -139,7 +152,8 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
                  {"turns_later_than_20_ms", summary.lateness.above(0.02)},
                  {"largest_offset_um", summary.largest_offset_um},
                  {"real_time", real_time},
-                 {"faults", machine->health().faults}};
+                 {"faults", machine->health().faults},
+                 {"remarks", machine->health().remarks}};
   output.text = fmt::format(
       "{} turns, {} late, {} without the machine; began at most {:.1f} ms late, 99.9 % within {:.0f} ms; the offset is "
       "back at 0",
@@ -163,7 +177,8 @@ void add_compensate(Cli& cli) {
   command->add_option("--for", options->seconds, "Seconds to run; without it until stopped")
       ->check(CLI::PositiveNumber);
   command->add_option("--period", options->period_s, "Seconds between two turns")->check(CLI::Range(0.02, 10.0));
-  command->add_flag("--switch-on", options->switch_on, "Switch the compensation on first; otherwise it must be on");
+  command->add_flag("--switch-on", options->switch_on,
+                    "Switch the compensation on first and off at the end; otherwise it must be on");
   command->add_option("--log", options->log, "CSV to write: what was predicted, written and applied");
 }
 

@@ -102,6 +102,8 @@ Result<CommandOutput> run(const std::string& file, const TaskContext& context) {
   for (const auto& [fault, count] : health.faults) {
     output.warnings.push_back(fmt::format("the link had {} x {}; the requests were repeated", count, fault));
   }
+  output.json["link"]["remarks"] = health.remarks;
+  output.warnings.insert(output.warnings.end(), health.remarks.begin(), health.remarks.end());
   if (!output.text.empty()) output.text.pop_back();
   return output;
 }

@@ -85,12 +85,15 @@ Result<UploadRecord> confirmed(const std::string& operation, const Options& opti
   return record;
 }
 
-CommandOutput output_of(const UploadRecord& record, std::vector<std::string> warnings) {
+CommandOutput output_of(const UploadRecord& record, const controller::ModbusMachine& machine,
+                        std::vector<std::string> warnings) {
   CommandOutput output;
   output.json = to_json(record);
   output.text = text_of(record);
   output.warnings = std::move(warnings);
-  output.warnings.insert(output.warnings.end(), record.warnings.begin(), record.warnings.end());
+  for (const auto& more : {record.warnings, machine.health().remarks}) {
+    output.warnings.insert(output.warnings.end(), more.begin(), more.end());
+  }
   return output;
 }
 
@@ -104,14 +107,15 @@ Result<CommandOutput> push(const Options& options, const TaskContext& context) {
     return controller::push_table(*machine, table, controller::TableOrigin::upload, how, context);
   });
   if (!record) return fail(record.error());
-  return output_of(*record, std::move(warnings));
+  return output_of(*record, *machine, std::move(warnings));
 }
 
 Result<CommandOutput> read_back(const Options& options, const TaskContext&) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
-  ZD_CHECK(machine->identify().map([](const auto&) {}));
+  ZD_TRY(const auto identity, machine->identify());
+  ZD_CHECK(controller::require_table(identity));
   ZD_TRY(const controller::ActiveTable active, controller::read_active(*machine));
   ZD_TRY(compensation::Table table, controller::decode_table(active.words, profile));
   table.version = active.sequence;
@@ -183,7 +187,7 @@ Result<CommandOutput> rollback(const Options& options, const TaskContext& contex
   ZD_TRY(const UploadRecord record,
          confirmed(fmt::format("Going back to version {}{}", target.table.version, since), options, {},
                    [&](const UploadOptions& how) { return controller::roll_back(*machine, target, how, context); }));
-  CommandOutput output = output_of(record, std::move(warnings));
+  CommandOutput output = output_of(record, *machine, std::move(warnings));
   output.json["rolled_back_to"] = target.table.version;
   return output;
 }

@@ -63,6 +63,8 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   for (const json& problem : output.json.value("problems", json::array())) {
     if (problem.is_string()) output.warnings.push_back(problem.get<std::string>());
   }
+  const auto& remarks = devices.machine->health().remarks;
+  output.warnings.insert(output.warnings.end(), remarks.begin(), remarks.end());
   return output;
 }
 

@@ -11,6 +11,7 @@
 
 #include "app/desktop/moment.h"
 #include "app/text/core_text.h"
+#include "core/acquisition/machine_fault.h"
 #include "core/base/resources.h"
 #include "core/flow/devices.h"
 #include "core/flow/steps/machine_step.h"
@@ -77,12 +78,6 @@ QString tag_of(const MachineLook& look, std::size_t sensor) {
   return QString(id).remove(QStringLiteral("_C"));
 }
 
-bool is_of_the_link(ErrorCode code) {
-  return code == ErrorCode::machine_unreachable || code == ErrorCode::machine_silent ||
-         code == ErrorCode::machine_link_lost || code == ErrorCode::machine_bad_reply ||
-         code == ErrorCode::machine_busy;
-}
-
 }  // namespace
 
 MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, DemoMachine& demo)
@@ -123,7 +118,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     m_lostSaid = error.code;
     refresh();
     // Asking again helps against a silent controller, not against a file that is not there.
-    if (m_whenReady && !is_of_the_link(error.code)) std::exchange(m_whenReady, nullptr)(false);
+    if (m_whenReady && !acquisition::may_pass(error)) std::exchange(m_whenReady, nullptr)(false);
   });
   connect(&bench, &Workbench::controllerTold, this, [this] {
     if (m_toldLost == this->bench().lost()) return;

@@ -44,6 +44,7 @@ Result<commissioning::NewArtefact> check_machine(Devices& devices, const json& p
   for (const auto& [name, count] : devices.machine->health().faults) {
     problems.push_back(fmt::format("link: {} {} times, overcome", name, count));
   }
+  for (const auto& remark : devices.machine->health().remarks) problems.push_back(remark);
   ZD_TRY(const json kept, controller::document_for_job(profile, devices.profile));
   const json body = {{"profile", kept},
                      {"identity",
