@@ -44,7 +44,10 @@ SINGLE = (
     "logged_heat",
 )
 UNLISTED = ("unlisted:creep", "unlisted:slip", "unlisted:wander")
-STRENGTH_SIGMA = (5.0, 50.0)
+# In standard deviations of noise and of what a description in rods and lumps cannot say of a solid, together.
+STRENGTH_SIGMA = (3.0, 30.0)
+FORM_ERROR = {"C": (0.1, 0.005), "um": (1.0, 0.01)}  # absolute and of the channel's range
+SMALLEST = {"film": 2.0, "power_W": 2.0, "lag_s": 20.0, "gain": 0.03, "contact_R": 2e-5}  # smaller ones nobody would hide
 # Beyond these the machine would be no machine.
 LIMITS = {
     "film": 80.0,
@@ -301,8 +304,9 @@ def tolerance_mm(machine):
 class Hidden:
     """One hidden effect: how it changes the truth by a size, and what an answer must say."""
 
-    def __init__(self, kind, size, limit, apply, expected):
+    def __init__(self, kind, size, limit, apply, expected, smallest=0.0):
         self.kind, self.size, self.limit, self.apply, self.expected = kind, size, limit, apply, expected
+        self.smallest = smallest
 
 
 def draw_hidden(kind, d, machine, structure, truth, document, duration, period, model):
@@ -337,7 +341,7 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
         def apply(t, size, extra=extra):
             t.setdefault("extra", []).append(dict(extra, power_W=size))
 
-        return Hidden(kind, 20.0, LIMITS["power_W"], apply, facts)
+        return Hidden(kind, 20.0, LIMITS["power_W"], apply, facts, SMALLEST["power_W"])
     if kind == "convection":
         return Hidden(kind, 1.0, None, lambda t, size: None, effect(["convection"], ["room_sensor_fault"]))
     if kind == "speed_convection":
@@ -346,14 +350,14 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
             t["speed_film"] = size
 
         facts = effect(["speed_convection"], ["film_driver"], component=machine.speed_film_component)
-        return Hidden(kind, 15.0, LIMITS["film"], apply, facts)
+        return Hidden(kind, 15.0, LIMITS["film"], apply, facts, SMALLEST["film"])
     if kind == "film_driver":
 
         def apply(t, size):
             t["fan_film"] = size
 
         facts = effect(["film_driver"], ["draught", "coolant"], component=machine.fan[1], driver="fan_percent")
-        return Hidden(kind, 20.0, LIMITS["film"], apply, facts)
+        return Hidden(kind, 20.0, LIMITS["film"], apply, facts, SMALLEST["film"])
     if kind == "contact_resistance":
         joint = "|".join(machine.joint)
 
@@ -362,7 +366,7 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
             t["contacts"][name] = 1.0 / (1e-5 + size)
 
         facts = effect(["contact_resistance"], component=machine.rod, position_mm=machine.joint_mm, tolerance_mm=tolerance_mm(machine))
-        return Hidden(kind, 2e-4, LIMITS["contact_R"], apply, facts)
+        return Hidden(kind, 2e-4, LIMITS["contact_R"], apply, facts, SMALLEST["contact_R"])
     if kind in ("bearing_preload", "bearing_viscosity"):
         key = {"bearing_preload": "preload_1_K", "bearing_viscosity": "viscosity_1_K"}[kind]
 
@@ -390,7 +394,10 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
 
         half = {"sensor_lag": ["casting_core", "heater_body"], "sensor_offset": ["sensor_gain"], "sensor_gain": ["sensor_offset"]}[kind]
         facts = effect([kind], half, channel=channel, half_component=component)
-        return Hidden(kind, {"lag_s": 120.0, "offset_K": 1.0, "gain": 0.1}[key], LIMITS[key], apply, facts)
+        # An offset within what the sensor is stated to is no fault.
+        accuracy = next(s["accuracy_C"] for s in document["sensors"] if s["channel"] == channel)
+        smallest = 3 * accuracy if key == "offset_K" else SMALLEST[key]
+        return Hidden(kind, {"lag_s": 120.0, "offset_K": 1.0, "gain": 0.1}[key], LIMITS[key], apply, facts, smallest)
     if kind == "structure_bending":
         channel = machine.bending
 
@@ -417,7 +424,7 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
             t["draught_s"], t["draught_film"] = intervals, size
 
         facts = effect(["draught"], ["switched_heat", "film_driver"], intervals_s=intervals)
-        return Hidden(kind, 15.0, LIMITS["film"], apply, facts)
+        return Hidden(kind, 15.0, LIMITS["film"], apply, facts, SMALLEST["film"])
     if kind == "unlisted:creep":
         seconds = d.uniform(300, 3000)
 
@@ -463,7 +470,7 @@ class Case:
         self.structure = structure = STRUCTURES[structure_name]()
         self.model = models[structure_name]
         self.kinds = self._kinds(d, kind, mixture, machine)
-        for attempt in range(40):
+        for _ in range(60):
             if self._attempt():
                 return
         raise RuntimeError(f"{self.name}: {self.kinds} on {structure_name} never reaches {STRENGTH_SIGMA} sigma")
@@ -570,13 +577,16 @@ class Case:
         return {**temperatures, **{c: v for c, v in growths.items() if c in wanted}}
 
     def _strength(self, with_it, without):
-        worst, channel = 0.0, ""
+        """Of the change: in standard deviations of noise and form error, and of noise alone; the channel."""
+        worst = (0.0, 0.0, "")
         for name, values in with_it.items():
-            sigma = self.noise_um if name.endswith("_um") else self.noise_K
-            size = float(np.percentile(np.abs(values - without[name]), 90)) / sigma
-            if size > worst:
-                worst, channel = size, name
-        return worst, channel
+            unit = "um" if name.endswith("_um") else "C"
+            noise = self.noise_um if unit == "um" else self.noise_K
+            absolute, relative = FORM_ERROR[unit]
+            form = math.hypot(noise, absolute, relative * np.ptp(values))
+            size = float(np.percentile(np.abs(values - without[name]), 90))
+            worst = max(worst, (size / form, size / noise, name))
+        return worst
 
     def _size(self):
         sizes = [h.size for h in self.hidden]
@@ -595,14 +605,14 @@ class Case:
                     base = {k: v * (k != self.machine.bending) for k, v in with_it.items()}
                 else:
                     base = self._readings(self._truth_with(without))
-                strength, channel = self._strength(with_it, base)
+                strength, in_noise, channel = self._strength(with_it, base)
                 if hidden.limit is None or abs(math.log(max(strength, 1e-9) / wanted)) < 0.1:
                     break
                 factor = min(20.0, max(0.05, wanted / max(strength, 1e-9)))
                 sizes[i] = min(hidden.limit, sizes[i] * factor)
-            if strength < STRENGTH_SIGMA[0]:
+            if strength < STRENGTH_SIGMA[0] or sizes[i] < hidden.smallest:
                 return False
-            self.strengths.append(strength)
+            self.strengths.append((strength, in_noise))
             self.worst.append(channel)
         self.sizes = sizes
         return True
@@ -648,7 +658,7 @@ class Case:
         unlisted = any(k.startswith("unlisted") for k in self.kinds)
         effects = []
         for hidden, size, strength, channel in zip(self.hidden, self.sizes, self.strengths, self.worst):
-            effects.append(dict(hidden.expected, size=size, strength_sigma=round(strength, 2), worst_channel=channel))
+            effects.append(dict(hidden.expected, size=size, strength=round(strength[0], 2), strength_sigma=round(strength[1], 2), worst_channel=channel))
         return {
             "case": self.name,
             "world": "three_dimensional",
@@ -677,7 +687,7 @@ def main():
     for index in range(arguments.cases):
         case = Case(arguments.seed, index, models, arguments.kind, arguments.structure)
         case.write(arguments.out / case.name)
-        print(case.name, case.machine.name, "+".join(case.kinds) or "none", [round(s, 1) for s in case.strengths], flush=True)
+        print(case.name, case.machine.name, "+".join(case.kinds) or "none", [(round(a, 1), round(b)) for a, b in case.strengths], [round_to(x, 3) for x in case.sizes], flush=True)
 
 
 if __name__ == "__main__":

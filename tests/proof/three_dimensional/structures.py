@@ -109,7 +109,7 @@ def column():
         contacts,
         fixed=lambda x, y, z: x < -149.9,
         displacements={
-            "dZ_um": (0, lambda x, y, z: x > 899.9 and abs(z) < 201, lambda x, y, z: abs(x) < 0.1 and abs(y) < 151 and abs(z) < 201),
+            "dZ_um": (0, lambda x, y, z: abs(x - 900) < 0.1, lambda x, y, z: abs(x) < 0.1 and abs(y) < 151 and abs(z) < 201),
             "dY_um": (1, lambda x, y, z: abs(x - 900) < 0.1, None),
             "dX_um": (2, lambda x, y, z: abs(x - 900) < 0.1, None),
         },

@@ -83,7 +83,7 @@ class MotorFlange(unittest.TestCase):
         self.assertEqual(filecmp.cmpfiles(folder / "first", folder / "again", names, shallow=False)[0], names)
         expected = json.loads((folder / "first" / "expected.json").read_text())
         self.assertEqual(expected["hidden"][0]["right"], ["sensor_lag"])
-        self.assertGreaterEqual(expected["hidden"][0]["strength_sigma"], cases.STRENGTH_SIGMA[0])
+        self.assertGreaterEqual(expected["hidden"][0]["strength"], cases.STRENGTH_SIGMA[0])
 
 
 if __name__ == "__main__":
