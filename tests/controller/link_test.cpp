@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <random>
 
 #include "core/acquisition/machine_fault.h"
 #include "core/controller/modbus_machine.h"
@@ -272,6 +274,27 @@ TEST(SerialLine, ALateReplyIsNotMixedWithTheNext) {
   const auto other = read_some(link, 110, 1);
   ASSERT_TRUE(other) << describe(other.error());
   EXPECT_EQ(other->front(), 2);
+}
+
+// Noise is no reply: whatever comes is refused, or waited for, unless its check sum fits.
+TEST(SerialLine, NoiseIsNoReply) {
+  std::mt19937 random(5);
+  std::vector<std::uint8_t> request{1, 3, 0, 100, 0, 4};
+  append_rtu_crc(request);
+  int spoilt = 0;
+  for (int i = 0; i < 20000; ++i) {
+    RtuReply reply(request, i % 2 == 0 ? LocalEcho::unknown : LocalEcho::heard);
+    std::vector<std::uint8_t> bytes(random() % 40);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    if (bytes.size() > 3 && i % 3 == 0) std::copy_n(std::array<std::uint8_t, 3>{1, 3, 8}.begin(), 3, bytes.begin());
+    const auto state = reply.add(bytes);
+    spoilt += state == RtuReply::State::spoilt ? 1 : 0;
+    if (state != RtuReply::State::whole) continue;
+    std::vector<std::uint8_t> whole(reply.frame().begin(), reply.frame().end());
+    append_rtu_crc(whole);
+    EXPECT_NE(std::search(bytes.begin(), bytes.end(), whole.begin(), whole.end()), bytes.end());
+  }
+  EXPECT_GT(spoilt, 1000);
 }
 
 TEST(SerialLine, CheckSumIsThatOfTheStandard) {
