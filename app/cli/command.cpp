@@ -35,7 +35,8 @@ bool is_picture(const std::filesystem::path& path) {
 /// A file that is read is not written over: a recording would be gone for good. A model may be updated in place.
 void refuse_writing_over(const CLI::App& command) {
   const auto writes = [](const CLI::Option& option) {
-    static const std::set<std::string> names = {"--out", "--refined", "--statistics", "--report", "--log"};
+    static const std::set<std::string> names = {"--out",    "--refined", "--statistics",
+                                                "--report", "--log",     "--save-map"};
     return names.contains(option.get_name());
   };
   std::set<std::string> all_written;
@@ -50,6 +51,7 @@ void refuse_writing_over(const CLI::App& command) {
       }
       for (const CLI::Option* read : command.get_options()) {
         if (writes(*read) || read->get_name() == "--update") continue;
+        if (written->get_name() == "--save-map" && read->get_name() == "--map") continue;
         for (const std::string& other : read->results()) {
           std::error_code unknown;
           if (std::filesystem::equivalent(path, other, unknown) && !std::filesystem::is_directory(path, unknown)) {

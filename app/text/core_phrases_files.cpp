@@ -1,4 +1,4 @@
-// Phrases of base, access and commissioning.
+// Phrases of base, access, commissioning and recording.
 
 #include <QCoreApplication>
 #include <array>
@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 50> files = {{
+constexpr std::array<const char*, 62> files = {{
     QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
     QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
     QT_TRANSLATE_NOOP("core", "no random numbers"),
@@ -58,6 +58,18 @@ constexpr std::array<const char*, 50> files = {{
     QT_TRANSLATE_NOOP("core", "entries of the job contradict one another"),
     QT_TRANSLATE_NOOP("core", "its pages do not hold together"),
     QT_TRANSLATE_NOOP("core", "a part of it is missing"),
+    QT_TRANSLATE_NOOP("core", "a channel's name, for example T1_C"),
+    QT_TRANSLATE_NOOP("core", "a number other than 0"),
+    QT_TRANSLATE_NOOP("core", "a known unit (degC, degF, K, um, mm, inch, rpm, kW), or a scale beside it"),
+    QT_TRANSLATE_NOOP("core", "more than two"),
+    QT_TRANSLATE_NOOP("core", "one column, or date and time of day"),
+    QT_TRANSLATE_NOOP("core", "s, ms, us, ns, min, h or d"),
+    QT_TRANSLATE_NOOP("core", "one character, tab or blanks"),
+    QT_TRANSLATE_NOOP("core", "a workbook (.xlsx) or a text table"),
+    QT_TRANSLATE_NOOP("core", "an old Excel workbook (.xls)"),
+    QT_TRANSLATE_NOOP("core", "a damaged archive"),
+    QT_TRANSLATE_NOOP("core", "an archive without a workbook"),
+    QT_TRANSLATE_NOOP("core", "damaged XML"),
     QT_TRANSLATE_NOOP("core", "; "),
 }};
 

@@ -2678,7 +2678,7 @@
         <translation>%1 的升温如同 %2 应有的升温</translation>
     </message>
     <message>
-        <source>the room in the room's column (are the two exchanged?)</source>
+        <source>the room in the room&apos;s column (are the two exchanged?)</source>
         <translation>室温列中应为室温（两列是否互换？）</translation>
     </message>
     <message>
@@ -3758,7 +3758,7 @@
         <translation>{recording} 的列 {column} 有 {percent} % 的行没有数值：其间的值只能假定。</translation>
     </message>
     <message>
-        <source>The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or touched?</source>
+        <source>The room&apos;s column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or touched?</source>
         <translation>室温列在 {at} min 处跳变 {kelvin} K，正是所述气流开始之时：室温传感器是否被移动或触碰？</translation>
     </message>
     <message>
@@ -3814,7 +3814,7 @@
         <translation>最高 {:.3g} rpm</translation>
     </message>
     <message>
-        <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in {unit}?</source>
+        <source>In {recording} the spindle&apos;s load is at most {most} W, next to nothing for this motor: is spindle_load_W in {unit}?</source>
         <translation>{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？</translation>
     </message>
     <message>
@@ -3830,7 +3830,7 @@
         <translation>转速始终为 0 rpm，而负载最高达 {:.4g} W</translation>
     </message>
     <message>
-        <source>the spindle's speed (was it logged?)</source>
+        <source>the spindle&apos;s speed (was it logged?)</source>
         <translation>主轴转速（是否已记录？）</translation>
     </message>
     <message>
@@ -4621,6 +4621,54 @@
         <source>the reference mark</source>
         <translation>参考标记</translation>
     </message>
+    <message>
+        <source>a channel&apos;s name, for example T1_C</source>
+        <translation>通道名，例如 T1_C</translation>
+    </message>
+    <message>
+        <source>a number other than 0</source>
+        <translation>非零数</translation>
+    </message>
+    <message>
+        <source>a known unit (degC, degF, K, um, mm, inch, rpm, kW), or a scale beside it</source>
+        <translation>已知单位（degC、degF、K、um、mm、inch、rpm、kW），或同时给出 scale</translation>
+    </message>
+    <message>
+        <source>more than two</source>
+        <translation>多于两列</translation>
+    </message>
+    <message>
+        <source>one column, or date and time of day</source>
+        <translation>一列，或日期与时刻两列</translation>
+    </message>
+    <message>
+        <source>s, ms, us, ns, min, h or d</source>
+        <translation>s、ms、us、ns、min、h 或 d</translation>
+    </message>
+    <message>
+        <source>one character, tab or blanks</source>
+        <translation>单个字符、tab 或 blanks</translation>
+    </message>
+    <message>
+        <source>a workbook (.xlsx) or a text table</source>
+        <translation>工作簿（.xlsx）或文本表格</translation>
+    </message>
+    <message>
+        <source>an old Excel workbook (.xls)</source>
+        <translation>旧版 Excel 工作簿（.xls）</translation>
+    </message>
+    <message>
+        <source>a damaged archive</source>
+        <translation>损坏的压缩包</translation>
+    </message>
+    <message>
+        <source>an archive without a workbook</source>
+        <translation>不含工作簿的压缩包</translation>
+    </message>
+    <message>
+        <source>damaged XML</source>
+        <translation>损坏的 XML</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -5223,6 +5271,206 @@
     <message>
         <source>A reference mark is not seen: {reason}.</source>
         <translation>有一个参考标记未被识别：{reason}。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: there are bytes that mean nothing in {encoding}.</source>
+        <translation>{file} 第 {line} 行：有字节不属于编码 {encoding}。</translation>
+    </message>
+    <message>
+        <source>Save the file as UTF-8, or say its &quot;encoding&quot; in a header map.</source>
+        <translation>请将文件另存为 UTF-8，或在列名映射中写明 &quot;encoding&quot;。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: a quotation mark opens and never closes.</source>
+        <translation>{file} 第 {line} 行：引号未闭合。</translation>
+    </message>
+    <message>
+        <source>Close it or take it out.</source>
+        <translation>请闭合或删除该引号。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: &quot;{found}&quot; may have a decimal comma or group thousands, and no other number in the file decides it.</source>
+        <translation>{file} 第 {line} 行，列 {column}：&quot;{found}&quot; 中的逗号可能是小数点，也可能是千位分隔符，文件中没有其他数字可以判定。</translation>
+    </message>
+    <message>
+        <source>Say &quot;decimal&quot;: &quot;,&quot; or &quot;decimal&quot;: &quot;.&quot; in a header map.</source>
+        <translation>请在列名映射中写明 &quot;decimal&quot;: &quot;,&quot; 或 &quot;decimal&quot;: &quot;.&quot;。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: &quot;{found}&quot; and &quot;{other}&quot; (line {other_line}) do not have the same decimal sign.</source>
+        <translation>{file} 第 {line} 行，列 {column}：&quot;{found}&quot; 与 &quot;{other}&quot;（第 {other_line} 行）的小数点写法不一致。</translation>
+    </message>
+    <message>
+        <source>Write one of them otherwise, or say &quot;decimal&quot; in a header map.</source>
+        <translation>请改写其中之一，或在列名映射中写明 &quot;decimal&quot;。</translation>
+    </message>
+    <message>
+        <source>{file} holds two tables: one ends about line {line}, one begins at line {other_line}.</source>
+        <translation>{file} 含有两个表：一个约在第 {line} 行结束，另一个从第 {other_line} 行开始。</translation>
+    </message>
+    <message>
+        <source>Save each in a file of its own.</source>
+        <translation>请将每个表单独存为一个文件。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: the header stands here again.</source>
+        <translation>{file} 第 {line} 行：表头在此重复出现。</translation>
+    </message>
+    <message>
+        <source>The rows after it are read on.</source>
+        <translation>其后的行继续读取。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: &quot;{found}&quot; is no row of the table and was passed over.</source>
+        <translation>{file} 第 {line} 行：&quot;{found}&quot; 不是表中的数据行，已跳过。</translation>
+    </message>
+    <message>
+        <source>Correct the line if it should be one.</source>
+        <translation>若它应为数据行，请更正该行。</translation>
+    </message>
+    <message>
+        <source>{file} has no header: line {line}, its first, holds numbers.</source>
+        <translation>{file} 没有表头：首行（第 {line} 行）即为数字。</translation>
+    </message>
+    <message>
+        <source>Name its columns by their places, #1, #2 and so on, under &quot;columns&quot; in a header map (--map).</source>
+        <translation>请在列名映射（--map）的 &quot;columns&quot; 下按位置 #1、#2 等命名各列。</translation>
+    </message>
+    <message>
+        <source>{file} has no column &quot;{column}&quot;, which the header map names; there are: {available}.</source>
+        <translation>{file} 中没有列名映射所指的列 &quot;{column}&quot;；现有列：{available}。</translation>
+    </message>
+    <message>
+        <source>Correct the header map; a column may also be named by its place, for example #3.</source>
+        <translation>请更正列名映射；也可按位置指定列，例如 #3。</translation>
+    </message>
+    <message>
+        <source>{file}, column {column}: the values are in {found}, which does not agree with {expected}.</source>
+        <translation>{file}，列 {column}：数值单位为 {found}，与 {expected} 不符。</translation>
+    </message>
+    <message>
+        <source>Correct the unit, the scale or the channel in the header map.</source>
+        <translation>请在列名映射中更正单位、比例或通道。</translation>
+    </message>
+    <message>
+        <source>{file} has no column of times; there are: {available}.</source>
+        <translation>{file} 没有时间列；现有列：{available}。</translation>
+    </message>
+    <message>
+        <source>Name it under &quot;time&quot; in a header map (--map): its &quot;column&quot; and its &quot;unit&quot;.</source>
+        <translation>请在列名映射（--map）的 &quot;time&quot; 下指明其 &quot;column&quot; 与 &quot;unit&quot;。</translation>
+    </message>
+    <message>
+        <source>{file}, column {column}: the times ({found} first) say no unit.</source>
+        <translation>{file}，列 {column}：时间（首个为 {found}）未注明单位。</translation>
+    </message>
+    <message>
+        <source>Give &quot;unit&quot; under &quot;time&quot; in a header map (--map): s, ms, us, ns, min, h or d.</source>
+        <translation>请在列名映射（--map）的 &quot;time&quot; 下给出 &quot;unit&quot;：s、ms、us、ns、min、h 或 d。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: in &quot;{found}&quot; day, month and year may be in more than one order.</source>
+        <translation>{file} 第 {line} 行，列 {column}：&quot;{found}&quot; 中年、月、日的次序不唯一。</translation>
+    </message>
+    <message>
+        <source>Give &quot;format&quot; under &quot;time&quot; in a header map (--map), for example %d/%m/%Y %H:%M:%S.</source>
+        <translation>请在列名映射（--map）的 &quot;time&quot; 下给出 &quot;format&quot;，例如 %d/%m/%Y %H:%M:%S。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: &quot;{found}&quot; is no time of the form the column has.</source>
+        <translation>{file} 第 {line} 行，列 {column}：&quot;{found}&quot; 不符合该列的时间格式。</translation>
+    </message>
+    <message>
+        <source>Correct the line, or give &quot;format&quot; under &quot;time&quot; in a header map (--map), for example %d.%m.%Y %H:%M:%S.</source>
+        <translation>请更正该行，或在列名映射（--map）的 &quot;time&quot; 下给出 &quot;format&quot;，例如 %d.%m.%Y %H:%M:%S。</translation>
+    </message>
+    <message>
+        <source>The times in column {column} are {unit} since 1970, by their size; the recording starts {start}.</source>
+        <translation>列 {column} 中的时间按数值大小判定为自 1970 年起的 {unit}；记录始于 {start}。</translation>
+    </message>
+    <message>
+        <source>If they are not, give the unit in a header map.</source>
+        <translation>若不正确，请在列名映射中给出单位。</translation>
+    </message>
+    <message>
+        <source>In column {column} &quot;{found}&quot; may be more than one date; times do not depend on it, and no date is kept.</source>
+        <translation>列 {column} 中的 &quot;{found}&quot; 可能对应多个日期；时间不受影响，日期未保留。</translation>
+    </message>
+    <message>
+        <source>Give the format in a header map to keep the date.</source>
+        <translation>若需保留日期，请在列名映射中给出格式。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: the local clock goes back by an hour, as at the end of summer time.</source>
+        <translation>{file} 第 {line} 行：本地时钟回拨一小时，应为夏令时结束。</translation>
+    </message>
+    <message>
+        <source>The rows from there on count an hour later; correct the file if the clock was set for another reason.</source>
+        <translation>其后各行按晚一小时计；若时钟因其他原因被调整，请更正文件。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: an hour is missing, as at the beginning of summer time.</source>
+        <translation>{file} 第 {line} 行：缺少一小时，可能为夏令时开始。</translation>
+    </message>
+    <message>
+        <source>It counts as a gap; give times with a zone if the clock was set forward.</source>
+        <translation>按间断处理；若时钟被拨快，请提供带时区的时间。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}: the time of day starts again; a day is counted on.</source>
+        <translation>{file} 第 {line} 行：一天中的时刻重新开始；按次日计。</translation>
+    </message>
+    <message>
+        <source>Give a column with dates if it was more than one day.</source>
+        <translation>若间隔超过一天，请提供日期列。</translation>
+    </message>
+    <message>
+        <source>{file}: {count} rows repeat the row before them word for word, the first in line {line}; they were left out.</source>
+        <translation>{file}：有 {count} 行与前一行完全相同，首个在第 {line} 行；已略去。</translation>
+    </message>
+    <message>
+        <source>Nothing need be done.</source>
+        <translation>无需处理。</translation>
+    </message>
+    <message>
+        <source>Column {column}: read as missing samples: {words}.</source>
+        <translation>列 {column}：以下按缺失样本读取：{words}。</translation>
+    </message>
+    <message>
+        <source>Check the sensor if they should be there.</source>
+        <translation>若应有数据，请检查传感器。</translation>
+    </message>
+    <message>
+        <source>Column {column} was read as {channel}; it may be {proposal}.</source>
+        <translation>列 {column} 读作 {channel}；可能应为 {proposal}。</translation>
+    </message>
+    <message>
+        <source>Say so in a header map if it is.</source>
+        <translation>若是，请在列名映射中写明。</translation>
+    </message>
+    <message>
+        <source>Column {column} states {unit}; it was converted into {channel}.</source>
+        <translation>列 {column} 注明单位为 {unit}；已换算为 {channel}。</translation>
+    </message>
+    <message>
+        <source>Give the unit in a header map if that is wrong.</source>
+        <translation>若有误，请在列名映射中给出单位。</translation>
+    </message>
+    <message>
+        <source>Column {column} holds {found} in {count} rows, which may stand for a missing sample.</source>
+        <translation>列 {column} 有 {count} 行为 {found}，可能表示缺失样本。</translation>
+    </message>
+    <message>
+        <source>If so, add it to &quot;missing&quot; in a header map.</source>
+        <translation>若是，请将其加入列名映射的 &quot;missing&quot;。</translation>
+    </message>
+    <message>
+        <source>{file}, row {line}, column {column}: the formula there has no value.</source>
+        <translation>{file} 第 {line} 行，第 {column} 列：该处公式没有数值。</translation>
+    </message>
+    <message>
+        <source>Open the workbook in a spreadsheet program, save it, and import it again.</source>
+        <translation>请用电子表格程序打开并保存该工作簿，然后重新导入。</translation>
     </message>
 </context>
 <context>

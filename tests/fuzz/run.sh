@@ -7,7 +7,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 seconds=${1:?how many seconds for each target}
 shift
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(csv image documents laser registers modbus job exports)
+[ ${#targets[@]} -gt 0 ] || targets=(csv import image documents laser registers modbus job exports)
 build="$root/build/fuzz"
 [ -f "$build/build.ninja" ] || CC=clang CXX=clang++ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
   -DZERODRIFT_FUZZ=ON -DZERODRIFT_SANITIZE=address,undefined >/dev/null

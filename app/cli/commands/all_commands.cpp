@@ -7,6 +7,7 @@ void add_access(Cli& cli);
 void add_axis_table(Cli& cli);
 void add_compensate(Cli& cli);
 void add_export(Cli& cli);
+void add_import(Cli& cli);
 void add_machine_check(Cli& cli);
 void add_machine_table(Cli& cli);
 void add_table(Cli& cli);
@@ -31,6 +32,7 @@ void add_all_commands(Cli& cli) {
   add_axis_table(cli);
   add_compensate(cli);
   add_export(cli);
+  add_import(cli);
   add_machine_check(cli);
   add_machine_table(cli);
   add_table(cli);

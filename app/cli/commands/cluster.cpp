@@ -4,16 +4,19 @@
 
 #include <charconv>
 
-#include "app/cli/command.h"
+#include "app/cli/recording_input.h"
 #include "core/analysis/clustering.h"
 #include "core/base/json.h"
-#include "core/recording/csv.h"
+#include "core/commissioning/job.h"
+#include "core/flow/steps/sensors_step.h"
 
 namespace zerodrift::cli {
 namespace cluster_command {
 
 struct Options {
   std::string recording;
+  std::string map;
+  std::string job;
   std::string clusters = "5";
   std::string errors;
   std::string distance = "raw";
@@ -52,6 +55,22 @@ std::string text_of(const analysis::ClusterAnalysis& result) {
   return text;
 }
 
+/// Keeps the choice of sensors in the job, with the same number of clusters.
+Status keep_in_job(const Options& options, int clusters, const TaskContext& context) {
+  ZD_TRY(auto job, commissioning::Job::open(options.job));
+  flow::SensorsOptions sensors;
+  sensors.clusters = clusters;
+  ZD_TRY(const auto made, flow::choose_sensors(job, sensors, context));
+  ZD_CHECK(job.put(made).map([](auto) {}));
+  return {};
+}
+
+Result<recording::Recording> recording_of(const Options& options, std::vector<std::string>& warnings) {
+  if (options.job.empty()) return recording_from(options.recording, options.map, warnings);
+  ZD_TRY(const auto job, commissioning::Job::open_read_only(options.job));
+  return run_in_job(job);
+}
+
 Result<CommandOutput> run(const Options& options, bool clusters_given, const TaskContext& context) {
   analysis::ClusterOptions how;
   ZD_TRY(how.clusters, cluster_count(options.clusters));
@@ -63,18 +82,19 @@ Result<CommandOutput> run(const Options& options, bool clusters_given, const Tas
   how.criterion = options.sum == "auto"     ? analysis::SumCriterion::automatic
                   : options.sum == "signed" ? analysis::SumCriterion::signed_sum
                                             : analysis::SumCriterion::absolute_sum;
-  ZD_TRY(const recording::Recording recording, recording::read_recording(options.recording));
+  CommandOutput output;
+  ZD_TRY(const recording::Recording recording, recording_of(options, output.warnings));
   auto result = analysis::cluster(recording, how, context);
   if (!result && !clusters_given && result.error().code == ErrorCode::bad_argument) {
     how.clusters = 0;  // fewer sensors than the default of five
     result = analysis::cluster(recording, how, context);
   }
-  if (!result) return fail(std::move(result).error().with("file", options.recording));
-  CommandOutput output;
+  if (!result) return fail(std::move(result).error().with("file", recording.name));
   output.json = analysis::to_json(*result);
   output.text = text_of(*result);
   for (const auto& finding : result->findings) output.warnings.push_back(analysis::describe(finding));
   ZD_CHECK(write_json_file(options.out, output.json));
+  if (!options.job.empty()) ZD_CHECK(keep_in_job(options, how.clusters, context));
   return output;
 }
 
@@ -89,7 +109,14 @@ void add_cluster(Cli& cli) {
                        return run(*options, (*command)->count("--clusters") > 0, context);
                      });
   CLI::App& app = **command;
-  app.add_option("--recording", options->recording, "Recording (CSV) with temperatures and errors")->required();
+  app.add_option("--recording", options->recording, "Recording (CSV) with temperatures and errors");
+  app.add_option("--job", options->job, "Job whose run is taken instead; the choice of sensors is kept in it");
+  app.parse_complete_callback([options] {
+    if (options->recording.empty() == options->job.empty()) {
+      throw CLI::RequiredError("--recording or --job: one of them");
+    }
+  });
+  add_map_option(app, options->map);
   app.add_option("--clusters", options->clusters, "Number of clusters, or auto")
       ->check([](const std::string& text) {
         return cluster_count(text) ? std::string() : text + " is no number from 1 up, nor auto";

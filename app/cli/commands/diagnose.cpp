@@ -6,12 +6,13 @@
 #include <limits>
 #include <map>
 
-#include "app/cli/command.h"
+#include "app/cli/recording_input.h"
 #include "core/base/file.h"
 #include "core/base/json.h"
+#include "core/commissioning/job.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/proof_html.h"
-#include "core/recording/csv.h"
+#include "core/flow/steps/diagnose_step.h"
 
 namespace zerodrift::cli {
 namespace diagnose_command {
@@ -19,6 +20,8 @@ namespace diagnose_command {
 struct DiagnoseArguments {
   std::string machine;
   std::vector<std::string> recordings;
+  std::string map;
+  std::string job;
   std::string out;
   std::string refined;
   std::string report;
@@ -61,17 +64,31 @@ std::string text_of(const diagnosis::Diagnosis& d) {
   return text;
 }
 
+Result<std::vector<recording::Recording>> recordings_of(const DiagnoseArguments& arguments,
+                                                        std::vector<std::string>& warnings) {
+  if (arguments.job.empty()) return recordings_from(arguments.recordings, arguments.map, warnings);
+  ZD_TRY(const auto job, commissioning::Job::open_read_only(arguments.job));
+  ZD_TRY(auto run, run_in_job(job));
+  return std::vector<recording::Recording>{std::move(run)};
+}
+
+Status keep_diagnosis(const DiagnoseArguments& arguments, const diagnosis::Diagnosis& result,
+                      const TaskContext& context) {
+  ZD_TRY(const nlohmann::json machine, read_json_file(arguments.machine));
+  ZD_TRY(auto job, commissioning::Job::open(arguments.job));
+  ZD_TRY(const auto made, flow::with_diagnosis(job, machine, result, context));
+  ZD_CHECK(job.put(made).map([](auto) {}));
+  return {};
+}
+
 Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const physics::Machine machine, physics::read_machine(arguments.machine, &output.warnings));
-  std::vector<recording::Recording> recordings;
-  for (const auto& path : arguments.recordings) {
-    ZD_TRY(recording::Recording recording, recording::read_recording(path));
-    recordings.push_back(std::move(recording));
-  }
+  ZD_TRY(const std::vector<recording::Recording> recordings, recordings_of(arguments, output.warnings));
   ZD_TRY(const diagnosis::Diagnosis result, diagnosis::diagnose(machine, recordings, {}, context));
   output.json = diagnosis::to_json(result);
   ZD_CHECK(write_json_file(arguments.out, output.json));
+  if (!arguments.job.empty()) ZD_CHECK(keep_diagnosis(arguments, result, context));
   if (!arguments.refined.empty()) ZD_CHECK(write_json_file(arguments.refined, physics::to_json(result.refined)));
   if (!arguments.report.empty()) ZD_CHECK(write_file(arguments.report, diagnosis::proof_html(machine, result)));
   output.text = text_of(result);
@@ -113,7 +130,10 @@ void add_diagnose(Cli& cli) {
   CLI::App* command = cli.add("diagnose", "Find the physics that a simulation left out",
                               [arguments](const TaskContext& context) { return run_diagnose(*arguments, context); });
   command->add_option("--machine", arguments->machine, "Machine description (JSON)")->required();
-  command->add_option("--recording", arguments->recordings, "Recording (CSV); further ones are held out")->required();
+  command->add_option("--recording", arguments->recordings, "Recording (CSV); further ones are held out");
+  command->add_option("--job", arguments->job, "Job whose run is taken instead; what was found is kept in it");
+  require_recording_or_job(*command, arguments->recordings, arguments->job);
+  add_map_option(*command, arguments->map);
   command->add_option("--out", arguments->out, "Where the diagnosis goes (JSON)")->required();
   command->add_option("--refined", arguments->refined, "Where the refined machine description goes (JSON)");
   command->add_option("--report", arguments->report, "Where the proof goes (HTML)");

@@ -4,18 +4,22 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/command.h"
+#include "app/cli/recording_input.h"
 #include "core/analysis/ageing.h"
 #include "core/analysis/training.h"
 #include "core/base/json.h"
+#include "core/commissioning/job.h"
+#include "core/flow/steps/fit_step.h"
+#include "core/flow/steps/sensors_step.h"
 #include "core/physics/simulate.h"
-#include "core/recording/csv.h"
 
 namespace zerodrift::cli {
 namespace fit_command {
 
 struct Options {
   std::vector<std::string> recordings;
+  std::string map;
+  std::string job;
   std::string sensors = "auto";
   std::string errors;
   std::string method = "auto";
@@ -97,6 +101,28 @@ Result<analysis::Model> updated(const Options& options, const std::vector<record
   return model;
 }
 
+/// The step of the job: on the sensors chosen in it, or chosen now, or those given here.
+Result<analysis::Model> fitted_in_job(const Options& options, const TaskContext& context) {
+  if (!options.machine.empty() || !options.update.empty() || !options.errors.empty()) {
+    return fail(ErrorCode::bad_argument, {{"what", "--job"},
+                                          {"found", "--machine, --update or --errors beside it"},
+                                          {"expected", "--recording with these"}});
+  }
+  ZD_TRY(auto job, commissioning::Job::open(options.job));
+  ZD_TRY(const auto before, job.latest("sensors"));
+  if (!before || options.sensors != "auto") {
+    flow::SensorsOptions sensors;
+    if (options.sensors != "auto") sensors.chosen = names_from(options.sensors);
+    ZD_TRY(const auto chosen, flow::choose_sensors(job, sensors, context));
+    ZD_CHECK(job.put(chosen).map([](auto) {}));
+  }
+  flow::FitStepOptions how;
+  how.method = options.method;
+  ZD_TRY(const auto made, flow::fit_model(job, how, context));
+  ZD_TRY(const auto kept, job.put(made));
+  return flow::model_of(kept);
+}
+
 Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   analysis::FitOptions how;
   ZD_TRY(how.method, analysis::method_from(options.method));
@@ -109,24 +135,23 @@ Result<CommandOutput> run(const Options& options, const TaskContext& context) {
   }
   how.max_sensors = options.max_sensors;
   how.coverage = 0.01 * options.coverage_percent;
-  std::vector<recording::Recording> recordings;
-  for (const auto& file : options.recordings) {
-    ZD_TRY(recording::Recording recording, recording::read_recording(file));
-    recordings.push_back(std::move(recording));
-  }
   CommandOutput output;
+  ZD_TRY(std::vector<recording::Recording> recordings,
+         recordings_from(options.recordings, options.map, output.warnings));
   std::string machine;
   if (!options.machine.empty()) {
     ZD_TRY(recordings, simulated(options, recordings, machine, output.warnings, context));
   }
   analysis::Model model;
-  if (options.update.empty()) {
+  if (!options.job.empty()) {
+    ZD_TRY(model, fitted_in_job(options, context));
+  } else if (options.update.empty()) {
     ZD_TRY(model, analysis::fit(recordings, how, context));
   } else {
     ZD_TRY(model, updated(options, recordings, output.warnings));
     machine = model.machine;
   }
-  model.machine = std::move(machine);
+  if (options.job.empty()) model.machine = std::move(machine);
   output.json = analysis::to_json(model);
   output.text = text_of(model);
   for (const auto& finding : model.findings) output.warnings.push_back(analysis::describe(finding));
@@ -141,7 +166,10 @@ void add_fit(Cli& cli) {
   auto options = std::make_shared<Options>();
   CLI::App& app = *cli.add("fit", "Fit the thermal-error model to one or several runs",
                            [options](const TaskContext& context) { return run(*options, context); });
-  app.add_option("--recording", options->recordings, "Recording (CSV); may be given several times")->required();
+  app.add_option("--recording", options->recordings, "Recording (CSV); may be given several times");
+  app.add_option("--job", options->job, "Job whose run is taken instead; the model is kept in it");
+  require_recording_or_job(app, options->recordings, options->job);
+  add_map_option(app, options->map);
   app.add_option("--sensors", options->sensors, "Channels to use, for example T1_C,T5_C, or auto")
       ->check(names_with_commas())
       ->capture_default_str();

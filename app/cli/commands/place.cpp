@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/cli/command.h"
+#include "app/cli/recording_input.h"
 #include "core/base/json.h"
 #include "core/physics/placement.h"
 #include "core/recording/csv.h"
@@ -15,6 +15,7 @@ namespace place_command {
 struct PlaceArguments {
   std::string machine;
   std::string inputs;
+  std::string map;
   std::string error = "dZ_um";
   std::string out;
 };
@@ -51,7 +52,7 @@ nlohmann::json json_of(const physics::Placement& placement) {
 Result<CommandOutput> run_place(const PlaceArguments& arguments, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const physics::Machine machine, physics::read_machine(arguments.machine, &output.warnings));
-  ZD_TRY(const recording::Recording read, recording::read_recording(arguments.inputs));
+  ZD_TRY(const recording::Recording read, recording_from(arguments.inputs, arguments.map, output.warnings));
   const recording::Recording inputs = sound(read, physics::measured_boundaries(machine), output.warnings);
   physics::PlacementOptions options;
   options.error = arguments.error;
@@ -78,6 +79,7 @@ void add_place(Cli& cli) {
                               [arguments](const TaskContext& context) { return run_place(*arguments, context); });
   command->add_option("--machine", arguments->machine, "Machine description (JSON)")->required();
   command->add_option("--inputs", arguments->inputs, "Recording whose inputs are used (CSV)")->required();
+  add_map_option(*command, arguments->map);
   command->add_option("--error", arguments->error, "The displacement to follow");
   command->add_option("--out", arguments->out, "Where the placement goes (JSON)")->required();
 }

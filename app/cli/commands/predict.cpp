@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/command.h"
+#include "app/cli/recording_input.h"
 #include "core/analysis/ageing.h"
 #include "core/physics/simulate.h"
 #include "core/recording/csv.h"
@@ -15,6 +15,7 @@ namespace predict_command {
 struct Options {
   std::string model;
   std::string recording;
+  std::string map;
   std::string zero = "auto";
   std::string out;
 };
@@ -56,7 +57,7 @@ std::string text_of(const analysis::Prediction& prediction) {
 Result<CommandOutput> run(const Options& options) {
   CommandOutput output;
   ZD_TRY(const analysis::Model model, analysis::read_model(options.model, &output.warnings));
-  ZD_TRY(recording::Recording recording, recording::read_recording(options.recording));
+  ZD_TRY(recording::Recording recording, recording_from(options.recording, options.map, output.warnings));
   if (!model.machine.empty()) {
     ZD_TRY(const physics::Machine machine,
            physics::machine_from_json(nlohmann::json::parse(model.machine), options.model, &output.warnings));
@@ -94,6 +95,7 @@ void add_predict(Cli& cli) {
                            [options](const TaskContext&) { return run(*options); });
   app.add_option("--model", options->model, "model.json of fit")->required();
   app.add_option("--recording", options->recording, "Recording (CSV) with the model's channels")->required();
+  add_map_option(app, options->map);
   app.add_option("--zero", options->zero,
                  "What errors count from: the training's start, this recording's own start, or auto (a recording that "
                  "goes on from the training counts from its start)")

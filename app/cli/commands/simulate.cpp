@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/command.h"
+#include "app/cli/recording_input.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
@@ -13,13 +13,14 @@ namespace simulate_command {
 struct SimulateArguments {
   std::string machine;
   std::string inputs;
+  std::string map;
   std::string out;
 };
 
 Result<CommandOutput> run_simulate(const SimulateArguments& arguments, const TaskContext& context) {
   CommandOutput output;
   ZD_TRY(const physics::Machine machine, physics::read_machine(arguments.machine, &output.warnings));
-  ZD_TRY(const recording::Recording read, recording::read_recording(arguments.inputs));
+  ZD_TRY(const recording::Recording read, recording_from(arguments.inputs, arguments.map, output.warnings));
   const recording::Recording inputs = sound(read, physics::measured_boundaries(machine), output.warnings);
   ZD_TRY(const physics::Simulation simulation, physics::simulate(machine, inputs, context));
   ZD_CHECK(recording::write_recording(arguments.out, simulation.prediction));
@@ -54,6 +55,7 @@ void add_simulate(Cli& cli) {
                               [arguments](const TaskContext& context) { return run_simulate(*arguments, context); });
   command->add_option("--machine", arguments->machine, "Machine description (JSON)")->required();
   command->add_option("--inputs", arguments->inputs, "Recording whose inputs are used (CSV)")->required();
+  add_map_option(*command, arguments->map);
   command->add_option("--out", arguments->out, "Where the prediction goes (CSV)")->required();
 }
 

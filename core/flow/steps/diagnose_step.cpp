@@ -55,13 +55,33 @@ void add_refined_curves(const Diagnosis& found, json& curves) {
   }
 }
 
+Status add_diagnosis(const Diagnosis& found, NewArtefact& made) {
+  ZD_TRY(json body, parse_json(made.body, "physics"));
+  body["diagnosis"] = diagnosis::to_json(found);
+  body["rmse"]["after"] = body["diagnosis"]["rmse"]["after"];
+  body["heat"] = heat_json(found);
+  add_refined_curves(found, body["curves"]);
+  body["refined_machine"] = physics::to_json(found.refined);
+  body["adopted"] = json::array();
+  body["rejected"] = json::array();
+  made.body = json_text(body);
+  made.blobs.push_back({"refined.csv", refined_csv(found)});
+  return {};
+}
+
 }  // namespace
+
+Result<NewArtefact> with_diagnosis(const commissioning::Job& job, const json& machine, const Diagnosis& found,
+                                   const TaskContext& context) {
+  ZD_TRY(NewArtefact made, compare_physics(job, context, &machine));
+  ZD_CHECK(add_diagnosis(found, made));
+  return made;
+}
 
 Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContext& context) {
   ZD_TRY(NewArtefact made, compare_physics(job, context));
   ZD_TRY(const auto profile, profile_of(job, "physics"));
   if (profile.machine == nullptr) return made;
-  ZD_TRY(json body, parse_json(made.body, "physics"));
   ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
   ZD_TRY(const auto warmup, need(job, "physics", "warmup"));
   std::vector<recording::Recording> runs(1);
@@ -75,20 +95,12 @@ Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContex
     // The comparison stands on its own; that nothing could be searched is said with it.
     json problem = to_json(diagnosed.error());
     problem["said"] = "not_searched";
+    ZD_TRY(json body, parse_json(made.body, "physics"));
     body["problems"] = json::array({problem});
     made.body = json_text(body);
     return made;
   }
-  const Diagnosis& found = *diagnosed;
-  body["diagnosis"] = diagnosis::to_json(found);
-  body["rmse"]["after"] = body["diagnosis"]["rmse"]["after"];
-  body["heat"] = heat_json(found);
-  add_refined_curves(found, body["curves"]);
-  body["refined_machine"] = physics::to_json(found.refined);
-  body["adopted"] = json::array();
-  body["rejected"] = json::array();
-  made.body = json_text(body);
-  made.blobs.push_back({"refined.csv", refined_csv(found)});
+  ZD_CHECK(add_diagnosis(*diagnosed, made));
   return made;
 }
 

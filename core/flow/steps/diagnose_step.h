@@ -3,6 +3,7 @@
 
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
+#include "core/diagnosis/diagnosis.h"
 
 namespace zerodrift::flow {
 
@@ -14,5 +15,8 @@ namespace zerodrift::flow {
 /// "code", "context"} and the rest is missing. Comes with the blob "refined.csv", the simulation with what was found. A
 /// verification run serves as unseen data.
 Result<commissioning::NewArtefact> find_missing(const commissioning::Job& job, const TaskContext& context);
+/// The same artefact from a description that is not the profile's and what was found with it in the job's run.
+Result<commissioning::NewArtefact> with_diagnosis(const commissioning::Job& job, const nlohmann::json& machine,
+                                                  const diagnosis::Diagnosis& found, const TaskContext& context);
 
 }  // namespace zerodrift::flow

@@ -85,10 +85,10 @@ Result<commissioning::SeriesId> keep(commissioning::Job& job, const Recording& r
 
 }  // namespace
 
-Status fit_for_warmup(const Recording& run, const std::string& file) {
+Status fit_for_warmup(const Recording& run, const std::string& file, bool errors_needed) {
   const std::size_t temperatures = most_present(run, ChannelKind::temperature);
   const std::size_t errors = most_present(run, ChannelKind::error);
-  if (temperatures < least_rows || errors < least_rows) {
+  if (temperatures < least_rows || (errors_needed && errors < least_rows)) {
     return fail(
         ErrorCode::data_does_not_fit,
         {{"what", file},
@@ -104,9 +104,9 @@ Status fit_for_warmup(const Recording& run, const std::string& file) {
   return {};
 }
 
-Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const Recording& run,
-                                                 const std::string& file) {
-  ZD_CHECK(fit_for_warmup(run, file));
+Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const Recording& run, const std::string& file,
+                                                 const json& how) {
+  ZD_CHECK(fit_for_warmup(run, file, how.is_null()));
   std::vector<commissioning::ArtefactId> inputs;
   for (const char* kind : {"machine", "calibration"}) {
     ZD_TRY(const auto latest, job.latest(kind));
@@ -118,7 +118,8 @@ Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const 
   plan.steps = steps_of(run);
   const double duration_s = run.time_s.back() - run.time_s.front();
   const std::size_t measurements = most_present(run, ChannelKind::error);
-  plan.measure_period_s = std::max(plan.sample_period_s, duration_s / static_cast<double>(measurements));
+  plan.measure_period_s =
+      std::max(plan.sample_period_s, duration_s / static_cast<double>(std::max<std::size_t>(measurements, 1)));
   ZD_TRY(const auto series, keep(job, run, plan));
   json body = {{"series", series},
                {"plan", acquisition::to_json(plan)},
@@ -133,6 +134,7 @@ Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const 
                {"duration_s", duration_s},
                {"peak_um", json::object()},
                {"problems", {"imported from " + file + ": that the compensation was off is not recorded"}}};
+  if (!how.is_null()) body["import"] = how;
   for (const auto& [direction, size] : error_sizes(run)) body["peak_um"][direction] = size.peak_um;
   return commissioning::NewArtefact::of("warmup", body, inputs);
 }

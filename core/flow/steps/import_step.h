@@ -5,6 +5,7 @@
 // report.
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/commissioning/job.h"
 #include "core/recording/recording.h"
@@ -12,9 +13,11 @@
 namespace zerodrift::flow {
 
 /// What a recording must have to be a warm-up run: a temperature and an error, 20 rows of each, over a minute at least.
-Status fit_for_warmup(const recording::Recording& run, const std::string& file);
+/// Without an error it serves for a question of heat alone (diagnose), where `errors_needed` is false.
+Status fit_for_warmup(const recording::Recording& run, const std::string& file, bool errors_needed = true);
 
+/// `how` is kept as "import": how the file was read, with the date of its start. Given it, errors are not needed.
 Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const recording::Recording& run,
-                                                 const std::string& file);
+                                                 const std::string& file, const nlohmann::json& how = nullptr);
 
 }  // namespace zerodrift::flow

@@ -73,11 +73,21 @@ void add_sentence(json& body, const diagnosis::Sentence& sentence) {
 
 }  // namespace
 
-Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context) {
-  ZD_TRY(const Input machine_artefact, need(job, "physics", "machine"));
+Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context,
+                                                   const json* given) {
+  std::vector<commissioning::ArtefactId> inputs;
+  json description = given != nullptr ? *given : json(nullptr);
+  std::string description_file = "machine.json";
+  if (given == nullptr) {
+    ZD_TRY(const Input machine_artefact, need(job, "physics", "machine"));
+    ZD_TRY(const auto profile, profile_of(job, "physics"));
+    inputs.push_back(machine_artefact.id);
+    if (profile.machine != nullptr) description = *profile.machine;
+    description_file = profile.machine_file;
+  }
   ZD_TRY(const Input warmup, need(job, "physics", "warmup"));
+  inputs.push_back(warmup.id);
   ZD_TRY(const auto recorded, run_of(job, warmup));
-  ZD_TRY(const auto profile, profile_of(job, "physics"));
   json body = {{"rmse", {{"before", json::object()}}},
                {"largest", json::object()},
                {"curves", json::array()},
@@ -85,11 +95,11 @@ Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job
                {"notes", json::array()},
                {"sentences", json::array()},
                {"said", json::array()}};
-  if (profile.machine == nullptr) {
+  if (description.is_null()) {
     add_sentence(body, {"nothing_to_simulate", {}, ""});
-    return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id});
+    return commissioning::NewArtefact::of("physics", body, inputs);
   }
-  ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
+  ZD_TRY(const auto machine, physics::machine_from_json(description, description_file));
   const recording::Recording run = analysis::checked(recorded, physics::measured_boundaries(machine)).recording;
   ZD_TRY(const auto simulation, physics::simulate(machine, run, context));
   const auto differences = physics::compare(simulation.prediction, run);
@@ -106,7 +116,7 @@ Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job
     body["placement"] = placement_json(*placement);
     add_sentence(body, sentence_of(*placement));
   }
-  return commissioning::NewArtefact::of("physics", body, {machine_artefact.id, warmup.id},
+  return commissioning::NewArtefact::of("physics", body, inputs,
                                         {{"prediction.csv", recording::to_csv(simulation.prediction)}});
 }
 

@@ -6,11 +6,15 @@
 //    "notes": [...], "sentences": [...] in English, "said": [{id, facts}] the same for every language}
 // with the blob "prediction.csv".
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
 
 namespace zerodrift::flow {
 
-Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context);
+/// `machine`: a description from a file instead of the profile's; then the job needs no machine artefact.
+Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context,
+                                                   const nlohmann::json* machine = nullptr);
 
 }  // namespace zerodrift::flow
