@@ -126,7 +126,7 @@ std::optional<double> NumberFormat::number(std::string_view text) const {
 }
 
 bool looks_like_number(std::string_view text) {
-  return !plain(text).empty();
+  return NumberFormat{'.', true}.number(text) || NumberFormat{',', true}.number(text);
 }
 
 NumberEvidence::Kind NumberEvidence::kind_of_cell(std::string_view text) {

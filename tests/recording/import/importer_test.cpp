@@ -165,6 +165,10 @@ TEST(Importer, TimesInTheirUnits) {
   EXPECT_EQ(last("time_ms,a\n0,1\n500,2\n"), 0.5);
   EXPECT_EQ(last("Elapsed,a\n25:59:00,1\n26:00:01,2\n"), 61.0);
   EXPECT_EQ(last("Date;Time;a\n03.11.2025;23:59:50;1\n04.11.2025;00:00:10;2\n"), 20.0);
+  const Imported two_columns = read_as("Datum;Uhrzeit;a\n03.11.2025;07:12:40;1,5\n03.11.2025;07:13:00;2\n");
+  EXPECT_EQ(two_columns.time.rule, "clock");
+  EXPECT_EQ(two_columns.time.start, "2025-11-03T07:12:40");
+  EXPECT_EQ(two_columns.recording.channels.size(), 1U);
   EXPECT_EQ(last("Datum;Uhrzeit;a\n03.11.2025;07:12:40,5;1,5\n03.11.2025;07:12:41,0;2\n"), 0.5);
   EXPECT_EQ(last("timestamp,a\n2025-11-03T07:12:40.121Z,1\n2025-11-03T08:13:00.121+01:00,2\n"), 20.0);
   EXPECT_EQ(last("Time,a\n11/23/2025 11:59:50 PM,1\n11/24/2025 12:00:10 AM,2\n"), 20.0);
