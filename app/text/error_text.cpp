@@ -42,10 +42,14 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Check the line for a missing separator or a decimal comma.")},
     Row{ErrorCode::csv_bad_number,
         QT_TRANSLATE_NOOP("errors", "{file}, line {line}, column {column}: \"{found}\" is not a number."),
-        QT_TRANSLATE_NOOP("errors", "Use a decimal point; leave the cell empty if the sample is missing.")},
+        QT_TRANSLATE_NOOP("errors",
+                          "Correct it; if the sample is missing, leave the cell empty or add the word to \"missing\" "
+                          "in a header map (--map).")},
     Row{ErrorCode::csv_time_order,
         QT_TRANSLATE_NOOP("errors", "{file}, line {line}: the time \"{found}\" does not come after the line before."),
-        QT_TRANSLATE_NOOP("errors", "time_s must be there in every line and increase.")},
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "Times must be there in every line and increase: correct the order of the lines, or take the line out.")},
     Row{ErrorCode::workbook_formula,
         QT_TRANSLATE_NOOP("errors", "{file}, row {line}, column {column}: the formula there has no value."),
         QT_TRANSLATE_NOOP("errors", "Open the workbook in a spreadsheet program, save it, and import it again.")},

@@ -4757,16 +4757,8 @@
         <translation>{file} 第 {line} 行第 {column} 列：“{found}”不是数值。</translation>
     </message>
     <message>
-        <source>Use a decimal point; leave the cell empty if the sample is missing.</source>
-        <translation>请使用小数点；缺少采样时单元格留空。</translation>
-    </message>
-    <message>
         <source>{file}, line {line}: the time &quot;{found}&quot; does not come after the line before.</source>
         <translation>{file} 第 {line} 行：时间“{found}”不晚于前一行。</translation>
-    </message>
-    <message>
-        <source>time_s must be there in every line and increase.</source>
-        <translation>每行都必须有 time_s，且递增。</translation>
     </message>
     <message>
         <source>{file}, line {line}, column {column}: not valid JSON ({detail}).</source>
@@ -5471,6 +5463,14 @@
     <message>
         <source>Open the workbook in a spreadsheet program, save it, and import it again.</source>
         <translation>请用电子表格程序打开并保存该工作簿，然后重新导入。</translation>
+    </message>
+    <message>
+        <source>Correct it; if the sample is missing, leave the cell empty or add the word to &quot;missing&quot; in a header map (--map).</source>
+        <translation>请更正；若样本缺失，请将单元格留空，或将该词加入列名映射（--map）的 &quot;missing&quot;。</translation>
+    </message>
+    <message>
+        <source>Times must be there in every line and increase: correct the order of the lines, or take the line out.</source>
+        <translation>每行都必须有时间且递增：请更正行的次序，或删除该行。</translation>
     </message>
 </context>
 <context>

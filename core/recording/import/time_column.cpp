@@ -412,6 +412,15 @@ Result<std::vector<std::size_t>> columns_in_map(const SourceTable& table, const 
   return out;
 }
 
+/// The date of the start from a clock beside elapsed time, where its date has one meaning.
+std::string start_beside(const SourceTable& table, std::size_t row, std::size_t column) {
+  const auto clock = read_clock_text(table.cell(row, column));
+  if (!clock || clock->orders.size() != 1) return {};
+  const auto day = day_of(*clock, clock->orders.front());
+  if (!day) return {};
+  return iso_text(day->time_since_epoch().count() * day_ns + clock->of_day_ns, clock->zone_minutes);
+}
+
 /// A column "ms" right after a clock without fractions.
 std::optional<std::size_t> milliseconds_beside(const SourceTable& table, std::size_t clock) {
   const std::size_t next = clock + 1;
@@ -479,7 +488,10 @@ Result<TimeReading> read_time(const SourceTable& table, const HeaderMap& map, co
   const std::size_t first = chosen.front();
   if (chosen.size() == 1 && map.time.format.empty() && contents[first].dates == 0 && contents[first].times == 0) {
     if (unit.empty() && scale == 0.0) unit = time_unit_of(table, first);
-    return read_numbers(table, first, unit, scale);
+    ZD_TRY(TimeReading out, read_numbers(table, first, unit, scale));
+    const auto beside = first_where([&](std::size_t c) { return contents[c].is_date_and_time(); });
+    if (beside && out.start.empty()) out.start = start_beside(table, out.rows.front(), *beside);
+    return out;
   }
   clock.first = first;
   if (chosen.size() == 2) clock.of_day = chosen[1];

@@ -172,6 +172,8 @@ TEST(Importer, TimesInTheirUnits) {
   EXPECT_EQ(last("Datum;Uhrzeit;a\n03.11.2025;07:12:40,5;1,5\n03.11.2025;07:12:41,0;2\n"), 0.5);
   EXPECT_EQ(last("timestamp,a\n2025-11-03T07:12:40.121Z,1\n2025-11-03T08:13:00.121+01:00,2\n"), 20.0);
   EXPECT_EQ(last("Time,a\n11/23/2025 11:59:50 PM,1\n11/24/2025 12:00:10 AM,2\n"), 20.0);
+  EXPECT_EQ(read_as("Elapsed (s),Stamp,a\n0,2025-11-03 07:12:40,1\n20,2025-11-03 07:13:00,2\n").time.start,
+            "2025-11-03T07:12:40");
   EXPECT_EQ(refusal_of("Time,a\n0,1\n1,2\n").code, ErrorCode::time_unit_unknown);
   EXPECT_EQ(refusal_of("a,b\n0,1\n1,2\n").code, ErrorCode::time_missing);
   const Error bad = refusal_of("Time,a\n2025-11-03 07:12:40,1\n2025-11-03 07:99:00,2\n");
