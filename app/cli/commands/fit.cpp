@@ -113,8 +113,13 @@ Result<analysis::Model> fitted_in_job(const Options& options, const TaskContext&
   if (!before || options.sensors != "auto") {
     flow::SensorsOptions sensors;
     if (options.sensors != "auto") sensors.chosen = names_from(options.sensors);
-    ZD_TRY(const auto chosen, flow::choose_sensors(job, sensors, context));
-    ZD_CHECK(job.put(chosen).map([](auto) {}));
+    auto chosen = flow::choose_sensors(job, sensors, context);
+    if (!chosen && chosen.error().code == ErrorCode::bad_argument && options.sensors == "auto") {
+      sensors.clusters = 0;  // fewer sensors than the usual number of clusters
+      chosen = flow::choose_sensors(job, sensors, context);
+    }
+    if (!chosen) return fail(std::move(chosen).error());
+    ZD_CHECK(job.put(*chosen).map([](auto) {}));
   }
   flow::FitStepOptions how;
   how.method = options.method;

@@ -50,9 +50,11 @@ json number(double value) {
 
 /// What a fit leaves in the job; `alternative` is added to its summary.
 Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, const std::string& alternative,
-                                               const controller::Profile& profile,
+                                               const controller::Profile& profile, bool has_machine,
                                                std::vector<commissioning::ArtefactId> inputs) {
-  ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
+  const auto table = compensation::table_from_model(model, controller::table_options(profile));
+  // A job from files only may have errors of any name: without a controller nothing asks for a table.
+  if (!table && has_machine) return fail(table.error());
   json figures = json::array();
   for (const auto& error : model.errors) {
     figures.push_back({{"channel", error.error},
@@ -63,7 +65,7 @@ Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, con
   }
   json rows = json::array();
   json offsets = json::object();
-  for (const auto& [axis, record] : table.axes) {
+  for (const auto& [axis, record] : table ? table->axes : decltype(table->axes){}) {
     offsets[axis] = record.offset_um;
     for (const auto& term : record.terms) {
       rows.push_back(
@@ -107,7 +109,7 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   fit_options.on_controller = accepts_table;
   ZD_TRY(const auto model, analysis::fit({run}, fit_options, context));
   return artefact_of(model, options.method == "auto" && accepts_table ? alternative_of(model) : std::string(), profile,
-                     {warmup.id, sensors.id});
+                     machine.has_value(), {warmup.id, sensors.id});
 }
 
 Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run) {
@@ -122,7 +124,7 @@ Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, c
   if (!latest) return fail(ErrorCode::step_blocked, {{"step", "fit"}, {"needs", "model"}});
   ZD_TRY(const auto old, model_of(*latest));
   ZD_TRY(const auto model, analysis::update(old, run));
-  return artefact_of(model, {}, profile, {warmup.id, sensors.id});
+  return artefact_of(model, {}, profile, machine.has_value(), {warmup.id, sensors.id});
 }
 
 }  // namespace zerodrift::flow
