@@ -104,10 +104,55 @@ def commands_take_the_same_files(folder):
     assert "degF" in done.stderr, done.stderr
 
 
+def job_from_files_only(folder):
+    """Errors of any name are fitted, and a run without errors is explained, without a machine."""
+    with open(os.path.join(folder, "probe.csv"), "w", encoding="utf-8") as file:
+        file.write("Time (min);Front (°C);Rear (°C);Probe 1 (µm)\n")
+        for k in range(240):
+            warm = 8 * (1 - 0.985 ** k)
+            file.write(f"{k};{20 + warm + 0.02 * (k % 3):.2f};{20 + 0.3 * warm + 0.02 * (k % 2):.2f};"
+                       f"{2.5 * warm + 0.1 * (k % 5):.2f}\n".replace(".", ","))
+    job = os.path.join(folder, "probe.zdj")
+    cli(folder, "import", "probe.csv", "--job", job)
+    cli(folder, "cluster", "--job", job, "--clusters", "2", "--out", "clusters.json")
+    fit = json.loads(cli(folder, "fit", "--job", job, "--out", "model.json", "--json").stdout)
+    assert [error["error"] for error in fit["errors"]] == ["Probe_1_um"], fit["errors"]
+    cli(folder, "report", "--job", job, "--out", "probe.html")
+    with open(os.path.join(folder, "probe.html"), encoding="utf-8") as file:
+        assert "Front_C" in file.read()
+    with open(os.path.join(folder, "rod.csv"), "w", encoding="utf-8") as file:
+        file.write("time_s,heater_on,T1_C,T2_C,room_C\n")
+        for k in range(200):
+            file.write(f"{10 * k},{int(k < 100)},{20 + 0.05 * min(k, 100)},{20 + 0.02 * k},20\n")
+    with open(os.path.join(folder, "rod.json"), "w", encoding="utf-8") as file:
+        json.dump({"format": "zerodrift-machine/1", "name": "rod", "components": [
+            {"id": "rod", "length_mm": 300, "outer_diameter_mm": 20, "bore_diameter_mm": 0,
+             "material": {"conductivity_W_mK": 200, "density_kg_m3": 2700, "heat_capacity_J_kgK": 900,
+                          "expansion_1_K": 2.3e-5},
+             "heat_sources": [{"id": "heater", "kind": "input", "channel": "heater_on", "from_mm": 0, "to_mm": 5,
+                               "watts_per_unit": 2}]}],
+            "sensors": [{"channel": "T1_C", "component": "rod", "position_mm": 20, "accuracy_C": 0.1},
+                        {"channel": "T2_C", "component": "rod", "position_mm": 280, "accuracy_C": 0.1}]}, file)
+    heat = os.path.join(folder, "rod.zdj")
+    cli(folder, "import", "rod.csv", "--job", heat)
+    found = json.loads(cli(folder, "diagnose", "--job", heat, "--machine", "rod.json", "--out", "d.json", "--json").stdout)
+    assert found["verdict"] in ("consistent", "missing_effect", "unexplained"), found
+    cli(folder, "report", "--job", heat, "--out", "rod.html")
+
+
+def usage(folder):
+    for arguments in (["import", "logger.csv"], ["import", "logger.csv", "--out", "r.csv", "--job", "r.zdj"],
+                      ["cluster", "--out", "c.json"], ["fit", "--recording", "r.csv", "--job", "r.zdj", "--out", "m.json"]):
+        cli(folder, *arguments, code=2)
+    assert cli(folder, "import", "logger.csv", "--out", "logger.csv", code=2).stderr
+
+
 def check(folder):
     examples(folder)
+    usage(folder)
     workbooks(folder)
     commands_take_the_same_files(folder)
+    job_from_files_only(folder)
 
 
 run_in_folder(check)
