@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 62> files = {{
+constexpr std::array<const char*, 63> files = {{
     QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
     QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
     QT_TRANSLATE_NOOP("core", "no random numbers"),
@@ -70,6 +70,7 @@ constexpr std::array<const char*, 62> files = {{
     QT_TRANSLATE_NOOP("core", "a damaged archive"),
     QT_TRANSLATE_NOOP("core", "an archive without a workbook"),
     QT_TRANSLATE_NOOP("core", "damaged XML"),
+    QT_TRANSLATE_NOOP("core", "%1, scale %2"),
     QT_TRANSLATE_NOOP("core", "; "),
 }};
 

@@ -4669,6 +4669,10 @@
         <source>damaged XML</source>
         <translation>损坏的 XML</translation>
     </message>
+    <message>
+        <source>%1, scale %2</source>
+        <translation>%1，比例 %2</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
