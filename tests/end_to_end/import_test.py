@@ -84,6 +84,14 @@ def workbooks(folder):
     cli(folder, "import", path, "--sheet", "Other", "--out", "x.csv")
     assert [row["T1_C"] for row in rows_of(os.path.join(folder, "x.csv"))] == ["20.5", "21.5", "22.5", "23.5", "24.5"]
     assert "Messung, Other" in cli(folder, "import", path, "--sheet", "No", "--out", "x.csv", code=1).stderr
+    apart = openpyxl.Workbook()
+    apart.active.append(["Date", "Time", "T1_C"])
+    for k in range(4):
+        at = datetime.datetime(2025, 11, 3, 23, 59, 30) + datetime.timedelta(seconds=20 * k)
+        apart.active.append([at.date(), at.time(), 20 + k])
+    apart.save(os.path.join(folder, "apart.xlsx"))
+    cli(folder, "import", "apart.xlsx", "--out", "x.csv")
+    assert [float(row["time_s"]) for row in rows_of(os.path.join(folder, "x.csv"))] == [0, 20, 40, 60]
     sheet["B5"] = "=B6+1"  # openpyxl computes nothing
     book.save(path)
     assert "row 5" in cli(folder, "import", path, "--out", "x.csv", code=1).stderr

@@ -159,6 +159,7 @@ std::string proposal_for(const std::string& header, const std::string& label, co
     return "spindle_load_W";
   }
   if (unit && unit->quantity == Quantity::length) return tidy(split_unit(header).name) + "_um";
+  if (unit && unit->quantity == Quantity::temperature) return tidy(split_unit(header).name) + "_C";
   const bool temperature =
       holds_any(lower, {"temp", "thermo", "therm", "温度", "pt100", "degree"}) ||
       (lower.size() > 2 && lower[0] == 't' && std::isdigit(static_cast<unsigned char>(lower[1])) != 0);

@@ -60,7 +60,7 @@ std::string plain(std::string_view text) {
   } else if (text.front() == '+' || text.front() == '-') {
     if (text.front() == '-') sign = "-";
     text.remove_prefix(1);
-    if (text.starts_with(' ')) text.remove_prefix(1);
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   }
   if (text.empty() || (!is_digit(text.front()) && text.front() != '.' && text.front() != ',')) return {};
   const auto rest = without_neutral_groups(text);

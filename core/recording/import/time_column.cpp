@@ -48,7 +48,8 @@ Contents contents_of(const SourceTable& table, std::size_t column) {
       ++out.numbers;
     } else if (const auto clock = read_clock_text(cell)) {
       out.dates += clock->has_date();
-      out.times += clock->has_time;
+      // A spreadsheet gives midnight to a date alone.
+      out.times += clock->has_time && !(clock->has_date() && clock->of_day_ns == 0);
     } else {
       ++out.others;
     }

@@ -98,6 +98,7 @@ TEST(Importer, UnitsComeFromNamesHeadersUnitsRowsAndTheMap) {
   // Where an axis is is no error, and a difference of temperatures has no zero to shift.
   EXPECT_EQ(r.find("X_mm")->values[0], 100.0);
   EXPECT_EQ(r.find("dT_K")->values[0], 3.0);
+  EXPECT_EQ(fate_of(read, "dT_K").proposal, "dT_C");
   EXPECT_EQ(fate_of(read, "n (1/s)").proposal, "spindle_rpm");
   EXPECT_EQ(fate_of(read, "Spindle load (kW)").proposal, "spindle_load_W");
   EXPECT_TRUE(warns(read, ErrorCode::column_converted));
@@ -169,6 +170,7 @@ TEST(Importer, TimesInTheirUnits) {
   EXPECT_EQ(two_columns.time.rule, "clock");
   EXPECT_EQ(two_columns.time.start, "2025-11-03T07:12:40");
   EXPECT_EQ(two_columns.recording.channels.size(), 1U);
+  EXPECT_EQ(last("Date,Time,a\n2025-11-03 00:00:00,23:59:50,1\n2025-11-04 00:00:00,00:00:10,2\n"), 20.0);
   EXPECT_EQ(last("Datum;Uhrzeit;a\n03.11.2025;07:12:40,5;1,5\n03.11.2025;07:12:41,0;2\n"), 0.5);
   EXPECT_EQ(last("timestamp,a\n2025-11-03T07:12:40.121Z,1\n2025-11-03T08:13:00.121+01:00,2\n"), 20.0);
   EXPECT_EQ(last("Time,a\n11/23/2025 11:59:50 PM,1\n11/24/2025 12:00:10 AM,2\n"), 20.0);

@@ -102,6 +102,7 @@ TEST(TextTable, OneNumberFormatForTheFile) {
                                "2.5\n"),
                       0, 1),
             -2.5);
+  EXPECT_EQ(number_at(table_of("t,a\n0,-   2.5\n"), 0, 1), -2.5);
   const Error either = error_of("t;a\n0;1,020\n1;4,000\n");
   EXPECT_EQ(either.code, ErrorCode::number_ambiguous);
   EXPECT_EQ(either.context.at("line"), "2");
