@@ -90,7 +90,7 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
                 {{"what", "the host offset"}, {"found", "none"}, {"expected", "one, for the test move"}});
   }
   ZD_TRY(const auto source, flow::open_error_source(job, devices));
-  ZD_CHECK(devices.machine->move_to(profile.measure_position_mm));
+  ZD_TRY(const auto stand, flow::come_to_measuring_position(devices));
   commissioning::AuditEntry entry;
   entry.machine = flow::machine_text(identity.name, identity.serial);
   entry.action = "test offset";
@@ -99,7 +99,7 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
   entry.new_value = "10 um, then 0 um";
   controller::SignCheckRecord record;
   const auto check = [&]() -> Status {
-    ZD_CHECK(source->take_zero(context));
+    ZD_CHECK(source->take_zero(stand, context));
     record = controller::check_signs(*devices.machine, *source, {}, context);
     return record.result;
   };

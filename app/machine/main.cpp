@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/machine/camera/camera_server.h"
 #include "app/machine/case_writer.h"
@@ -30,10 +31,29 @@ struct Options {
   int camera_port = 8090;
   std::string profile;
   std::string truth;
+  std::string camera_latency;
+  double camera_fps = CameraOptions().frames_per_s;
   std::vector<std::string> faults;
   std::string conceal;
   std::string case_folder;
 };
+
+struct CameraLatency {
+  double seconds = 0.0;
+  double jitter_s = 0.0;
+};
+
+/// "0.8" or "0.8:0.4"; nothing for what is neither, or longer than a minute.
+std::optional<CameraLatency> parse_latency(const std::string& text) {
+  CameraLatency latency;
+  const auto number = [](const std::string& word, double& value) {
+    return CLI::detail::lexical_cast(word, value) && value >= 0.0 && value <= 60.0;
+  };
+  const std::size_t colon = text.find(':');
+  if (!number(text.substr(0, colon), latency.seconds)) return std::nullopt;
+  if (colon != std::string::npos && !number(text.substr(colon + 1), latency.jitter_s)) return std::nullopt;
+  return latency;
+}
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--speedup", options.speedup, "machine seconds in one second of wall time")
@@ -46,6 +66,12 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--camera-port", options.camera_port, "HTTP port of the cameras; 0 takes a free one")
       ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  app.add_option("--camera-latency", options.camera_latency,
+                 "SECONDS[:JITTER]: how old the cameras' pictures are when they are sent, wall time")
+      ->check([](const std::string& text) { return parse_latency(text) ? "" : "SECONDS or SECONDS:JITTER expected"; });
+  app.add_option("--camera-fps", options.camera_fps, "pictures a second of wall time")
+      ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   app.add_option("--profile", options.profile, "write the connection profile to this file");
   app.add_option("--truth", options.truth, "write what the machine truly does to this CSV file");
@@ -98,7 +124,12 @@ Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t
     return machine.write(address, words);
   };
   server_options.fault = [&](bool) { return reply_faults.next(); };
-  CameraServer cameras(camera_options(options.seed), [&](View view) { return machine.scene(view); });
+  CameraOptions how = camera_options(options.seed);
+  const CameraLatency latency = parse_latency(options.camera_latency).value_or(CameraLatency{});
+  how.latency_s = latency.seconds;
+  how.latency_jitter_s = latency.jitter_s;
+  how.frames_per_s = options.camera_fps;
+  CameraServer cameras(how, [&](View view) { return machine.scene(view); });
   ZD_TRY(const int camera_port, cameras.start(options.camera_port));
   ZD_TRY(auto server, controller::ModbusServer::start(std::move(server_options)));
   const Endpoints endpoints{options.host, server->port(), camera_port, options.speedup};

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 242> measuring = {{
+constexpr std::array<const char*, 251> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -122,6 +122,15 @@ constexpr std::array<const char*, 242> measuring = {{
     QT_TRANSLATE_NOOP("core", "camera does not answer"),
     QT_TRANSLATE_NOOP("core", "camera sends no picture"),
     QT_TRANSLATE_NOOP("core", "camera is frozen"),
+    QT_TRANSLATE_NOOP("core", "the target still moves in the picture"),
+    QT_TRANSLATE_NOOP("core", "the picture does not show the move to the measuring position"),
+    QT_TRANSLATE_NOOP("core", "the machine moved while it was measured"),
+    QT_TRANSLATE_NOOP("core", "its picture does not follow the machine"),
+    QT_TRANSLATE_NOOP("core", "a measurement"),
+    QT_TRANSLATE_NOOP("core", "a time from 0.1 to 60 s"),
+    QT_TRANSLATE_NOOP("core", "the plan's measuring position"),
+    QT_TRANSLATE_NOOP("core", "%1 %2 mm"),
+    QT_TRANSLATE_NOOP("core", "%1 %2 mm, where the cameras were calibrated"),
     QT_TRANSLATE_NOOP("core", "the stored zero"),
     QT_TRANSLATE_NOOP("core", "%1 views"),
     QT_TRANSLATE_NOOP("core", "no frame"),

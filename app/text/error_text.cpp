@@ -267,6 +267,41 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Add it to the map, or switch off the function that needs it.")},
     Row{ErrorCode::machine_not_ready, QT_TRANSLATE_NOOP("errors", "The machine is not ready for {what}: {reason}."),
         QT_TRANSLATE_NOOP("errors", "Put it right and try again.")},
+    Row{ErrorCode::no_measuring_position,
+        QT_TRANSLATE_NOOP(
+            "errors",
+            "Neither the plan nor the profile says where the errors are measured: the position of {axes} is missing."),
+        QT_TRANSLATE_NOOP("errors", "Give measure_position_mm in the plan or in the profile.")},
+    Row{ErrorCode::measuring_stretched,
+        QT_TRANSLATE_NOOP("errors",
+                          "A measurement takes longer than its period: the errors are measured every {every_s} s "
+                          "instead of every {period_s} s."),
+        QT_TRANSLATE_NOOP(
+            "errors", "The run goes on; close other programs on this computer, or choose a longer measuring period.")},
+    Row{ErrorCode::too_few_measurements,
+        QT_TRANSLATE_NOOP(
+            "errors", "At this pace the run will end with {expected} good measurements, at least {needed} are needed."),
+        QT_TRANSLATE_NOOP("errors",
+                          "Look at why measurements are refused or slow, then start again: close other programs on "
+                          "this computer, clear the view, or plan a longer run.")},
+    Row{ErrorCode::error_leapt,
+        QT_TRANSLATE_NOOP("errors",
+                          "The error in {axis} leapt by {change_um} um since the last measurement; heat can make at "
+                          "most {limit_um} um of it. The measurement was refused."),
+        QT_TRANSLATE_NOOP("errors",
+                          "Check that the target is firm in its holder and that nothing moves the machine; a leap that "
+                          "is found three times in a row is taken as a slip.")},
+    Row{ErrorCode::leap_confirmed,
+        QT_TRANSLATE_NOOP("errors",
+                          "The error in {axis} leapt by {change_um} um and stayed there: the target or its holder has "
+                          "slipped. The measurements since contain that leap."),
+        QT_TRANSLATE_NOOP("errors",
+                          "Fix the target and repeat the run, or leave this part of the run out of the fit.")},
+    Row{ErrorCode::camera_late,
+        QT_TRANSLATE_NOOP("errors",
+                          "The pictures of camera {view} were older than was known when it was calibrated; {seconds} s "
+                          "are waited for now."),
+        QT_TRANSLATE_NOOP("errors", "The measurements hold. Check the camera's network, or calibrate anew.")},
     Row{ErrorCode::table_not_active,
         QT_TRANSLATE_NOOP("errors",
                           "The machine does not hold version {version}, the table of this job: it holds {found}."),

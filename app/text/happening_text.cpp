@@ -37,6 +37,11 @@ constexpr std::array rows = {
     Row{"target_refused", QT_TRANSLATE_NOOP("happenings", "measurement refused")},
     Row{"target_partly_covered", QT_TRANSLATE_NOOP("happenings", "target partly occluded")},
     Row{"reference_lost", QT_TRANSLATE_NOOP("happenings", "reference mark not seen")},
+    Row{"measuring_stretched", QT_TRANSLATE_NOOP("happenings", "measuring period stretched")},
+    Row{"too_few_measurements", QT_TRANSLATE_NOOP("happenings", "too few measurements expected")},
+    Row{"error_leapt", QT_TRANSLATE_NOOP("happenings", "leap of the error, refused")},
+    Row{"leap_confirmed", QT_TRANSLATE_NOOP("happenings", "slip of the target, confirmed")},
+    Row{"camera_late", QT_TRANSLATE_NOOP("happenings", "camera later than known")},
     Row{"disk_full", QT_TRANSLATE_NOOP("happenings", "disk full")},
 };
 

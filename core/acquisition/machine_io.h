@@ -42,6 +42,7 @@ struct MachineSample {
   bool coolant_on = false;
   bool compensation_on = false;  // the switch of the interlock (R4)
   bool moving = false;
+  bool cycling = false;  // on the warm-up path
   bool referenced = true;
   bool alarm = false;
   double ambient_C = 0.0;

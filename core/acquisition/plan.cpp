@@ -45,7 +45,7 @@ Plan plan_from(JsonObject& object) {
 }
 
 Plan preset(std::string name, double sample_s, double measure_s, std::vector<PlanStep> steps) {
-  return {std::move(name), sample_s, measure_s, {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}, std::move(steps)};
+  return {std::move(name), sample_s, measure_s, {}, std::move(steps)};
 }
 
 }  // namespace
@@ -81,16 +81,25 @@ json to_json(const Plan& plan) {
                      {"coolant_on", step.coolant_on},
                      {"path", step.path_cycle ? "cycle" : "still"}});
   }
-  return {{"name", plan.name},
-          {"sample_period_s", plan.sample_period_s},
-          {"measure_period_s", plan.measure_period_s},
-          {"measure_position_mm", plan.measure_position_mm},
-          {"steps", steps}};
+  json document = {{"name", plan.name},
+                   {"sample_period_s", plan.sample_period_s},
+                   {"measure_period_s", plan.measure_period_s},
+                   {"steps", steps}};
+  if (!plan.measure_position_mm.empty()) document["measure_position_mm"] = plan.measure_position_mm;
+  return document;
 }
 
 Result<Plan> read_plan(const std::filesystem::path& path, std::vector<std::string>* warnings) {
   ZD_TRY(const json document, read_json_file(path));
   return plan_from_json(document, path.string(), warnings);
+}
+
+Result<Plan> with_measuring_position(Plan plan, const std::map<std::string, double>& of_profile) {
+  for (const auto& [axis, position_mm] : of_profile) {
+    if (axis == "X" || axis == "Y" || axis == "Z") plan.measure_position_mm.try_emplace(axis, position_mm);
+  }
+  if (plan.measure_position_mm.empty()) return fail(ErrorCode::no_measuring_position, {{"axes", "X, Y, Z"}});
+  return plan;
 }
 
 std::vector<Plan> preset_plans() {

@@ -36,8 +36,12 @@ Result<Plan> plan_from_json(const nlohmann::json& document, const std::string& f
 nlohmann::json to_json(const Plan& plan);
 Result<Plan> read_plan(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 
-/// Presets: 4 h of stepped speeds (first, the usual one); 4 h at 3000 rpm; stepped-speed spectrum; ISO 230-3 ETVE
-/// (environment), spindle and linear axis tests.
+/// The plan with the measuring position it is measured at: its own, on the axes that it leaves open the profile's.
+/// no_measuring_position when there is none at all.
+Result<Plan> with_measuring_position(Plan plan, const std::map<std::string, double>& of_profile);
+
+/// Presets, measured at the profile's position: 4 h of stepped speeds (first, the usual one); 4 h at 3000 rpm;
+/// stepped-speed spectrum; ISO 230-3 ETVE (environment), spindle and linear axis tests.
 std::vector<Plan> preset_plans();
 
 }  // namespace zerodrift::acquisition

@@ -1,6 +1,7 @@
 #pragma once
 // Runs a warm-up plan: commands the machine, samples it at every sample period, at every measure period stops the path
-// at the measuring position and measures the errors, and hands every row to the sink, which is made to keep it at least
+// at the measuring position and measures the errors - where that takes longer than the period, every second or third
+// time, which is a problem that is shown - and hands every row to the sink, which is made to keep it at least
 // once a second of wall time. time_s is the machine's own clock since the start of the run.
 //
 // A broken link is waited for and leaves a gap; a sensor or camera that fails is a problem that is shown and recorded.
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/acquisition/drift_limit.h"
 #include "core/acquisition/error_source.h"
 #include "core/acquisition/happening.h"
 #include "core/acquisition/machine_io.h"
@@ -64,6 +66,11 @@ struct RecorderOptions {
   bool real_time = false;                        // ask for turns before other threads' (core/base/real_time.h)
   bool with_compensation = false;                // also record the switch and what is applied
   std::optional<std::array<double, 3>> zero_um;  // use this zero instead of taking one at the start
+  std::optional<double> zero_age_s;              // machine time since that zero was taken; nothing: not known
+  DriftRule drift;                               // what heat can make of an error
+  int least_measurements = 30;                   // good ones; or half of what the plan asks for, where that is less
+  bool refuse_too_few = false;                   // a run that will not come to them ends in its first tenth
+  Clock* host = nullptr;                         // by which the error source stamps its pictures; null: the computer's
   Guard guard = compensation_must_be_off("recording");
   /// Called after each reading in the recorder's thread and may use the machine: the host compensator's place.
   std::function<Status(const MachineSample&)> each_sample;
@@ -87,8 +94,9 @@ class Recorder {
   Recorder(MachineIo& machine, ErrorSource& errors, Clock& clock, RunSink& sink, RecorderOptions options);
   ~Recorder();
 
-  /// Works to the end of the plan. Errors leave the series open, so that it can be resumed; so does stopping by the
-  /// context (cancelled). Aborting by the control is a regular end.
+  /// Works to the end of the plan. no_measuring_position when the plan leaves one of the machine's linear axes open.
+  /// Errors leave the series open, so that it can be resumed; so does stopping by the context (cancelled). Aborting by
+  /// the control is a regular end.
   Result<RunSummary> run(const Plan& plan, const TaskContext& context);
   /// Goes on with a run that was broken off. Refused when it is another machine or the zero cannot be restored.
   Result<RunSummary> resume(const InterruptedRun& interrupted, const TaskContext& context);

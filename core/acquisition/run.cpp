@@ -16,24 +16,26 @@ constexpr double slice_s = 0.1;  // wall; how soon a request is seen
 constexpr double early_share = 0.1;
 constexpr double longest_sink_failure_s = 600.0;
 
+}  // namespace
+
 double next_multiple(double time_s, double period_s) {
   return (std::floor(time_s / period_s + early_share) + 1.0) * period_s;
 }
-
-}  // namespace
 
 Run::Run(MachineIo& machine, ErrorSource& errors, Clock& clock, RunSink& sink, const RecorderOptions& options,
          RunControl& control, const TaskContext& context)
     : m_machine(machine),
       m_errors(errors),
       m_clock(clock),
+      m_host(options.host == nullptr ? host_clock() : *options.host),
       m_options(options),
       m_control(control),
       m_context{control.stop().get_token(), context.report},
-      m_log(sink, options.commit_period_s) {}
+      m_log(sink, options.commit_period_s),
+      m_drift(options.drift) {}
 
-Result<RunSummary> Run::record(bool from_rest) {
-  Result<RunEnd> end = loop(from_rest);
+Result<RunSummary> Run::record(const std::optional<Stand>& at_rest) {
+  Result<RunEnd> end = loop(at_rest);
   if (!end && m_control.abort_requested()) end = RunEnd::aborted;
   m_summary.machine_stopped = stop_machine();
   if (!m_summary.machine_stopped) event("problem", "machine_not_stopped");
@@ -53,9 +55,9 @@ Result<RunSummary> Run::record(bool from_rest) {
   return m_summary;
 }
 
-Result<RunEnd> Run::loop(bool from_rest) {
-  if (from_rest) {  // the first row shows the machine as it stands there, before anything turns
-    ZD_CHECK(measure_here());
+Result<RunEnd> Run::loop(const std::optional<Stand>& at_rest) {
+  if (at_rest) {
+    ZD_CHECK(measure_here(*at_rest));
     m_next_measure_s = m_start.plan.measure_period_s;
   }
   for (;;) {
@@ -67,6 +69,7 @@ Result<RunEnd> Run::loop(bool from_rest) {
       if (!over) ZD_CHECK(command_step());
       ZD_CHECK(measure());
       if (over) return RunEnd::finished;
+      ZD_CHECK(expect_enough());
     } else {
       if (!m_paused_since_s) ZD_CHECK(command_step());
       if (time_now_s() >= m_next_sample_s) ZD_CHECK(take_sample());
@@ -185,66 +188,6 @@ void Run::watch_sensors(const MachineSample& sample) {
       clear(key);
     }
   }
-}
-
-Status Run::measure() {
-  publish(RunPhase::measuring);
-  const std::size_t index = m_start.plan.index_at(plan_time_s(time_now_s()));
-  const PlanStep& step = m_start.plan.steps[index];
-  if (!m_paused_since_s) {
-    ZD_CHECK(command(step.spindle_rpm, step.coolant_on, false));
-  }
-  ZD_CHECK(move_to_measuring_position());
-  ZD_CHECK(measure_here());
-  // From its end: a measurement that takes longer than its period must leave the path time to run.
-  m_next_measure_s = next_multiple(plan_time_s(time_now_s()), m_start.plan.measure_period_s);
-  if (step.path_cycle && !m_paused_since_s) m_commanded_step.reset();  // the path goes on
-  return {};
-}
-
-Status Run::measure_here() {
-  using WallClock = std::chrono::steady_clock;
-  ZD_TRY(const MachineSample before, read());
-  const WallClock::time_point begin = WallClock::now();
-  const Result<ErrorSample> measured = m_errors.measure(m_context);
-  if (!measured && measured.error().code == ErrorCode::cancelled) return cancelled();
-  note_measurement(measured);
-  ZD_TRY(const MachineSample after, read());
-  const WallClock::duration all = WallClock::now() - begin;
-  // The row belongs to the moment of the pictures, not to that at which they were measured.
-  double part = 0.5;
-  if (measured && measured->seen && all.count() > 0) {
-    part = std::clamp(Seconds(*measured->seen - begin) / Seconds(all), 0.0, 1.0);
-  }
-  const bool whole = after.machine_time_s >= before.machine_time_s;
-  ZD_CHECK(keep(whole ? between(before, after, part) : after, measured ? &*measured : nullptr, true));
-  // A run whose first measurement fails has nothing to stand on; later the source may come back.
-  const int allowed = m_summary.measurements == 0 ? 1 : m_options.failed_measurements;
-  if (m_failed_measurements >= allowed) return fail(measured.error());
-  return {};
-}
-
-void Run::note_measurement(const Result<ErrorSample>& measured) {
-  if (!measured) {
-    ++m_failed_measurements;
-    raise("errors", measured.error());
-    return;
-  }
-  m_failed_measurements = 0;
-  ++m_summary.measurements;
-  if (measured->remark) {
-    raise("target", *measured->remark);
-  } else {
-    clear("target");
-  }
-  if (measured->problems.empty()) {
-    clear("errors");
-    return;
-  }
-  std::string reasons;
-  for (const std::string& reason : measured->problems) reasons += (reasons.empty() ? "" : "; ") + reason;
-  ++m_summary.refused;
-  raise("errors", {ErrorCode::target_refused, {{"reason", reasons}}});
 }
 
 bool Run::stop_machine() {

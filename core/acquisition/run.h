@@ -20,30 +20,44 @@ class Run {
  private:
   // starting, in run_start.cpp
   Status connect();
-  Status take_zero();
+  Status take_zero(const Stand& stand);
   Status rejoin(const InterruptedRun& interrupted, const MachineSample& now);
 
-  // the loop, in run.cpp
-  Result<RunSummary> record(bool from_rest);
-  Result<RunEnd> loop(bool from_rest);
+  // the loop, in run.cpp; measuring, in run_measure.cpp
+  /// `at_rest`: where the machine stands before anything turns, for the first row; nothing: the run goes on.
+  Result<RunSummary> record(const std::optional<Stand>& at_rest);
+  Result<RunEnd> loop(const std::optional<Stand>& at_rest);
   Status obey_controls();
   Status command_step();
   Status take_sample();
   Status measure();
-  Status measure_here();
+  Status measure_here(Stand stand);
+  /// A measurement with the machine's state at its moment.
+  struct Taken {
+    Result<ErrorSample> measured = fail(ErrorCode::internal);
+    MachineSample row;
+  };
+  Result<Taken> take(const Stand& stand);
+  double next_measure_s(const PlanStep& step) const;
+  void note_pace(double due_s);
+  Status expect_enough();
   void publish(RunPhase phase, const std::vector<double>* row = nullptr, const ErrorSample* measured = nullptr);
   double idle_s() const;
   void wait_for_next();
   Status keep(const MachineSample& sample, const ErrorSample* error, bool expected_late);
   void watch_sensors(const MachineSample& sample);
-  void note_measurement(const Result<ErrorSample>& measured);
+  std::optional<Error> refusal_of(const MachineSample& row, ErrorSample& measured);
+  void add_latency(double time_s, ErrorSample& measured) const;
+  void note_measurement(const Result<ErrorSample>& measured, const std::optional<Error>& refused);
+  void note_settled(const ErrorSample& measured);
   bool stop_machine();
 
   // the machine, in run_machine.cpp
   Result<MachineSample> read();
   Status accept(const MachineSample& sample);
   Status command(double spindle_rpm, bool coolant_on, bool path_cycle);
-  Status move_to_measuring_position();
+  Result<Stand> come_to_measuring_position();
+  Status has_measuring_position(const MachineSample& sample) const;
   /// Calls again, with growing pauses, while what fails may pass.
   template <class Call>
   auto patiently(Call call) -> decltype(call());
@@ -62,6 +76,7 @@ class Run {
   MachineIo& m_machine;
   ErrorSource& m_errors;
   Clock& m_clock;
+  Clock& m_host;
   const RecorderOptions& m_options;
   RunControl& m_control;
   TaskContext m_context;  // its token also stops on abort
@@ -87,10 +102,20 @@ class Run {
   std::optional<std::size_t> m_commanded_step;  // nothing: must be commanded (again)
   std::optional<std::size_t> m_known_step;      // the conditions the trend counts from
   int m_failed_measurements = 0;
+  DriftLimit m_drift;
+  struct Good {
+    double time_s;
+    std::array<double, 3> error_um;
+  };
+  std::optional<Good> m_good_before;  // the last two good measurements: how fast the errors drift
+  std::optional<Good> m_good;
+  bool m_enough_expected = false;  // looked at, once
   int m_stale_readings = 0;
   bool m_link_was_lost = false;
 };
 
+/// The next time that is a multiple of the period; one that is all but reached has passed.
+double next_multiple(double time_s, double period_s);
 /// {"code": ..., "context": {...}} for a problem's event.
 std::string details_of(const Error& error);
 

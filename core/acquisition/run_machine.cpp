@@ -11,6 +11,7 @@ namespace {
 
 constexpr double first_pause_s = 0.2;  // wall
 constexpr double longest_pause_s = 5.0;
+constexpr double budget_share = 0.5;  // of the measuring period, for trying a measurement again
 constexpr int stale_readings_shown = 5;
 // A controller's clock may be read a little before another part of the same sample.
 constexpr double clock_slack_s = 0.5;
@@ -56,9 +57,24 @@ Status Run::command(double spindle_rpm, bool coolant_on, bool path_cycle) {
   return patiently([&] { return m_machine.command(spindle_rpm, coolant_on, path_cycle); });
 }
 
-Status Run::move_to_measuring_position() {
-  if (m_start.plan.measure_position_mm.empty()) return {};
-  return patiently([&] { return m_machine.move_to(m_start.plan.measure_position_mm); });
+Result<Stand> Run::come_to_measuring_position() {
+  const auto& position_mm = m_start.plan.measure_position_mm;
+  const auto move = [&] { return patiently([&] { return m_machine.move_to(position_mm); }); };
+  ZD_TRY(Stand stand, come_to([this] { return read(); }, move, position_mm, m_host));
+  stand.until = stand.since + Seconds(budget_share * m_start.plan.measure_period_s / m_options.time_factor);
+  return stand;
+}
+
+Status Run::has_measuring_position(const MachineSample& sample) const {
+  std::string open;
+  for (const char* axis : {"X", "Y", "Z"}) {
+    const bool there = sample.axes.contains(axis);
+    if (there && !m_start.plan.measure_position_mm.contains(axis))
+      open += (open.empty() ? "" : ", ") + std::string(axis);
+  }
+  if (m_start.plan.measure_position_mm.empty()) open = "X, Y, Z";
+  if (open.empty()) return {};
+  return fail(ErrorCode::no_measuring_position, {{"axes", open}});
 }
 
 Result<MachineSample> Run::read() {

@@ -36,9 +36,10 @@ struct InterruptedRun {
 
 struct RunEvent {
   double time_s = 0.0;
-  std::string kind;            // start, step, pause, resume, note, problem, cleared, gap, clock, end
+  std::string kind;            // start, step, pause, resume, note, measured, problem, cleared, gap, clock, end
   std::string text;            // a note as typed, else an identifier
-  std::string details = "{}";  // JSON text; an error's code and context for a problem
+  std::string details = "{}";  // JSON text; an error's code and context for a problem; how long the
+                               // pictures of a measurement were waited for
 };
 
 enum class RunEnd { finished, aborted };

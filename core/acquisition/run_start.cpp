@@ -19,6 +19,7 @@ Status Run::connect() {
   ZD_TRY(m_identity, m_machine.identify());
   ZD_TRY(const MachineSample first, m_machine.read());
   ZD_CHECK(accept(first));
+  ZD_CHECK(has_measuring_position(first));
   m_layout.emplace(m_identity, first, m_options.with_compensation);
   std::vector<std::string> sensors;
   for (const SensorInfo& sensor : m_identity.sensors) sensors.push_back(sensor.channel);
@@ -26,12 +27,15 @@ Status Run::connect() {
   return {};
 }
 
-Status Run::take_zero() {
+Status Run::take_zero(const Stand& stand) {
+  constexpr std::array<double, 3> nothing{};
+  if (!m_options.zero_um) m_drift.know(0.0, nothing, nothing);
+  if (m_options.zero_um && m_options.zero_age_s) m_drift.know(-*m_options.zero_age_s, nothing, nothing);
   if (m_options.zero_um) {
     if (m_errors.restore_zero_um(*m_options.zero_um)) return {};
     return fail(ErrorCode::machine_not_ready, {{"what", m_errors.name()}, {"reason", "its zero cannot be restored"}});
   }
-  return m_errors.take_zero(m_context);
+  return m_errors.take_zero(stand, m_context);
 }
 
 Result<RunSummary> Run::start(const Plan& plan) {
@@ -42,10 +46,16 @@ Result<RunSummary> Run::start(const Plan& plan) {
   ZD_CHECK(connect());
   // The zero is taken with the spindle at rest: what comes after is the drift of the whole run.
   ZD_CHECK(m_machine.command(0.0, false, false));
-  const Status ready = [&]() -> Status {
-    if (!plan.measure_position_mm.empty()) ZD_CHECK(m_machine.move_to(plan.measure_position_mm));
-    return take_zero();
-  }();
+  Stand stand;
+  const auto zeroed = [&]() -> Status {
+    ZD_TRY(stand, come_to_measuring_position());
+    return take_zero(stand);
+  };
+  Status ready = zeroed();
+  // Once more where somebody moved it, or something passed before the camera.
+  const bool passing =
+      !ready && (ready.error().code == ErrorCode::machine_not_ready || ready.error().code == ErrorCode::target_refused);
+  if (passing && !stopped()) ready = zeroed();
   if (!ready) {
     if (m_control.abort_requested()) return fail(ErrorCode::cancelled);
     return fail(ready.error());
@@ -60,7 +70,7 @@ Result<RunSummary> Run::start(const Plan& plan) {
   m_time_s = 0.0;
   ZD_CHECK(m_log.begin(m_start));
   event("start", m_errors.name());
-  return record(true);
+  return record(stand);
 }
 
 Status Run::rejoin(const InterruptedRun& interrupted, const MachineSample& now) {
@@ -113,9 +123,12 @@ Result<RunSummary> Run::go_on(const InterruptedRun& interrupted) {
   ZD_TRY(const MachineSample now, m_machine.read());
   ZD_CHECK(m_options.guard(now));
   ZD_CHECK(rejoin(interrupted, now));
+  constexpr std::array<double, 3> nothing{};
+  m_drift.know(0.0, nothing, nothing);
+  m_enough_expected = true;  // of a part of a run nothing can be expected
   m_next_sample_s = m_time_s;
   m_next_measure_s = plan_time_s(m_time_s);
-  return record(false);
+  return record(std::nullopt);
 }
 
 }  // namespace zerodrift::acquisition

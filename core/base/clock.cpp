@@ -15,8 +15,10 @@ UtcTime shifted(UtcTime start, Seconds by) {
 
 }  // namespace
 
-SystemClock::SystemClock(double speedup)
-    : m_speedup(speedup), m_start(std::chrono::steady_clock::now()), m_start_utc(utc_now()) {}
+SystemClock::SystemClock(double speedup) : SystemClock(speedup, std::chrono::steady_clock::now()) {}
+
+SystemClock::SystemClock(double speedup, std::chrono::steady_clock::time_point start)
+    : m_speedup(speedup), m_start(start), m_start_utc(utc_now()) {}
 
 UtcTime SystemClock::utc() const {
   return m_speedup == 1.0 ? utc_now() : shifted(m_start_utc, steady());
@@ -33,6 +35,11 @@ bool SystemClock::wait_until(Seconds deadline, std::stop_token stop) {
   const auto until = m_start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline / m_speedup);
   wake.wait_until(lock, stop, until, [] { return false; });
   return !stop.stop_requested();
+}
+
+Clock& host_clock() {
+  static HostClock clock;
+  return clock;
 }
 
 UtcTime ManualClock::utc() const {

@@ -32,11 +32,22 @@ class SystemClock : public Clock {
   Seconds steady() const override;
   bool wait_until(Seconds deadline, std::stop_token stop) override;
 
+ protected:
+  SystemClock(double speedup, std::chrono::steady_clock::time_point start);
+
  private:
   double m_speedup;
   std::chrono::steady_clock::time_point m_start;
   UtcTime m_start_utc;
 };
+
+/// This computer's clock, by which pictures and replies are stamped: seconds of std::chrono::steady_clock itself.
+class HostClock : public SystemClock {
+ public:
+  HostClock() : SystemClock(1.0, {}) {}
+};
+/// One for all; it has no state.
+Clock& host_clock();
 
 /// A clock that stands still until told; wait_until jumps there at once, so that tests never sleep.
 class ManualClock : public Clock {

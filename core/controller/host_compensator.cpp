@@ -145,7 +145,7 @@ class Loop {
     report.machine_time_s =
         has_clock ? sample.machine_time_s : m_clock.steady().count() * m_machine.profile().time_factor;
     report.axes = sample.axes;
-    report.moving = sample.moving;
+    report.moving = sample.moving || sample.cycling;
     report.applied_um = sample.applied_um;
     report.switch_on = sample.compensation_on;
     if (!sample.compensation_on) {

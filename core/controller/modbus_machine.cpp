@@ -30,6 +30,7 @@ constexpr int can_table = 1 << 1;
 constexpr int has_probes = 1 << 3;
 
 // State bits.
+constexpr int state_cycle = 1 << 0;
 constexpr int state_moving = 1 << 1;
 constexpr int state_referenced = 1 << 2;
 constexpr int state_alarm = 1 << 3;
@@ -263,6 +264,7 @@ Result<MachineSample> ModbusMachine::read() {
   sample.compensation_on = bits_of(values, "compensation_state", 0) != 0;
   const int state = bits_of(values, "state", state_referenced);
   sample.moving = (state & state_moving) != 0;
+  sample.cycling = (state & state_cycle) != 0;
   sample.referenced = (state & state_referenced) != 0;
   sample.alarm = (state & state_alarm) != 0;
   sample.ambient_C = first_of(values, "ambient_C", nan_value);

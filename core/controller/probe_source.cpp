@@ -36,17 +36,19 @@ Result<ProbeErrorSource::Nose> ProbeErrorSource::read_nose(const TaskContext& co
   return nose;
 }
 
-Status ProbeErrorSource::take_zero(const TaskContext& context) {
+Status ProbeErrorSource::take_zero(const acquisition::Stand& stand, const TaskContext& context) {
   ZD_TRY(const Nose nose, read_nose(context));
   if (!nose.valid) {
     return fail(ErrorCode::machine_not_ready,
                 {{"what", "measuring with probes"}, {"reason", "the nose is not at the probe nest"}});
   }
+  ZD_CHECK(stand.still());
   m_zero_um = nose.mean_um;
   return {};
 }
 
-Result<acquisition::ErrorSample> ProbeErrorSource::measure(const TaskContext& context) {
+Result<acquisition::ErrorSample> ProbeErrorSource::measure(const acquisition::Stand& /*stand*/,
+                                                           const TaskContext& context) {
   ZD_TRY(const Nose nose, read_nose(context));
   acquisition::ErrorSample sample{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

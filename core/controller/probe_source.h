@@ -14,8 +14,8 @@ class ProbeErrorSource : public acquisition::ErrorSource {
   /// The machine must outlive the source and is used from the same thread.
   explicit ProbeErrorSource(ModbusMachine& machine, int readings = 5) : m_machine(machine), m_readings(readings) {}
 
-  Status take_zero(const TaskContext& context) override;
-  Result<acquisition::ErrorSample> measure(const TaskContext& context) override;
+  Status take_zero(const acquisition::Stand& stand, const TaskContext& context) override;
+  Result<acquisition::ErrorSample> measure(const acquisition::Stand& stand, const TaskContext& context) override;
   std::string name() const override { return "probes"; }
   std::optional<std::array<double, 3>> zero_um() const override { return m_zero_um; }
   bool restore_zero_um(const std::array<double, 3>& zero_um) override {

@@ -13,6 +13,8 @@ namespace {
 
 constexpr NumberRange factor_range{0.0, 100000.0, true, "a number above 0, at most 100000"};
 
+constexpr NumberRange latency_range{0.1, 60.0, false, "a time from 0.1 to 60 s"};
+
 ControllerSettings read_controller(JsonObject& o) {
   ControllerSettings c;
   c.kind = o.word("kind", {"modbus-tcp", "modbus-rtu"}) == "modbus-tcp" ? LinkKind::tcp : LinkKind::rtu;
@@ -80,6 +82,7 @@ CameraProfile read_camera(JsonObject& o) {
   camera.target_roi_px = region_of(o, "target_roi_px", o.numbers("target_roi_px", 4));
   camera.reference_rois_px = read_marks(o, "reference_roi_px");
   camera.pixel_size_known = o.flag_or("pixel_size_known", true);
+  camera.assumed_latency_s = o.number_or("assumed_latency_s", camera.assumed_latency_s, latency_range);
   return camera;
 }
 
@@ -104,7 +107,6 @@ Profile read_body(JsonObject& o) {
     const bool probes = errors->word("source", {"camera", "probes"}) == "probes";
     profile.error_source = probes ? ErrorSourceKind::probes : ErrorSourceKind::camera;
   }
-  profile.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
   if (JsonObject* position = o.object_if("measure_position_mm"); position != nullptr) {
     for (const auto& axis : position->keys()) profile.measure_position_mm[axis] = position->number(axis);
   }
@@ -113,6 +115,7 @@ Profile read_body(JsonObject& o) {
   if (JsonObject* limits = o.object_if("limits"); limits != nullptr) {
     profile.max_um = limits->number_or("max_um", profile.max_um, positive);
     profile.max_um_per_s = limits->number_or("max_um_per_s", profile.max_um_per_s, positive);
+    profile.max_drift_um_per_min = limits->number_or("max_drift_um_per_min", profile.max_drift_um_per_min, positive);
     profile.max_um_per_K = limits->number_or("max_um_per_K", profile.max_um_per_K, positive);
   }
   o.raw("machine");

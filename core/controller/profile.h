@@ -43,6 +43,7 @@ struct CameraProfile {
   std::array<int, 4> target_roi_px{};                 // x, y, width, height
   std::vector<std::array<int, 4>> reference_rois_px;  // fixed marks, in the order of the file; may be none
   bool pixel_size_known = true;
+  double assumed_latency_s = 3.0;  // age of its pictures that is waited for as long as none was measured
 };
 
 struct SensorProfile {
@@ -66,12 +67,13 @@ struct Profile {
   ControllerSettings controller;
   std::vector<CameraProfile> cameras;
   ErrorSourceKind error_source = ErrorSourceKind::camera;
-  std::map<std::string, double> measure_position_mm;
+  std::map<std::string, double> measure_position_mm;  // empty: the profile has none
   double calibration_span_mm = 1.6;
   std::vector<SensorProfile> sensors;  // in the order of the controller's temperature registers
   double max_um = 200.0;
   double max_um_per_s = 2.0;
   double max_um_per_K = 50.0;                     // the steepest coefficient the controller takes
+  double max_drift_um_per_min = 20.0;             // of an error: what heat can make of it, at most
   std::shared_ptr<const nlohmann::json> machine;  // machine description, null if the profile has none
   std::string machine_file;                       // where it came from, for messages
 };

@@ -195,7 +195,7 @@ class SignCheck {
       ZD_CHECK(m_machine.write_host_offset(offset));
       ZD_CHECK(settle(offset_time_s(change), before.applied_um[index_of(axis)] + change, index_of(axis)));
       ZD_TRY(const auto start, m_machine.read());
-      ZD_TRY(const auto sample, m_source.measure(m_context));
+      ZD_TRY(const auto sample, m_source.measure(acquisition::standing_now(), m_context));
       ZD_TRY(const auto end, m_machine.read());
       ZD_TRY(const bool held, still_holds(offset));
       if (!held) continue;

@@ -67,6 +67,7 @@ class Commissioning {
     return step("warm-up", 0.4, [&](const auto& c) {
       RunOptions run;
       run.plan = m_options.plan;
+      run.refuse_too_few = true;
       return record_warmup(m_job, m_devices, run, c);
     });
   }
@@ -123,6 +124,7 @@ Result<bool> has_open_run(const Job& job) {
 
 Result<CommissionResult> commission(Job& job, const controller::Profile& profile, const json& profile_document,
                                     const CommissionOptions& options, const TaskContext& context) {
+  ZD_CHECK(acquisition::with_measuring_position(options.plan, profile.measure_position_mm).map([](const auto&) {}));
   ZD_TRY(Devices devices, Devices::open(profile, true, options.permit));
   Commissioning work(job, devices, options, context);
   ZD_TRY(const bool resuming, has_open_run(job));

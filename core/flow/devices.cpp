@@ -9,6 +9,7 @@ namespace zerodrift::flow {
 namespace {
 
 constexpr double fast_time_factor = 10.0;
+constexpr int fast_frames = 3;
 
 }  // namespace
 
@@ -23,6 +24,13 @@ Result<Devices> Devices::open(const controller::Profile& profile, bool with_came
   return devices;
 }
 
+Result<acquisition::Stand> come_to_measuring_position(Devices& devices) {
+  if (devices.profile.measure_position_mm.empty()) {
+    return fail(ErrorCode::no_measuring_position, {{"axes", "X, Y, Z"}});
+  }
+  return acquisition::come_to(*devices.machine, devices.profile.measure_position_mm);
+}
+
 Result<std::unique_ptr<acquisition::ErrorSource>> open_error_source(const commissioning::Job& job, Devices& devices,
                                                                     vision::CameraErrorSource** cameras) {
   if (devices.profile.error_source == controller::ErrorSourceKind::probes) {
@@ -30,8 +38,12 @@ Result<std::unique_ptr<acquisition::ErrorSource>> open_error_source(const commis
   }
   ZD_TRY(auto views, calibrated_views(job, devices));
   vision::MeasureOptions options;
-  // Where machine time runs fast, a measurement of several frames would outlast the drift it is to catch.
-  if (devices.profile.time_factor > fast_time_factor) options.frames = 1;
+  // Where machine time runs fast, a measurement of many frames would outlast the drift it is to catch.
+  if (devices.profile.time_factor > fast_time_factor) {
+    options.frames = fast_frames;
+    options.span_s = 0.0;
+  }
+  options.rule.drift_um_per_s = devices.profile.max_drift_um_per_min / 60.0 * devices.profile.time_factor;
   auto source = std::make_unique<vision::CameraErrorSource>(std::move(views), options);
   if (cameras != nullptr) *cameras = source.get();
   return source;

@@ -30,6 +30,9 @@ struct Devices {
                               access::Permit permit = access::Permit::read_only());
 };
 
+/// Drives to the profile's measuring position. no_measuring_position when the profile has none.
+Result<acquisition::Stand> come_to_measuring_position(Devices& devices);
+
 /// The error source of a run. From cameras it needs the job's calibration; from probes nothing.
 /// For the drawing, `cameras` receives the camera source when there is one.
 Result<std::unique_ptr<acquisition::ErrorSource>> open_error_source(const commissioning::Job& job, Devices& devices,

@@ -45,8 +45,10 @@ class Watch {
   /// Where the machine is now; what was measured since the last call.
   void exchange(LiveTurn& turn) {
     const std::scoped_lock lock(m_mutex);
+    const bool was_there = m_there;
     m_there = stands_there(turn.turn);
     if (!m_there) ++m_moves;
+    if (m_there && !was_there) m_stand = acquisition::standing_now();
     turn.left = std::exchange(m_sample, std::nullopt);
     turn.not_measured = turn.turn.link_lost ? no_answer : m_thread.joinable() && !m_there ? elsewhere : m_why;
     if (m_there) m_arrived.notify_all();
@@ -76,9 +78,9 @@ class Watch {
   }
 
   /// On this thread an exception would end the program, and the offset would stay in the machine.
-  Result<acquisition::ErrorSample> measure(const TaskContext& context) {
+  Result<acquisition::ErrorSample> measure(const acquisition::Stand& stand, const TaskContext& context) {
     try {
-      return m_source->measure(context);
+      return m_source->measure(stand, context);
     } catch (const std::exception& thrown) {
       return fail(ErrorCode::internal, {{"detail", thrown.what()}});
     }
@@ -89,8 +91,9 @@ class Watch {
     std::unique_lock lock(m_mutex);
     while (m_arrived.wait(lock, stop, [this] { return m_there; }) && !stop.stop_requested()) {
       const long moves = m_moves;
+      const acquisition::Stand stand = m_stand;
       lock.unlock();
-      auto sample = measure(context);
+      auto sample = measure(stand, context);
       lock.lock();
       // A machine that moved meanwhile was not measured where it was thought to stand.
       if (sample && moves == m_moves) {
@@ -111,7 +114,8 @@ class Watch {
   std::mutex m_mutex;
   std::condition_variable_any m_arrived;
   bool m_there = false;
-  long m_moves = 0;  // turns that found it elsewhere
+  acquisition::Stand m_stand;  // since it is there
+  long m_moves = 0;            // turns that found it elsewhere
   std::optional<acquisition::ErrorSample> m_sample;
   std::string m_why;
   std::jthread m_thread;  // last: ends before what it uses

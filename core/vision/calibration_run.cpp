@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/vision/error_view.h"
+#include "core/vision/standing_pictures.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -21,15 +22,27 @@ struct Seen {
   std::vector<GrayImage> frames;
 };
 
-Result<std::vector<GrayImage>> frames_at(const Camera& camera, const CalibrationPlan& plan,
-                                         const TaskContext& context) {
+/// The move to a position by way of its approach, as one: the pictures before it show the position before.
+Result<acquisition::Stand> come_by(acquisition::MachineIo& machine, const CalibrationPlan& plan,
+                                   const ProposedPosition& at) {
+  ZD_TRY(const acquisition::Stand on_the_way,
+         acquisition::come_to(machine, place(plan, at.approach_x_mm, at.approach_y_mm)));
+  ZD_TRY(acquisition::Stand stand, acquisition::come_to(machine, place(plan, at.x_mm, at.y_mm)));
+  stand.left = on_the_way.left;
+  for (std::size_t i = 0; i < 3; ++i) stand.came_mm[i] = std::max(stand.came_mm[i], on_the_way.came_mm[i]);
+  return stand;
+}
+
+Result<std::vector<GrayImage>> frames_at(const Camera& camera, const acquisition::Stand& stand, const Region& region,
+                                         const CalibrationPlan& plan, const TaskContext& context) {
+  StandingLook look;
+  look.region = region;
+  look.latency = plan.latency;
+  look.pictures = plan.frames;
+  look.picture_timeout = plan.frame_timeout;
+  ZD_TRY(const Pictures pictures, standing_pictures(camera, stand, look, context));
   std::vector<GrayImage> out;
-  Camera::Time after = std::chrono::steady_clock::now();
-  for (int k = 0; k < plan.frames; ++k) {
-    ZD_TRY(const std::shared_ptr<const CameraFrame> frame, camera.fresh_frame(after, plan.frame_timeout, context.stop));
-    after = frame->arrived - std::chrono::milliseconds(1);
-    out.push_back(frame->image);
-  }
+  for (const auto& picture : pictures) out.push_back(picture->image);
   return out;
 }
 
@@ -58,11 +71,10 @@ MeanLocation located(const Pattern& pattern, const std::vector<GrayImage>& frame
 
 Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Pattern& pattern,
                  const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
-  ZD_CHECK(machine.move_to(place(plan, at.approach_x_mm, at.approach_y_mm)));
-  ZD_CHECK(machine.move_to(place(plan, at.x_mm, at.y_mm)));
+  ZD_TRY(const acquisition::Stand stand, come_by(machine, plan, at));
   Seen seen;
   ZD_TRY(const acquisition::MachineSample sample, machine.read());
-  ZD_TRY(seen.frames, frames_at(camera, plan, context));
+  ZD_TRY(seen.frames, frames_at(camera, stand, pattern.target.region(), plan, context));
   const auto coordinate = [&](int axis) -> double {
     const auto found = sample.axes.find(plan.axes[static_cast<std::size_t>(axis)]);
     return found == sample.axes.end() ? std::nan("") : found->second;
@@ -78,12 +90,14 @@ Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Pa
   return seen;
 }
 
-// A picture may be spoilt by something that is over a moment later: a position where the target is refused gets a
-// second look.
+// A picture may be spoilt by something that is over a moment later: a position where the target is refused, or the
+// camera hangs, gets a second look.
 Result<Seen> see_patiently(acquisition::MachineIo& machine, const Camera& camera, const Pattern& pattern,
                            const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
   Result<Seen> seen = see(machine, camera, pattern, plan, at, context);
-  if (seen || seen.error().code != ErrorCode::target_refused || context.cancelled()) return seen;
+  if (seen || context.cancelled()) return seen;
+  const ErrorCode code = seen.error().code;
+  if (code != ErrorCode::target_refused && code != ErrorCode::camera_frozen) return seen;
   return see(machine, camera, pattern, plan, at, context);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/acquisition/latency.h"
 #include "core/acquisition/machine_io.h"
 #include "core/base/task_context.h"
 #include "core/vision/calibration.h"
@@ -25,6 +26,7 @@ struct CalibrationPlan {
   double approach_mm = 0.1;
   int frames = 4;  // averaged at each position
   std::chrono::milliseconds frame_timeout{4000};
+  acquisition::Latency latency;  // of the camera
 };
 
 struct CalibrationOutcome {

@@ -25,6 +25,10 @@ using Milliseconds = std::chrono::milliseconds;
 constexpr double default_file_rate_hz = 25.0;
 constexpr std::uint64_t fewest_repeats = 5;
 constexpr std::uint64_t longest_line = 12;  // pictures that may wait between camera and reader
+constexpr double longest_history_s = 60.0;
+constexpr std::size_t most_sketches = 2000;
+// A device's stamp is believed when it is of the host's own clock: not of the future, and not older than this.
+constexpr double oldest_stamp_s = 10.0;
 
 enum class SourceKind { stream, device, file };
 
@@ -79,13 +83,14 @@ struct Camera::Work {
   Steady::time_point last_change;  // when the picture last differed from the one before
   std::uint64_t last_changed = 0;  // and which frame that was
   std::deque<Steady::time_point> arrivals;
+  std::deque<std::shared_ptr<const PictureSketch>> history;
   std::uint64_t opened = 0;
   std::string detail = "not opened yet";
   std::jthread thread;
 
   void run(const std::stop_token& stop);
   void read_all(cv::VideoCapture& capture, const std::stop_token& stop);
-  void publish(GrayImage image);
+  void publish(GrayImage image, std::optional<Seconds> device_stamp);
   Result<std::shared_ptr<const CameraFrame>> state(Steady::time_point now) const;
   std::optional<Steady::duration> repeating(Steady::time_point now) const;
   bool in_a_burst() const;
@@ -125,28 +130,43 @@ void Camera::Work::run(const std::stop_token& stop) {
 
 void Camera::Work::read_all(cv::VideoCapture& capture, const std::stop_token& stop) {
   const bool from_file = kind_of(source) == SourceKind::file;
+  const bool device = kind_of(source) == SourceKind::device;
   double rate = capture.get(cv::CAP_PROP_FPS);
   if (!(rate > 0.5 && rate < 500.0)) rate = default_file_rate_hz;
   const auto period = std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(1.0 / rate));
   Steady::time_point due = Steady::now();
   cv::Mat picture;
   while (!stop.stop_requested() && capture.read(picture) && !picture.empty()) {
-    publish(gray_of(picture));
+    std::optional<Seconds> device_stamp;
+    // V4L2 stamps its buffers by the host's monotonic clock; what other back ends call a position is the stream's own.
+    if (device) device_stamp = Seconds(capture.get(cv::CAP_PROP_POS_MSEC) / 1000.0);
+    publish(gray_of(picture), device_stamp);
     if (!from_file) continue;
     due += period;
     if (!pause(due - Steady::now(), stop)) return;
   }
 }
 
-void Camera::Work::publish(GrayImage image) {
+void Camera::Work::publish(GrayImage image, std::optional<Seconds> device_stamp) {
   auto next = std::make_shared<CameraFrame>();
   next->image = std::move(image);
   next->arrived = Steady::now();
+  next->stamp = Seconds(next->arrived.time_since_epoch());
+  if (device_stamp && *device_stamp<next->stamp&& * device_stamp> next->stamp - Seconds(oldest_stamp_s)) {
+    next->stamp = *device_stamp;
+  }
+  auto sketch = std::make_shared<const PictureSketch>(sketch_of(next->image, next->stamp));
   const std::lock_guard lock(mutex);
   next->count = frame ? frame->count + 1 : 1;
-  if (!frame || frame->image.pixels != next->image.pixels) {
+  const bool other = !frame || frame->image.pixels != next->image.pixels;
+  if (other) {
     last_change = next->arrived;
     last_changed = next->count;
+    history.push_back(std::move(sketch));
+  }
+  while (history.size() > most_sketches ||
+         history.back()->stamp - history.front()->stamp > Seconds(longest_history_s)) {
+    history.pop_front();
   }
   frame = std::move(next);
   arrivals.push_back(frame->arrived);
@@ -242,6 +262,52 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
   }
 }
 
+Result<std::shared_ptr<const CameraFrame>> Camera::next_picture(Seconds after, Milliseconds timeout,
+                                                                const std::stop_token& stop) const {
+  std::unique_lock lock(m_work->mutex);
+  const Time deadline = Steady::now() + timeout;
+  const bool file = kind_of(m_work->source) == SourceKind::file;
+  std::uint64_t first = 0;
+  while (true) {
+    const auto& frame = m_work->frame;
+    if (frame && frame->stamp > after) {
+      if (first == 0) first = frame->count;
+      const bool own = file || m_work->last_changed == frame->count;
+      if (own && (!m_work->in_a_burst() || frame->count > first + longest_line)) return frame;
+      if (const auto repeated = m_work->repeating(Steady::now())) {
+        return fail(ErrorCode::camera_frozen,
+                    {{"url", without_secrets(m_work->source)}, {"seconds", seconds_text(*repeated)}});
+      }
+    }
+    if (stop.stop_requested()) return fail(ErrorCode::cancelled);
+    const std::uint64_t seen = frame ? frame->count : 0;
+    const bool more =
+        m_work->changed.wait_until(lock, stop, deadline, [&] { return m_work->frame && m_work->frame->count != seen; });
+    if (more) continue;
+    if (stop.stop_requested()) return fail(ErrorCode::cancelled);
+    const Time now = Steady::now();
+    if (now < deadline) continue;
+    if (const auto state = m_work->state(now); !state) return fail(state.error());
+    return fail(ErrorCode::camera_silent,
+                {{"url", without_secrets(m_work->source)}, {"seconds", seconds_text(timeout)}});
+  }
+}
+
+Sketches Camera::sketches(Seconds from) const {
+  const std::lock_guard lock(m_work->mutex);
+  Sketches out;
+  for (auto one = m_work->history.rbegin(); one != m_work->history.rend(); ++one) {
+    out.push_back(*one);
+    if ((*one)->stamp <= from) break;
+  }
+  std::reverse(out.begin(), out.end());
+  return out;
+}
+
+bool Camera::is_file() const {
+  return kind_of(m_work->source) == SourceKind::file;
+}
+
 double Camera::frames_per_s() const {
   const std::lock_guard lock(m_work->mutex);
   const auto& arrivals = m_work->arrivals;
@@ -253,30 +319,6 @@ double Camera::frames_per_s() const {
 std::uint64_t Camera::reconnections() const {
   const std::lock_guard lock(m_work->mutex);
   return m_work->opened > 0 ? m_work->opened - 1 : 0;
-}
-
-Result<GrayImage> mean_of_fresh_frames(const Camera& camera, Camera::Time after, int count, Milliseconds timeout,
-                                       const std::stop_token& stop) {
-  std::vector<int> sum;
-  GrayImage out;
-  for (int k = 0; k < count; ++k) {
-    ZD_TRY(const std::shared_ptr<const CameraFrame> frame, camera.fresh_frame(after, timeout, stop));
-    if (k == 0) {
-      out = frame->image;
-      sum.assign(out.pixels.size(), 0);
-    }
-    if (frame->image.pixels.size() != sum.size()) {
-      return fail(ErrorCode::image_size, {{"file", camera.source()},
-                                          {"found", fmt::format("{}x{}", frame->image.width, frame->image.height)},
-                                          {"expected", fmt::format("{}x{}", out.width, out.height)}});
-    }
-    for (std::size_t at = 0; at < sum.size(); ++at) sum[at] += frame->image.pixels[at];
-    after = frame->arrived;
-  }
-  for (std::size_t at = 0; at < sum.size(); ++at) {
-    out.pixels[at] = static_cast<std::uint8_t>((sum[at] + count / 2) / count);
-  }
-  return out;
 }
 
 }  // namespace zerodrift::vision

@@ -1,6 +1,7 @@
 #pragma once
-// A live camera: a thread reads the stream as fast as it comes and keeps the newest frame, so that no queue grows and a
-// measurement never sees the past. Sources: an http(s) or rtsp address, a device ("0" or "/dev/video0"), a video file,
+// A live camera: a thread reads the stream as fast as it comes and keeps the newest frame, so that no queue grows. A
+// frame is stamped by its device where that gives its time, else on arrival: it shows the past by the camera's latency
+// (core/acquisition/latency.h). Sources: an http(s) or rtsp address, a device ("0" or "/dev/video0"), a video file,
 // or an image sequence ("seq/img_%04d.png"); the last two are played in a loop at their own rate. Dead streams are
 // opened anew by themselves, with a growing pause. Failures are named: camera_unreachable (never opened), camera_silent
 // (no picture for a while), camera_frozen (the same picture for a while: a live picture has noise).
@@ -13,6 +14,7 @@
 
 #include "core/base/result.h"
 #include "core/vision/image.h"
+#include "core/vision/picture_sketch.h"
 
 namespace zerodrift::vision {
 
@@ -20,6 +22,7 @@ struct CameraFrame {
   GrayImage image;
   std::uint64_t count = 0;  // frames since the start
   std::chrono::steady_clock::time_point arrived;
+  Seconds stamp{0.0};  // host time: by the device, else of the arrival
 };
 
 struct CameraOptions {
@@ -47,6 +50,14 @@ class Camera {
   /// A frame taken after this moment: the first to arrive may have been on its way already and is passed over.
   Result<std::shared_ptr<const CameraFrame>> fresh_frame(Time after, std::chrono::milliseconds timeout,
                                                          const std::stop_token& stop = {}) const;
+  /// The first frame that is stamped after this host time and does not repeat the one before. Frames that come at once,
+  /// as a starved reader finds them in the line, are passed over: their stamp is too late.
+  Result<std::shared_ptr<const CameraFrame>> next_picture(Seconds after, std::chrono::milliseconds timeout,
+                                                          const std::stop_token& stop = {}) const;
+  /// Of the last pictures, from the last one that is not after `from` on.
+  Sketches sketches(Seconds from) const;
+  /// A file or a sequence of images: played at its own rate, its pictures are of no time.
+  bool is_file() const;
   /// Frames a second over the last few seconds; 0 while nothing comes.
   double frames_per_s() const;
   std::uint64_t reconnections() const;
@@ -55,9 +66,5 @@ class Camera {
   struct Work;
   std::shared_ptr<Work> m_work;
 };
-
-/// The mean of `count` fresh frames, for the template: its noise enters every measurement.
-Result<GrayImage> mean_of_fresh_frames(const Camera& camera, Camera::Time after, int count,
-                                       std::chrono::milliseconds timeout, const std::stop_token& stop = {});
 
 }  // namespace zerodrift::vision

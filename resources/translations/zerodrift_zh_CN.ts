@@ -2010,6 +2010,42 @@
         <translation>相机不发送图像</translation>
     </message>
     <message>
+        <source>the target still moves in the picture</source>
+        <translation>靶标在图像中仍在移动</translation>
+    </message>
+    <message>
+        <source>the picture does not show the move to the measuring position</source>
+        <translation>图像没有显示向测量位置的移动</translation>
+    </message>
+    <message>
+        <source>the machine moved while it was measured</source>
+        <translation>测量时机床发生了移动</translation>
+    </message>
+    <message>
+        <source>its picture does not follow the machine</source>
+        <translation>其图像不随机床移动</translation>
+    </message>
+    <message>
+        <source>a measurement</source>
+        <translation>测量</translation>
+    </message>
+    <message>
+        <source>a time from 0.1 to 60 s</source>
+        <translation>0.1 至 60 s 的时间</translation>
+    </message>
+    <message>
+        <source>the plan&apos;s measuring position</source>
+        <translation>计划的测量位置</translation>
+    </message>
+    <message>
+        <source>%1 %2 mm</source>
+        <translation>%1 %2 mm</translation>
+    </message>
+    <message>
+        <source>%1 %2 mm, where the cameras were calibrated</source>
+        <translation>%1 %2 mm，即标定相机的位置</translation>
+    </message>
+    <message>
         <source>camera is frozen</source>
         <translation>相机画面冻结</translation>
     </message>
@@ -5265,6 +5301,54 @@
         <translation>测量以另一标记继续进行，不确定度增大；请擦净标记，或移开遮挡物。</translation>
     </message>
     <message>
+        <source>Neither the plan nor the profile says where the errors are measured: the position of {axes} is missing.</source>
+        <translation>计划和配置都没有说明在哪里测量误差：缺少 {axes} 的位置。</translation>
+    </message>
+    <message>
+        <source>Give measure_position_mm in the plan or in the profile.</source>
+        <translation>请在计划或配置中给出 measure_position_mm。</translation>
+    </message>
+    <message>
+        <source>A measurement takes longer than its period: the errors are measured every {every_s} s instead of every {period_s} s.</source>
+        <translation>一次测量所需的时间超过测量周期：误差每 {every_s} s 测量一次，而不是每 {period_s} s。</translation>
+    </message>
+    <message>
+        <source>The run goes on; close other programs on this computer, or choose a longer measuring period.</source>
+        <translation>运行继续；请关闭本计算机上的其他程序，或选择更长的测量周期。</translation>
+    </message>
+    <message>
+        <source>At this pace the run will end with {expected} good measurements, at least {needed} are needed.</source>
+        <translation>按目前的速度，运行结束时只有 {expected} 次有效测量，至少需要 {needed} 次。</translation>
+    </message>
+    <message>
+        <source>Look at why measurements are refused or slow, then start again: close other programs on this computer, clear the view, or plan a longer run.</source>
+        <translation>请查明测量被拒绝或变慢的原因，然后重新开始：关闭本计算机上的其他程序、清理视野，或计划更长的运行。</translation>
+    </message>
+    <message>
+        <source>The error in {axis} leapt by {change_um} um since the last measurement; heat can make at most {limit_um} um of it. The measurement was refused.</source>
+        <translation>{axis} 方向的误差自上次测量以来跳变了 {change_um} um，而热变形最多只能造成 {limit_um} um。该测量被拒绝。</translation>
+    </message>
+    <message>
+        <source>Check that the target is firm in its holder and that nothing moves the machine; a leap that is found three times in a row is taken as a slip.</source>
+        <translation>请检查靶标是否固定牢靠、是否有其他原因使机床移动；连续三次出现的跳变按靶标滑移处理。</translation>
+    </message>
+    <message>
+        <source>The error in {axis} leapt by {change_um} um and stayed there: the target or its holder has slipped. The measurements since contain that leap.</source>
+        <translation>{axis} 方向的误差跳变了 {change_um} um 并保持不变：靶标或其支架发生了滑移。此后的测量包含这一跳变。</translation>
+    </message>
+    <message>
+        <source>Fix the target and repeat the run, or leave this part of the run out of the fit.</source>
+        <translation>请固定靶标并重新运行，或在拟合时排除这一段。</translation>
+    </message>
+    <message>
+        <source>The pictures of camera {view} were older than was known when it was calibrated; {seconds} s are waited for now.</source>
+        <translation>相机 {view} 的图像比标定时已知的更旧；现在等待 {seconds} s。</translation>
+    </message>
+    <message>
+        <source>The measurements hold. Check the camera&apos;s network, or calibrate anew.</source>
+        <translation>测量有效。请检查相机的网络，或重新标定。</translation>
+    </message>
+    <message>
         <source>A reference mark is not seen: {reason}.</source>
         <translation>有一个参考标记未被识别：{reason}。</translation>
     </message>
@@ -5562,6 +5646,26 @@
     <message>
         <source>target partly occluded</source>
         <translation>靶标部分被遮挡</translation>
+    </message>
+    <message>
+        <source>measuring period stretched</source>
+        <translation>测量周期被延长</translation>
+    </message>
+    <message>
+        <source>too few measurements expected</source>
+        <translation>预计测量次数过少</translation>
+    </message>
+    <message>
+        <source>leap of the error, refused</source>
+        <translation>误差跳变，已拒绝</translation>
+    </message>
+    <message>
+        <source>slip of the target, confirmed</source>
+        <translation>靶标滑移，已确认</translation>
+    </message>
+    <message>
+        <source>camera later than known</source>
+        <translation>相机延迟比已知的更长</translation>
     </message>
     <message>
         <source>disk full</source>

@@ -52,6 +52,7 @@ TEST(Endurance, ThreeDaysOfThirtyTwoChannels) {
   Plan plan;
   plan.sample_period_s = amount(10, 1);
   plan.measure_period_s = 600.0;
+  plan.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
   plan.steps = {{72.0 * 3600.0, 3000.0, true, true}};
   RecorderOptions options;
   options.commit_period_s = 120.0;
@@ -148,6 +149,7 @@ TEST(Endurance, AnHourByTheWall) {
   Plan plan;
   plan.sample_period_s = 0.1;
   plan.measure_period_s = 600.0;
+  plan.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
   plan.steps = {{3600.0, 3000.0, true, true}};
   RecorderOptions options;
   options.real_time = true;  // as with a machine of iron

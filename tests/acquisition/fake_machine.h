@@ -102,7 +102,7 @@ class FakeErrors : public ErrorSource {
  public:
   explicit FakeErrors(Clock& clock) : m_clock(clock) {}
 
-  Status take_zero(const TaskContext&) override {
+  Status take_zero(const Stand&, const TaskContext&) override {
     ++zeros_taken;
     zero = raw();
     return {};
@@ -115,8 +115,8 @@ class FakeErrors : public ErrorSource {
     if (keeps_zero) zero = kept;
     return keeps_zero;
   }
-  Result<ErrorSample> measure(const TaskContext& context) override {
-    const auto begin = std::chrono::steady_clock::now();
+  Result<ErrorSample> measure(const Stand&, const TaskContext& context) override {
+    const Seconds begin = host_clock().steady();
     if (!m_clock.wait_for(Seconds(measure_s), context.stop)) return fail(ErrorCode::cancelled);
     if (failure && failure(m_clock.steady().count())) {
       return fail(ErrorCode::camera_silent, {{"url", "fake"}, {"seconds", "1"}});
@@ -127,6 +127,7 @@ class FakeErrors : public ErrorSource {
       sample.seen = begin;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
+    if (moves) moves(sample);
     if (refuse) {
       sample.error_um[1] = std::nan("");
       sample.problems.push_back("glare");
@@ -145,6 +146,7 @@ class FakeErrors : public ErrorSource {
   std::function<bool(double time_s)> failure;
   bool seen_at_once = false;  // the pictures come first, then they are worked on
   bool refuse = false;
+  std::function<void(ErrorSample&)> moves;  // the last word on a measurement
   bool keeps_zero = true;
   double offset_um = 7.0;
   double measure_s = 3.0;

@@ -67,6 +67,22 @@ TEST(Plan, PresetsReadBackTheSame) {
   EXPECT_GE(names.size(), 5u);
 }
 
+TEST(Plan, TakesTheMeasuringPositionThatItLeavesOpenFromTheProfile) {
+  Plan plan;
+  plan.measure_position_mm = {{"Z", 5.0}};
+  const auto whole = with_measuring_position(plan, {{"X", 1.0}, {"Y", 2.0}, {"Z", 3.0}, {"A", 90.0}});
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->measure_position_mm, (std::map<std::string, double>{{"X", 1.0}, {"Y", 2.0}, {"Z", 5.0}}));
+}
+
+TEST(Plan, IsRefusedWhereNeitherItNorTheProfileHasAMeasuringPosition) {
+  for (const Plan& preset : preset_plans()) {
+    const auto plan = with_measuring_position(preset, {});
+    ASSERT_FALSE(plan) << preset.name << " must not send a machine to a position that nobody gave";
+    EXPECT_EQ(plan.error().code, ErrorCode::no_measuring_position);
+  }
+}
+
 TEST(Plan, NamesTheFile) {
   const auto plan = read_plan("/nowhere/plan.json");
   ASSERT_FALSE(plan);

@@ -446,5 +446,116 @@ TEST_F(RecorderTest, TellsProgress) {
   EXPECT_NEAR(fraction, 1.0, 1e-9);
 }
 
+TEST_F(RecorderTest, DoesNotStartWithoutAMeasuringPosition) {
+  plan.measure_position_mm.clear();
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::no_measuring_position);
+  EXPECT_TRUE(machine.commands.empty()) << "nothing moves";
+  EXPECT_TRUE(sink.rows.empty());
+}
+
+TEST_F(RecorderTest, DoesNotStartWithoutThePositionOfAnAxisThatTheMachineHas) {
+  plan.measure_position_mm.erase("Y");
+  machine.change = [](MachineSample& sample) { sample.axes = {{"X", 0.0}, {"Y", 7.0}, {"Z", 0.0}}; };
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::no_measuring_position);
+  EXPECT_EQ(summary.error().context.at("axes"), "Y");
+}
+
+// The controller's readings during and after the pictures decide: what was measured of a machine elsewhere counts not.
+TEST_F(RecorderTest, RefusesWhatWasMeasuredOfAMachineThatMoved) {
+  bool jogged = false;
+  errors.moves = [&](ErrorSample&) { jogged = machine.now_s() > 300.0 && machine.now_s() < 400.0; };
+  machine.change = [&](MachineSample& sample) {
+    sample.axes = {{"X", jogged ? 0.5 : 0.0}, {"Y", 0.0}, {"Z", 0.0}};
+    jogged = false;  // it is back for the next reading
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_GE(sink.count("problem", "target_refused"), 1);
+  EXPECT_GE(summary->refused, 1);
+  EXPECT_LE(summary->refused, 2);
+}
+
+TEST_F(RecorderTest, RefusesALeapThatHeatCannotMakeAndNamesIt) {
+  errors.moves = [&, once = false](ErrorSample& sample) mutable {
+    if (machine.now_s() < 700.0 || once) return;
+    once = true;
+    sample.error_um[2] += 400.0;
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(sink.count("problem", "error_leapt"), 1);
+  EXPECT_EQ(summary->refused, 1);
+  for (std::size_t i = 0; i < sink.rows.size(); ++i) {
+    EXPECT_FALSE(sink.value(i, "dZ_um") > 100.0) << i;
+  }
+}
+
+TEST_F(RecorderTest, TakesALeapThatStaysWhenThreeApproachesFoundIt) {
+  errors.moves = [&](ErrorSample& sample) {
+    if (machine.now_s() > 600.0) sample.error_um[0] += 90.0;
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(summary->refused, 2);
+  EXPECT_EQ(sink.count("problem", "error_leapt"), 1);
+  EXPECT_EQ(sink.count("problem", "leap_confirmed"), 1);
+  double last_um = 0.0;
+  for (std::size_t i = 0; i < sink.rows.size(); ++i) {
+    if (std::isfinite(sink.value(i, "dX_um"))) last_um = sink.value(i, "dX_um");
+  }
+  EXPECT_GT(last_um, 85.0);
+}
+
+// What the table takes out of an error at once is no leap of the heat.
+TEST_F(RecorderTest, ALeapOfTheCompensationIsNone) {
+  const auto on = [&] { return machine.now_s() > 600.0; };
+  errors.moves = [&](ErrorSample& sample) {
+    if (on()) sample.error_um[2] -= 70.0;
+  };
+  machine.change = [&](MachineSample& sample) {
+    if (on()) sample.applied_um[2] = -70.0;
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(summary->refused, 0);
+}
+
+TEST_F(RecorderTest, SaysWhenMeasuringTakesLongerThanItsPeriod) {
+  errors.measure_s = 70.0;
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(sink.count("problem", "measuring_stretched"), 1);
+  EXPECT_LT(summary->measurements, 20);
+  EXPECT_GT(summary->measurements, 12);
+}
+
+TEST_F(RecorderTest, SaysInItsFirstTenthThatTooFewMeasurementsWillCome) {
+  errors.refuse = true;
+  double said_at_s = 0.0;
+  options.observer = [&](const RunUpdate& update) {
+    for (const Error& problem : update.problems) {
+      if (problem.code == ErrorCode::too_few_measurements && said_at_s == 0.0) said_at_s = update.time_s;
+    }
+  };
+  ASSERT_TRUE(run()) << "recorded to the end, if that is wanted";
+  EXPECT_GT(said_at_s, 0.0);
+  EXPECT_LE(said_at_s, 0.1 * 1800.0 + 60.0);
+  EXPECT_EQ(sink.count("problem", "too_few_measurements"), 1);
+}
+
+TEST_F(RecorderTest, EndsInItsFirstTenthWhenTooFewMeasurementsAreRefused) {
+  errors.refuse = true;
+  options.refuse_too_few = true;
+  const auto summary = run();
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::too_few_measurements);
+  EXPECT_LE(machine.now_s(), 0.1 * 1800.0 + 70.0);
+  expect_safe();
+}
+
 }  // namespace
 }  // namespace zerodrift::acquisition

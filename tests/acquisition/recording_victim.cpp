@@ -32,6 +32,7 @@ Result<RunSummary> record(const char* path) {
   Plan plan;
   plan.sample_period_s = 0.05;
   plan.measure_period_s = 0.3;
+  plan.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
   plan.steps.push_back({3600.0, 3000.0, true, true});
 
   ZD_TRY(auto job, commissioning::Job::open_or_create(path));

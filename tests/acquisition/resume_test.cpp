@@ -27,6 +27,7 @@ class Resume : public testing::Test {
   Resume() {
     std::string pattern = (std::filesystem::temp_directory_path() / "zerodrift-resume-XXXXXX").string();
     folder = mkdtemp(pattern.data());
+    plan.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
     plan.steps = {{1200.0, 3000.0, true, true}, {600.0, 0.0, false, false}};
   }
   ~Resume() override { std::filesystem::remove_all(folder); }

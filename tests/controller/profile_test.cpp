@@ -1,4 +1,4 @@
-// The fixed marks of a camera in a connection profile: none, one, several.
+// A connection profile: the fixed marks of a camera (none, one, several), and what measuring needs of it.
 
 #include "core/controller/profile.h"
 
@@ -28,6 +28,29 @@ Marks marks_of(const json& document) {
   const auto profile = profile_from_json(document, "machine.json");
   EXPECT_TRUE(profile) << describe(profile.error());
   return profile ? profile->cameras[1].reference_rois_px : Marks{};
+}
+
+// No position is assumed: 0, 0, 0 may be anywhere, and a machine would go there.
+TEST(ProfileMeasuring, APositionThatIsNotGivenIsNone) {
+  json document = shipped();
+  EXPECT_EQ(profile_from_json(document, "machine.json")->measure_position_mm.size(), 3u);
+  document.erase("measure_position_mm");
+  EXPECT_TRUE(profile_from_json(document, "machine.json")->measure_position_mm.empty());
+  document["measure_position_mm"] = {{"Z", -12.5}};
+  EXPECT_EQ(profile_from_json(document, "machine.json")->measure_position_mm,
+            (std::map<std::string, double>{{"Z", -12.5}}));
+}
+
+TEST(ProfileMeasuring, LatencyAndDriftHaveSafeDefaultsAndLimits) {
+  json document = shipped();
+  const auto profile = profile_from_json(document, "machine.json");
+  ASSERT_TRUE(profile);
+  EXPECT_GE(profile->cameras[0].assumed_latency_s, 1.0);
+  EXPECT_GT(profile->max_drift_um_per_min, 0.0);
+  document["cameras"][0]["assumed_latency_s"] = 0.0;
+  const auto refused = profile_from_json(document, "machine.json");
+  ASSERT_FALSE(refused) << "a latency of nothing would trust any picture";
+  EXPECT_EQ(refused.error().context.at("key"), "cameras[0].assumed_latency_s");
 }
 
 TEST(ProfileMarks, NoneOneAndSeveral) {

@@ -21,8 +21,8 @@ namespace {
 class Watcher : public acquisition::ErrorSource {
  public:
   explicit Watcher(Device& device, double gain = 1.0) : m_device(device), m_gain(gain) {}
-  Status take_zero(const TaskContext&) override { return {}; }
-  Result<acquisition::ErrorSample> measure(const TaskContext&) override {
+  Status take_zero(const acquisition::Stand&, const TaskContext&) override { return {}; }
+  Result<acquisition::ErrorSample> measure(const acquisition::Stand&, const TaskContext&) override {
     ++looks;
     if (on_look) on_look(looks);
     acquisition::ErrorSample sample{};
@@ -176,12 +176,12 @@ TEST(SignCheck, APeersProbesSeeTheOffset) {
   auto machine = open(*read_profile(peer.profile_file()));
   ASSERT_TRUE(machine->move_to({{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}));
   ProbeErrorSource probes(*machine);
-  ASSERT_TRUE(probes.take_zero({}));
+  ASSERT_TRUE(probes.take_zero(acquisition::standing_now(), {}));
   const auto record = check_signs(*machine, probes, {}, {});
   ASSERT_TRUE(record.result) << describe(record.result.error());
   EXPECT_NEAR(record.axes[0].seen_um[0], 10.0, 1.0);
   ASSERT_TRUE(machine->move_to({{"X", 10.0}}));
-  const auto away = probes.measure({});
+  const auto away = probes.measure(acquisition::standing_now(), {});
   ASSERT_TRUE(away);
   EXPECT_TRUE(std::isnan(away->error_um[0]));
   EXPECT_FALSE(away->problems.empty());

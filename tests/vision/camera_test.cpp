@@ -95,7 +95,7 @@ TEST(CameraErrorSource, CombinesTwoViewsInMachineAxes) {
   CameraErrorSource source({view_of("front", front.source(), {0, 2}), view_of("side", side.source(), {1, 2})},
                            {.frames = 2});
   ASSERT_TRUE(source.restore_zero({{0, 0, 0, 0}, {0, 0, 0, 0}}));
-  const auto sample = source.measure({});
+  const auto sample = source.measure(acquisition::standing_now(), {});
   ASSERT_TRUE(sample) << describe(sample.error());
   EXPECT_TRUE(sample->problems.empty());
   EXPECT_NEAR(sample->error_um[0], 18.0, 0.2);
@@ -103,8 +103,8 @@ TEST(CameraErrorSource, CombinesTwoViewsInMachineAxes) {
   EXPECT_NEAR(sample->error_um[2], 24.0, 0.2);
   EXPECT_LT(sample->sigma_um[2], sample->sigma_um[0]);
   // The zero taken here, the same place measures nothing.
-  ASSERT_TRUE(source.take_zero({}));
-  const auto again = source.measure({});
+  ASSERT_TRUE(source.take_zero(acquisition::standing_now(), {}));
+  const auto again = source.measure(acquisition::standing_now(), {});
   ASSERT_TRUE(again);
   EXPECT_NEAR(again->error_um[0], 0.0, 0.2);
   EXPECT_EQ(source.states().size(), 2u);
@@ -116,7 +116,7 @@ TEST(CameraErrorSource, RefusedViewsAreMissingWithTheirReason) {
   const Sequence side("bad", {{0.0, 0.0}}, true);
   CameraErrorSource source({view_of("front", front.source(), {0, 2}), view_of("side", side.source(), {1, 2})},
                            {.frames = 2});
-  const auto sample = source.measure({});
+  const auto sample = source.measure(acquisition::standing_now(), {});
   ASSERT_TRUE(sample);
   EXPECT_TRUE(std::isnan(sample->error_um[1]));
   EXPECT_NEAR(sample->error_um[2], -12.0, 0.2);
@@ -127,7 +127,7 @@ TEST(CameraErrorSource, RefusedViewsAreMissingWithTheirReason) {
 TEST(CameraErrorSource, ADeadCameraIsAFailure) {
   ErrorView view = view_of("front", "/nowhere/img_%04d.png", {0, 2});
   CameraErrorSource source({view}, {.frames = 1, .frame_timeout = 300ms});
-  const auto sample = source.measure({});
+  const auto sample = source.measure(acquisition::standing_now(), {});
   ASSERT_FALSE(sample);
   EXPECT_EQ(sample.error().code, ErrorCode::camera_unreachable);
 }

@@ -191,11 +191,12 @@ TEST(LyingCamera, FlickeringLightMeasuresRightOrNotAtAll) {
       *Target::create(testing::render(testing::Speckle(1)), {240, 160, 160, 160}, std::nullopt, "template"));
   view.calibration.um_from_px << 12.0, 0.0, 0.0, -12.0;
   view.axes = {0, 2};
+  view.latency = acquisition::Latency::none();
   CameraErrorSource source({view}, {.frames = 4});
   ASSERT_TRUE(source.restore_zero({{0, 0, 0, 0}}));
   int right = 0;
   for (int i = 0; i < 5; ++i) {
-    const auto sample = source.measure({});
+    const auto sample = source.measure(acquisition::standing_now(), {});
     ASSERT_TRUE(sample) << describe(sample.error());
     if (std::isnan(sample->error_um[0])) continue;
     EXPECT_NEAR(sample->error_um[0], 18.0, 0.5);

@@ -158,12 +158,12 @@ TEST(ReferenceMarks, ARunSaysWhichOneIsNotSeen) {
   };
   CameraErrorSource whole = source_of("whole");
   ASSERT_TRUE(whole.restore_zero({{0, 0, 0, 0}}));
-  const auto plain = whole.measure({});
+  const auto plain = whole.measure(acquisition::standing_now(), {});
   ASSERT_TRUE(plain) << describe(plain.error());
   EXPECT_FALSE(plain->remark);
   CameraErrorSource covered = source_of("covered");
   ASSERT_TRUE(covered.restore_zero({{0, 0, 0, 0}}));
-  const auto sample = covered.measure({});
+  const auto sample = covered.measure(acquisition::standing_now(), {});
   ASSERT_TRUE(sample) << describe(sample.error());
   EXPECT_TRUE(sample->problems.empty());
   ASSERT_TRUE(sample->remark);

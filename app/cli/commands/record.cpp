@@ -41,8 +41,8 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   ZD_TRY(const json profile_document, read_json_file(options.profile));
   ZD_TRY(const auto profile, controller::profile_from_json(profile_document, options.profile, &output.warnings));
   flow::RunOptions run_options;
-  ZD_TRY(run_options.plan, acquisition::read_plan(options.plan, &output.warnings));
-  if (run_options.plan.measure_position_mm.empty()) run_options.plan.measure_position_mm = profile.measure_position_mm;
+  ZD_TRY(const auto plan, acquisition::read_plan(options.plan, &output.warnings));
+  ZD_TRY(run_options.plan, acquisition::with_measuring_position(plan, profile.measure_position_mm));
   ZD_TRY(Job job, Job::open_or_create(options.job));
   ZD_TRY(const auto permit, engineer(pin, "A recorded run"));
   ZD_TRY(flow::Devices devices, flow::Devices::open(profile, true, permit));

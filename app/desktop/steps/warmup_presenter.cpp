@@ -156,14 +156,16 @@ void WarmupPresenter::savePlan() {
 }
 
 void WarmupPresenter::start(std::function<void(bool good)> done) {
-  acquisition::Plan plan = m_plan;
-  if (const auto& profile = bench().profile()) {
-    for (const auto& [axis, position] : profile->measure_position_mm) {
-      plan.measure_position_mm.try_emplace(axis, position);
-    }
+  const auto& profile = bench().profile();
+  const auto plan = acquisition::with_measuring_position(
+      m_plan, profile ? profile->measure_position_mm : std::map<std::string, double>());
+  if (!plan) {
+    show(plan.error());
+    if (done) done(false);
+    return;
   }
   record(
-      tr("Warm-up run"), plan,
+      tr("Warm-up run"), *plan,
       [](commissioning::Job& job, flow::Devices& devices, const flow::RunOptions& options, const TaskContext& context) {
         return flow::record_warmup(job, devices, options, context);
       },

@@ -5,12 +5,16 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <cstring>
+#include <deque>
 #include <mutex>
+#include <optional>
+#include <random>
 #include <string>
 #include <thread>
 
@@ -21,6 +25,9 @@ namespace {
 
 constexpr std::string_view boundary = "zerodrift-frame";
 constexpr std::size_t most_connections = 24;  // a stream holds its thread; waiting threads cost nothing
+// How long a latency lasts before it jumps to another value within its jitter.
+constexpr double shortest_spell_s = 0.5;
+constexpr double longest_spell_s = 4.0;
 constexpr int send_buffer_bytes = 32 * 1024;  // less than a frame: what a slow client has not taken is not yet rendered
 
 void set_socket_options(socket_t socket) {
@@ -43,6 +50,51 @@ bool send(httplib::DataSink& sink, const EncodedFrame& frame) {
 
 }  // namespace
 
+/// The pictures of one stream that are on their way.
+class DelayLine {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  struct Picture {
+    std::int64_t tick;
+    CameraScene scene;
+    Time due;
+  };
+
+  DelayLine(const CameraOptions& options, std::uint64_t seed)
+      : m_options(options), m_random(seed), m_latency_s(options.latency_s) {}
+
+  void put(std::int64_t tick, const CameraScene& scene, Time now) {
+    if (m_options.latency_jitter_s > 0.0 && now >= m_spell_end) {
+      m_latency_s = std::max(0.0, m_options.latency_s + m_options.latency_jitter_s * between(-1.0, 1.0));
+      m_spell_end = now + seconds(between(shortest_spell_s, longest_spell_s));
+    }
+    m_last_due = std::max(m_last_due, now + seconds(m_latency_s));
+    m_pictures.push_back({tick, scene, m_last_due});
+  }
+  std::optional<Time> next_due() const {
+    return m_pictures.empty() ? std::nullopt : std::optional(m_pictures.front().due);
+  }
+  std::optional<Picture> take(Time now) {
+    if (m_pictures.empty() || m_pictures.front().due > now) return std::nullopt;
+    Picture first = m_pictures.front();
+    m_pictures.pop_front();
+    return first;
+  }
+
+ private:
+  static std::chrono::steady_clock::duration seconds(double s) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(s));
+  }
+  double between(double low, double high) { return std::uniform_real_distribution(low, high)(m_random); }
+
+  const CameraOptions& m_options;
+  std::mt19937_64 m_random;
+  double m_latency_s;
+  Time m_spell_end{};
+  Time m_last_due{};
+  std::deque<Picture> m_pictures;
+};
+
 struct CameraServer::Service {
   Service(const CameraOptions& camera_options, const SceneSource& scene)
       : options(camera_options),
@@ -51,7 +103,12 @@ struct CameraServer::Service {
         period(1.0 / std::clamp(options.frames_per_s, 0.1, 100.0)) {}
 
   FrameSource& source(View view) { return view == View::front ? front : side; }
-  bool wait_for_tick(std::int64_t& tick);
+  using Time = std::chrono::steady_clock::time_point;
+  std::int64_t tick_at(Time now) const { return static_cast<std::int64_t>(std::floor((now - begin) / period)); }
+  Time time_of(std::int64_t tick) const {
+    return begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(period * tick);
+  }
+  bool wait_until(Time due);
   void serve_stream(View view, httplib::Response& response);
   void serve_png(View view, httplib::Response& response);
   void add_routes();
@@ -64,31 +121,35 @@ struct CameraServer::Service {
   std::mutex mutex;
   std::condition_variable stopping_changed;
   bool stopping = false;
+  std::atomic<std::uint64_t> streams = 1;
   std::unique_ptr<httplib::Server> server;
   std::thread listener;
 };
 
-/// Sleeps to the next tick after `tick` and says which it is; false when the server stops.
-bool CameraServer::Service::wait_for_tick(std::int64_t& tick) {
-  const auto tick_now = [&] {
-    return static_cast<std::int64_t>(std::floor((std::chrono::steady_clock::now() - begin) / period));
-  };
-  const std::int64_t next = tick < 0 ? tick_now() : std::max(tick_now(), tick) + 1;
-  const auto due = begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(period * next);
+/// False when the server stops.
+bool CameraServer::Service::wait_until(Time due) {
   std::unique_lock lock(mutex);
-  if (stopping_changed.wait_until(lock, due, [&] { return stopping; })) return false;
-  tick = next;
-  return true;
+  return !stopping_changed.wait_until(lock, due, [&] { return stopping; });
 }
 
 void CameraServer::Service::serve_stream(View view, httplib::Response& response) {
   response.set_header("Cache-Control", "no-store");
-  response.set_content_provider(fmt::format("multipart/x-mixed-replace; boundary={}", boundary),
-                                [this, view, tick = std::int64_t{-1}](std::size_t, httplib::DataSink& sink) mutable {
-                                  if (!wait_for_tick(tick)) return false;
-                                  const auto frame = source(view).jpeg(tick, options.jpeg_quality);
-                                  return frame && send(sink, **frame);
-                                });
+  const auto line = std::make_shared<DelayLine>(options, streams++);
+  const auto next = [this, view, line, tick = tick_at(std::chrono::steady_clock::now())](
+                        std::size_t, httplib::DataSink& sink) mutable {
+    const Time due = line->next_due().value_or(Time::max());
+    if (!wait_until(std::min(due, time_of(tick)))) return false;
+    const Time now = std::chrono::steady_clock::now();
+    if (now >= time_of(tick)) {
+      line->put(tick_at(now), source(view).look(), now);
+      tick = tick_at(now) + 1;  // a slow client skips frames
+    }
+    const auto picture = line->take(std::chrono::steady_clock::now());
+    if (!picture) return true;
+    const auto frame = source(view).jpeg(picture->tick, picture->scene, options.jpeg_quality);
+    return frame && send(sink, **frame);
+  };
+  response.set_content_provider(fmt::format("multipart/x-mixed-replace; boundary={}", boundary), next);
 }
 
 void CameraServer::Service::serve_png(View view, httplib::Response& response) {

@@ -2,7 +2,8 @@
 // The cameras over HTTP on 127.0.0.1, as network cameras do it:
 //   /front.mjpg, /side.mjpg   motion JPEG (multipart/x-mixed-replace), about frames_per_s of wall time
 //   /front.png, /side.png     one frame of this moment without loss; header X-Machine-Time in seconds
-// A frame is rendered when it is sent: nothing is queued, a slow client skips frames, without clients nothing runs.
+// A frame is rendered when it is sent: a slow client skips frames, without clients nothing runs. With a latency a frame
+// shows the scene of that long ago; frames never overtake each other.
 
 #include <array>
 #include <memory>
@@ -15,6 +16,8 @@ namespace zerodrift::machine {
 struct CameraOptions {
   std::array<ViewOptions, view_count> views = {view_options(View::front, 1), view_options(View::side, 1)};
   double frames_per_s = 20.0;
+  double latency_s = 0.0;         // wall time from the scene to the sending of its picture
+  double latency_jitter_s = 0.0;  // jumps within latency +- this
   int jpeg_quality = 97;
 };
 

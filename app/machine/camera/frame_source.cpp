@@ -15,22 +15,23 @@ void FrameSource::set_fault(CameraFault fault) {
 }
 
 Frame FrameSource::now() {
+  const CameraScene scene = look();
   const std::lock_guard lock(m_mutex);
-  return render();
+  return render(scene);
 }
 
-Result<std::shared_ptr<const EncodedFrame>> FrameSource::jpeg(std::int64_t tick, int quality) {
+Result<std::shared_ptr<const EncodedFrame>> FrameSource::jpeg(std::int64_t tick, const CameraScene& scene,
+                                                              int quality) {
   const std::lock_guard lock(m_mutex);
   if (m_jpeg && m_tick == tick) return m_jpeg;
-  const Frame frame = render();
+  const Frame frame = render(scene);
   ZD_TRY(auto bytes, vision::encode_jpeg(frame.image, quality));
   m_jpeg = std::make_shared<const EncodedFrame>(EncodedFrame{std::move(bytes), frame.machine_time_s});
   m_tick = tick;
   return m_jpeg;
 }
 
-Frame FrameSource::render() {
-  const CameraScene scene = m_scene(m_view);
+Frame FrameSource::render(const CameraScene& scene) {
   const bool active = m_fault.kind != CameraFault::Kind::none && scene.machine_time_s >= m_fault.from_machine_s &&
                       scene.machine_time_s < m_fault.until_machine_s;
   const bool frozen = active && m_fault.kind == CameraFault::Kind::freeze;

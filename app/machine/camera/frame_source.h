@@ -1,5 +1,5 @@
 #pragma once
-// The frames of one camera, rendered only when somebody asks, at the moment he asks. Safe to call from many threads.
+// The frames of one camera, rendered only when somebody asks. Safe to call from many threads.
 
 #include <cstdint>
 #include <limits>
@@ -41,11 +41,14 @@ class FrameSource {
   void set_fault(CameraFault fault);
   /// A new frame of this moment; frozen, the last one before the fault.
   Frame now();
-  /// The frame of a tick of the stream as JPEG. Clients that ask within one tick share the rendering.
-  Result<std::shared_ptr<const EncodedFrame>> jpeg(std::int64_t tick, int quality);
+  /// What the camera looks at now, to be rendered later: a picture that is on its way shows the moment it was taken.
+  CameraScene look() const { return m_scene(m_view); }
+  /// The frame of a tick of the stream as JPEG, from the scene of that tick. Clients that ask within one tick share the
+  /// rendering.
+  Result<std::shared_ptr<const EncodedFrame>> jpeg(std::int64_t tick, const CameraScene& scene, int quality);
 
  private:
-  Frame render();
+  Frame render(const CameraScene& scene);
 
   const View m_view;
   const CameraRenderer m_renderer;

@@ -9,7 +9,9 @@
 
 #include "core/base/redact.h"
 #include "core/compensation/interlock.h"
+#include "core/vision/camera_latency.h"
 #include "core/vision/image_codec.h"
+#include "core/vision/standing_pictures.h"
 
 namespace zerodrift::flow {
 
@@ -22,6 +24,32 @@ constexpr std::chrono::milliseconds frame_timeout{6000};
 
 vision::Region region_of(const std::array<int, 4>& box) {
   return vision::Region{box[0], box[1], box[2], box[3]};
+}
+
+std::array<int, 4> roi_of(const controller::CameraProfile& camera, const CalibrateOptions& options) {
+  const auto drawn = options.regions.find(camera.id);
+  return drawn != options.regions.end() ? drawn->second : camera.target_roi_px;
+}
+
+double span_of(const Devices& devices, const CalibrateOptions& options) {
+  return options.span_mm > 0.0 ? options.span_mm : devices.profile.calibration_span_mm;
+}
+
+/// As measured with the calibration; a calibration of before it was measured has none, and the profile's is assumed.
+acquisition::Latency latency_in(const json& camera, const controller::CameraProfile& profile) {
+  acquisition::Latency assumed;
+  assumed.mean_s = assumed.spread_s = 0.5 * profile.assumed_latency_s;
+  const auto kept = camera.find("latency");
+  if (kept == camera.end() || !kept->is_object()) return assumed;
+  const auto number = [&](const char* key) {
+    const auto at = kept->find(key);
+    return at != kept->end() && at->is_number() ? at->get<double>() : -1.0;
+  };
+  const double mean_s = number("mean_s");
+  const double spread_s = number("spread_s");
+  const double observations = number("observations");
+  if (!(mean_s >= 0.0) || !(spread_s >= 0.0) || !(observations >= 1.0)) return assumed;
+  return {mean_s, spread_s, static_cast<int>(std::min(observations, 1e6))};
 }
 
 Result<int> axis_index(const std::string& axis) {
@@ -62,31 +90,60 @@ struct CameraCalibration {
   std::vector<commissioning::Blob> blobs;
 };
 
+/// Of all cameras at once, by moves within what a calibration drives anyhow.
+Result<std::vector<acquisition::Latency>> measure_latencies(Devices& devices, const CalibrateOptions& options,
+                                                            const TaskContext& context) {
+  vision::LatencyPlan plan;
+  plan.centre_mm = devices.profile.measure_position_mm;
+  plan.way_mm = 0.5 * span_of(devices, options);
+  std::vector<vision::LatencyCamera> cameras;
+  for (const auto& device : devices.cameras) {
+    cameras.push_back({device.profile.id, device.camera.get(), region_of(roi_of(device.profile, options))});
+    plan.longest_s = std::max(plan.longest_s, device.profile.assumed_latency_s);
+    for (const std::string& axis : device.profile.axes) {
+      if (std::find(plan.axes.begin(), plan.axes.end(), axis) == plan.axes.end()) plan.axes.push_back(axis);
+    }
+  }
+  return vision::measure_latency(*devices.machine, cameras, plan, context);
+}
+
 /// The templates of all cameras, at one moment and before anything else moves: they are the zero of the errors, and the
 /// machine drifts while a camera is calibrated.
-Result<std::vector<vision::GrayImage>> take_templates(Devices& devices, const TaskContext& context) {
-  ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
-  const auto now = std::chrono::steady_clock::now();
-  std::vector<std::future<Result<vision::GrayImage>>> pending;
-  for (const auto& device : devices.cameras) {
-    pending.push_back(std::async(std::launch::async, [&device, &context, now] {
-      return vision::mean_of_fresh_frames(*device.camera, now, template_frames, frame_timeout, context.stop);
+Result<std::vector<vision::GrayImage>> take_templates(Devices& devices, const CalibrateOptions& options,
+                                                      const std::vector<acquisition::Latency>& latencies,
+                                                      const TaskContext& context) {
+  ZD_TRY(const acquisition::Stand stand, come_to_measuring_position(devices));
+  acquisition::Stand seen = stand;
+  seen.check = nullptr;  // the machine is asked from this thread alone
+  std::vector<std::future<Result<vision::Pictures>>> pending;
+  for (std::size_t k = 0; k < devices.cameras.size(); ++k) {
+    vision::StandingLook look;
+    look.region = region_of(roi_of(devices.cameras[k].profile, options));
+    // Every error counts from it: it is waited for as if no latency were known.
+    look.latency = latencies[k];
+    look.latency.spread_s = std::max(latencies[k].spread_s, devices.cameras[k].profile.assumed_latency_s);
+    look.pictures = template_frames;
+    look.picture_timeout = frame_timeout;
+    pending.push_back(std::async(std::launch::async, [&devices, &context, &seen, k, look] {
+      return vision::standing_pictures(*devices.cameras[k].camera, seen, look, context);
     }));
   }
-  std::vector<Result<vision::GrayImage>> taken;  // all of them, so that no thread is left behind
+  std::vector<Result<vision::Pictures>> taken;  // all of them, so that no thread is left behind
   for (auto& one : pending) taken.push_back(one.get());
+  ZD_CHECK(stand.still());
   std::vector<vision::GrayImage> out;
-  for (auto& one : taken) {
-    ZD_TRY(out.emplace_back(), std::move(one));
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    ZD_TRY(const vision::Pictures pictures, std::move(taken[k]));
+    ZD_TRY(out.emplace_back(), vision::mean_of(pictures, without_secrets(devices.cameras[k].profile.url)));
   }
   return out;
 }
 
 Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice& device, const vision::GrayImage& image,
-                                           const CalibrateOptions& options, const TaskContext& context) {
+                                           const acquisition::Latency& latency, const CalibrateOptions& options,
+                                           const TaskContext& context) {
   const auto& profile = device.profile;
-  const auto drawn = options.regions.find(profile.id);
-  const std::array<int, 4> roi = drawn != options.regions.end() ? drawn->second : profile.target_roi_px;
+  const std::array<int, 4> roi = roi_of(profile, options);
   ZD_TRY(const auto target, vision::Target::create(image, region_of(roi), std::nullopt, without_secrets(profile.url)));
   const auto marked = options.marks.find(profile.id);
   const auto& marks = marked != options.marks.end() ? marked->second : profile.reference_rois_px;
@@ -95,7 +152,8 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   vision::CalibrationPlan plan;
   plan.axes = profile.axes;
   plan.centre_mm = devices.profile.measure_position_mm;
-  plan.span_mm = options.span_mm > 0.0 ? options.span_mm : devices.profile.calibration_span_mm;
+  plan.span_mm = span_of(devices, options);
+  plan.latency = latency;
   plan.per_side = options.per_side;
   if (devices.profile.time_factor > 10.0) plan.frames = 2;
   ZD_TRY(auto outcome, vision::run_calibration(
@@ -107,14 +165,16 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
                              }
                            }));
   CameraCalibration made;
-  made.body = {{"id", profile.id},
-               {"axes", profile.axes},
-               {"roi", roi},
-               {"um_per_px", outcome.calibration.scale_um_per_px},
-               {"rotation_deg", outcome.calibration.rotation_deg},
-               {"rms_um", outcome.calibration.rms_um},
-               {"positions", outcome.calibration.views.size()},
-               {"calibration", vision::to_json(outcome.calibration)}};
+  made.body = {
+      {"id", profile.id},
+      {"axes", profile.axes},
+      {"roi", roi},
+      {"um_per_px", outcome.calibration.scale_um_per_px},
+      {"rotation_deg", outcome.calibration.rotation_deg},
+      {"rms_um", outcome.calibration.rms_um},
+      {"positions", outcome.calibration.views.size()},
+      {"latency", {{"mean_s", latency.mean_s}, {"spread_s", latency.spread_s}, {"observations", latency.observations}}},
+      {"calibration", vision::to_json(outcome.calibration)}};
   if (marks.size() == 1) made.body["reference_roi"] = marks.front();
   if (marks.size() > 1) {
     made.body["reference_roi"] = marks;
@@ -139,6 +199,7 @@ Result<vision::ErrorView> view_of(const commissioning::Job& job, const commissio
   vision::ErrorView view;
   view.id = id;
   view.camera = device.camera;
+  view.latency = latency_in(body, device.profile);
   ZD_TRY(const auto plain, vision::Target::create(image, region_of(body.at("roi").get<std::array<int, 4>>()),
                                                   std::nullopt, id + "-template.png"));
   view.target = std::make_shared<const vision::Target>(plain.learned_from(frames));
@@ -193,11 +254,15 @@ Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devi
   }
   if (!devices.cameras.empty()) ZD_CHECK(may_move(devices, devices.cameras.front().profile.id, options, context));
   ZD_CHECK(devices.machine->command(0.0, false, false));
-  ZD_TRY(const std::vector<vision::GrayImage> templates, take_templates(devices, context));
+  if (devices.profile.measure_position_mm.empty()) {
+    return fail(ErrorCode::no_measuring_position, {{"axes", "X, Y, Z"}});
+  }
+  ZD_TRY(const auto latencies, measure_latencies(devices, options, context));
+  ZD_TRY(const std::vector<vision::GrayImage> templates, take_templates(devices, options, latencies, context));
   for (std::size_t i = 0; i < devices.cameras.size(); ++i) {
     const auto& device = devices.cameras[i];
     if (i > 0) ZD_CHECK(may_move(devices, device.profile.id, options, context));
-    ZD_TRY(auto made, calibrate_camera(devices, device, templates[i], options, context));
+    ZD_TRY(auto made, calibrate_camera(devices, device, templates[i], latencies[i], options, context));
     if (marks_of(made.body).empty()) body["reference_target"] = false;
     body["cameras"].push_back(std::move(made.body));
     for (auto& blob : made.blobs) blobs.push_back(std::move(blob));

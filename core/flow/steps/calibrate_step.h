@@ -1,9 +1,9 @@
 #pragma once
-// Step "calibrate" (V1, V2): at rest, for each camera the template of the target and of the fixed marks, then the
-// moves that give um per px. Makes the artefact "calibration":
+// Step "calibrate" (V1, V2): the latency of the cameras by a few moves; at rest, for each camera the template of the
+// target and of the fixed marks, then the moves that give um per px. Makes the artefact "calibration":
 //   {"source": "camera", "reference_target": true,
 //    "cameras": [{"id", "axes", "roi", "reference_roi", "um_per_px", "rotation_deg", "rms_um", "positions",
-//                 "calibration": {...contract...}}]}
+//                 "latency": {"mean_s", "spread_s", "observations"}, "calibration": {...contract...}}]}
 // with one fixed mark "reference_roi": [x, y, w, h]; with several a list of such, and "takes_off": "shift" | "turn",
 // what of the camera's own motion they take off (turn: shift, turn and scale).
 // with the blobs "<camera>-template.png" and "<camera>-view-<n>.png" (the views teach the target's mask).

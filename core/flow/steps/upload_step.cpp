@@ -69,7 +69,7 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
   }
   context.progress(0.1, "checking the sign");
   ZD_TRY(const auto source, open_error_source(job, devices));
-  ZD_CHECK(devices.machine->move_to(devices.profile.measure_position_mm));
+  ZD_TRY(const auto stand, come_to_measuring_position(devices));
   commissioning::AuditEntry entry;
   entry.machine = machine_text(preview.record.machine, preview.record.serial);
   entry.action = "test offset";
@@ -77,7 +77,7 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
   entry.old_value = "0 um";
   entry.new_value = "10 um, then 0 um";
   return audited(job, entry, [&]() -> Status {
-    ZD_CHECK(source->take_zero(context));
+    ZD_CHECK(source->take_zero(stand, context));
     const auto record = controller::check_signs(*devices.machine, *source, {}, context);
     out = controller::to_json(record);
     if (options.sign_observer) options.sign_observer(record);

@@ -1,10 +1,14 @@
 #include "core/flow/steps/warmup_step.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/job_sink.h"
+#include "core/base/time_text.h"
 #include "core/flow/steps/inputs.h"
 
 namespace zerodrift::flow {
@@ -107,11 +111,42 @@ json RecordedRun::body() const {
   return value;
 }
 
-Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& options,
+namespace {
+
+/// Errors from cameras count from the template, taken at rest (V1): what drifted since is thermal error, too. So the
+/// run must be measured where the template was taken.
+Status zero_of_template(const commissioning::Artefact& calibration, const controller::Profile& profile,
+                        const acquisition::Plan& plan, acquisition::RecorderOptions& options) {
+  for (const auto& [axis, position_mm] : profile.measure_position_mm) {
+    const auto at = plan.measure_position_mm.find(axis);
+    if (at == plan.measure_position_mm.end() || std::abs(at->second - position_mm) <= acquisition::there_mm) continue;
+    return fail(ErrorCode::data_does_not_fit,
+                {{"what", "the plan's measuring position"},
+                 {"found", fmt::format("{} {:g} mm", axis, at->second)},
+                 {"expected", fmt::format("{} {:g} mm, where the cameras were calibrated", axis, position_mm)}});
+  }
+  if (!options.zero_um) options.zero_um = std::array<double, 3>{};
+  ZD_TRY(const UtcTime taken, utc_from_text(calibration.created_utc));
+  const double age_s = Seconds(SystemClock().utc() - taken).count();
+  options.zero_age_s = std::max(0.0, age_s) * profile.time_factor;
+  return {};
+}
+
+}  // namespace
+
+Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& run_options,
                                acquisition::RecorderOptions recorder_options, const TaskContext& context) {
+  RunOptions options = run_options;
+  ZD_TRY(options.plan, acquisition::with_measuring_position(options.plan, devices.profile.measure_position_mm));
+  ZD_TRY(const auto calibration, job.latest("calibration"));
+  if (calibration && devices.profile.error_source == controller::ErrorSourceKind::camera) {
+    ZD_CHECK(zero_of_template(*calibration, devices.profile, options.plan, recorder_options));
+  }
   vision::CameraErrorSource* cameras = nullptr;
   ZD_TRY(const auto source, open_error_source(job, devices, &cameras));
   if (options.cameras) options.cameras(cameras);
+  recorder_options.refuse_too_few = options.refuse_too_few;
+  recorder_options.drift.um_per_min = devices.profile.max_drift_um_per_min;
   recorder_options.time_factor = devices.profile.time_factor;
   // A machine of iron waits for its next sample most of the time; an accelerated one would keep the processor.
   recorder_options.real_time = devices.profile.time_factor <= 1.0;
@@ -142,8 +177,6 @@ Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Device
   ZD_TRY(const Input calibration, need(job, "warm-up", "calibration"));
   acquisition::RecorderOptions recorder_options;
   recorder_options.name = "warm-up";
-  // Errors from cameras count from the template, taken at rest (V1): what drifted since is thermal error, too.
-  if (calibration.body.value("source", "") == "camera") recorder_options.zero_um = std::array<double, 3>{};
   ZD_TRY(const RecordedRun run, record_run(job, devices, options, recorder_options, context));
   if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
   return warmup_artefact(job, run, machine, calibration);

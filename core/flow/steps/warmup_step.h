@@ -15,7 +15,8 @@
 namespace zerodrift::flow {
 
 struct RunOptions {
-  acquisition::Plan plan;
+  acquisition::Plan plan;       // without a measuring position the profile's counts
+  bool refuse_too_few = false;  // a run that will end with too few measurements ends in its first tenth
   std::function<void(const acquisition::RunUpdate&)> observer;
   /// Told the control of the run when it starts, and null when it has ended.
   std::function<void(acquisition::RunControl*)> control;
