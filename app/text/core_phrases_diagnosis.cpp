@@ -26,8 +26,11 @@ constexpr std::array<const char*, 159> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "Recording {@what}."),
     QT_TRANSLATE_NOOP("core", "Recording {recording}: {@what}."),
     QT_TRANSLATE_NOOP("core",
-                      "Recording {recording}: the temperatures look like degrees Fahrenheit and were converted."),
-    QT_TRANSLATE_NOOP("core", "Recording {recording}: the temperatures look like kelvin and were converted."),
+                      "Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees "
+                      "Celsius; give their unit in the column map."),
+    QT_TRANSLATE_NOOP("core",
+                      "Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; "
+                      "give their unit in the column map."),
     QT_TRANSLATE_NOOP("core", "minutes"),
     QT_TRANSLATE_NOOP("core", "hours"),
     QT_TRANSLATE_NOOP("core", "milliseconds"),

@@ -73,7 +73,7 @@ std::vector<std::optional<Finding>> check_temperatures(const std::vector<std::st
       if (!std::isfinite(v)) v = missing_sample;
     }
   }
-  convert_units(channels, values, findings);
+  suspect_units(channels, values, findings);
   std::vector<std::optional<Finding>> faults;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     take_out_dropouts(channels[c], time_s, values[c], findings);
@@ -89,14 +89,13 @@ Checked checked(const Recording& recording, const std::set<std::string>& may_sta
   constexpr double much_K = 2.0;  // of the others: a machine that rests is measured rightly by constants
   Checked out{recording, {}};
   std::vector<std::string> names;
-  std::vector<std::vector<double>> converted;
+  std::vector<std::vector<double>> temperatures;
   for (const Channel& channel : recording.channels) {
     if (!is_temperature(channel)) continue;
     names.push_back(channel.name);
-    converted.push_back(channel.values);
+    temperatures.push_back(channel.values);
   }
-  convert_units(names, converted, out.findings);
-  for (std::size_t c = 0; c < names.size(); ++c) out.recording.find(names[c])->values = converted[c];
+  suspect_units(names, temperatures, out.findings);
   for (Channel& channel : out.recording.channels) {
     const bool measured = is_temperature(channel) || channel.kind() == ChannelKind::error;
     const bool held = channel.kind() == ChannelKind::temperature && may_stand_still.count(channel.name) != 0;
@@ -105,16 +104,16 @@ Checked checked(const Recording& recording, const std::set<std::string>& may_sta
   }
   const std::vector<double> moved = rises(out.recording);
   const bool at_rest = moved.empty() || moved.back() < much_K;
-  std::vector<Finding>
-      again;  // units are converted already, dropouts out, and spikes are left to whoever looks at the samples
-  const auto faults = check_temperatures(names, recording.time_s, converted, again);
+  // Units and dropouts are named already, and spikes are left to whoever looks at the samples.
+  std::vector<Finding> again;
+  const auto faults = check_temperatures(names, recording.time_s, temperatures, again);
   const auto out_of_reach = std::count_if(
       faults.begin(), faults.end(), [](const auto& fault) { return fault && fault->kind == FindingKind::implausible; });
   const bool wrong_unit = 2 * out_of_reach > std::ssize(names);  // not some sensors: the comparison refuses them
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (faults[c] && wrong_unit && faults[c]->kind == FindingKind::implausible) continue;
     if (!faults[c] || (at_rest && faults[c]->kind == FindingKind::constant_sensor)) continue;
-    if (!lies(*faults[c], *out.recording.find(names[c]), may_stand_still, recording.time_s, converted[c])) continue;
+    if (!lies(*faults[c], *out.recording.find(names[c]), may_stand_still, recording.time_s, temperatures[c])) continue;
     out.findings.push_back(*faults[c]);
     std::erase_if(out.recording.channels, [&](const Channel& channel) { return channel.name == names[c]; });
   }

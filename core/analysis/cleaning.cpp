@@ -278,35 +278,35 @@ void hold_gaps(std::vector<double>& values) {
   }
 }
 
-void convert_units(const std::vector<std::string>& channels, std::vector<std::vector<double>>& values,
+void suspect_units(const std::vector<std::string>& channels, const std::vector<std::vector<double>>& values,
                    std::vector<Finding>& findings) {
-  const auto convert = [&](std::size_t c, FindingKind kind) {
-    for (double& v : values[c]) v = kind == FindingKind::kelvin ? v - 273.15 : (v - 32.0) / 1.8;
-    findings.push_back({kind, FindingAction::repaired, channels[c], {}});
+  const auto suspect = [&](std::size_t c, FindingKind kind, double start) {
+    findings.push_back({kind, FindingAction::noted, channels[c], fmt::format("starts at {:.4g}", start)});
   };
+  std::vector<std::size_t> there;  // in what may be Celsius
   std::vector<double> starts;
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    const std::vector<double> there = present(values[c]);
-    if (!there.empty() && *std::min_element(there.begin(), there.end()) > 200.0 && start_value(there) < 400.0) {
-      convert(c, FindingKind::kelvin);
-    }
+    const std::vector<double> samples = present(values[c]);
     const double start = start_value(values[c]);
-    if (std::isfinite(start)) starts.push_back(start);
+    if (!std::isfinite(start)) continue;
+    if (*std::min_element(samples.begin(), samples.end()) > 200.0 && start < 400.0) {
+      suspect(c, FindingKind::kelvin, start);
+    } else {
+      there.push_back(c);
+      starts.push_back(start);
+    }
   }
   if (starts.empty()) return;
   const double coldest = *std::min_element(starts.begin(), starts.end());
   const double middle = median_of(starts);
-  if (coldest > 50.0 && coldest < 120.0) {
-    for (std::size_t c = 0; c < channels.size(); ++c) convert(c, FindingKind::fahrenheit);
-    return;
-  }
-  // One sensor alone: only when the rest starts uniform and the converted value falls among them.
-  double uniform_count = 0.0;
-  for (const double s : starts) uniform_count += std::abs(s - middle) < 3.0 ? 1.0 : 0.0;
-  if (uniform_count < 0.6 * static_cast<double>(starts.size()) || starts.size() < 3) return;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    const double start = start_value(values[c]);
-    if (start - middle > 20.0 && std::abs((start - 32.0) / 1.8 - middle) < 1.5) convert(c, FindingKind::fahrenheit);
+  const bool all = coldest > 50.0 && coldest < 120.0;
+  // One sensor alone: only when the rest starts uniform and in Celsius it would fall among them.
+  const auto uniform =
+      std::count_if(starts.begin(), starts.end(), [&](double s) { return std::abs(s - middle) < 3.0; });
+  const bool one_may_differ = starts.size() >= 3 && 5 * uniform >= 3 * std::ssize(starts);
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    const bool falls_among = starts[i] - middle > 20.0 && std::abs((starts[i] - 32.0) / 1.8 - middle) < 1.5;
+    if (all || (one_may_differ && falls_among)) suspect(there[i], FindingKind::fahrenheit, starts[i]);
   }
 }
 

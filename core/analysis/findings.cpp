@@ -24,9 +24,9 @@ std::string_view sentence_of(FindingKind kind) {
     case FindingKind::gaps:
       return "has gaps";
     case FindingKind::fahrenheit:
-      return "looks like degrees Fahrenheit and was converted";
+      return "may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map";
     case FindingKind::kelvin:
-      return "looks like kelvin and was converted";
+      return "may be in kelvin but was taken as degrees Celsius: give its unit in the column map";
     case FindingKind::implausible:
       return "has values no machine tool reaches";
     case FindingKind::error_dead:

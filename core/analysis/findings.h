@@ -17,8 +17,8 @@ enum class FindingKind {
   dropout,            // one value for a while that is not the sensor's own
   spikes,             // isolated samples far from their neighbours
   gaps,               // samples missing for long
-  fahrenheit,         // values that only make sense in degrees Fahrenheit
-  kelvin,             // values that only make sense in kelvin
+  fahrenheit,         // values that may be in degrees Fahrenheit; never converted
+  kelvin,             // values that may be in kelvin; never converted
   implausible,        // outside anything a machine tool can have
   error_dead,         // an error channel without samples
   error_never_moves,  // an error channel that stays put

@@ -154,6 +154,7 @@ void Diagnoser::decide() {
   }
   if (m_corrected) m_far.insert(m_far.begin(), *m_corrected);
   m_out.refined = refined_machine(*m_used);
+  state_room(m_out.refined, *m_used);
   if (!m_from_each_start || m_used == m_selection.base) return;
   m_out.refined.reference_temperature_C.reset();
   m_out.notes.emplace_back("counts_from_each_start");

@@ -65,6 +65,7 @@ physics::Prediction predict_with_own_room(const Machine& refined, const recordin
 }  // namespace
 
 void take_value(Machine& machine, const physics::Parameter& p, double value) {
+  if (p.owner() != physics::Owner::description) return;  // an effect's own numbers stand in its specification
   for (auto& component : machine.components) {
     if (component.id != p.component) continue;
     if (p.key == "conductivity_W_mK") component.material.conductivity_W_mK = value;
@@ -81,9 +82,9 @@ void take_value(Machine& machine, const physics::Parameter& p, double value) {
     }
   }
   for (std::size_t i = 0; i < machine.couplings.size(); ++i) {
-    const bool own = p.key == "conductance_W_K" && p.effect < 0;
-    if (own && p.component == physics::coupling_name(machine.couplings, i))
+    if (p.key == "conductance_W_K" && p.component == physics::coupling_name(machine.couplings, i)) {
       machine.couplings[i].conductance_W_K = value;
+    }
   }
 }
 
@@ -94,7 +95,7 @@ physics::EffectSpec fitted_effect(const Model& model, std::size_t index, std::ma
   }
   for (std::size_t i = 0; i < model.unknowns(); ++i) {
     const auto& p = model.unknown(i);
-    if (p.effect != static_cast<int>(index) || p.per_recording) continue;
+    if (p.owner() != physics::Owner::effect || p.effect != static_cast<int>(index)) continue;
     spec.numbers[p.key] = model.value(i);
     if (sigma != nullptr) (*sigma)[p.key] = model.sigma(i);
   }
@@ -109,12 +110,28 @@ Machine refined_machine(const Model& model) {
     machine.effects[e].candidate = false;
   }
   for (auto& component : machine.components) {
+    // Watts and conductances were fitted to this capacity; without it a reader would have to guess another.
+    const bool open = component.lump && !component.prescribed && !component.heat_capacity_J_K;
+    if (open) component.heat_capacity_J_K = physics::stand_in_capacity_J_K;
     for (auto& source : component.sources) {
       if (source.kind == physics::SourceKind::speed) source.full_speed_rpm = model.network().full_speed_rpm;
       if (!source.law_watts.empty()) source.power_unknown = false;
     }
   }
   return machine;
+}
+
+void state_room(Machine& refined, const Model& model) {
+  if (!refined.room.channel.empty() || refined.room.temperature_C) return;
+  const physics::Network& network = model.network();
+  const auto room = std::find_if(network.environments.begin(), network.environments.end(),
+                                 [](const auto& one) { return one.name == "room"; });
+  if (room == network.environments.end() || room->series >= 0) return;
+  double room_C = room->constant_C;
+  for (std::size_t i = 0; i < model.unknowns(); ++i) {
+    if (model.unknown(i).key == "room_temperature_K") room_C += model.value(i);
+  }
+  refined.room.temperature_C = room_C;
 }
 
 physics::Prediction predict_other(const Machine& refined, const recording::Recording& recording, double hold) {

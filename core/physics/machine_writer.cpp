@@ -22,6 +22,7 @@ void write_source(json& out, const HeatSource& source) {
   if (!source.law_watts.empty()) {
     out["law_watts"] = source.law_watts;
     out["full_speed_rpm"] = source.full_speed_rpm;
+    out["power_unknown"] = source.power_unknown;
   }
 }
 
@@ -78,9 +79,16 @@ json to_json(const Machine& machine) {
   if (machine.reference_temperature_C) document["reference_temperature_C"] = *machine.reference_temperature_C;
   for (const auto& component : machine.components)
     write_component(entry(document["components"], component.id), component);
+  // Of a description without components the parts were made of the sensors, and are named now.
+  for (std::size_t i = 0; i < machine.sensors.size() && document.contains("sensors"); ++i) {
+    document["sensors"][i]["component"] = machine.sensors[i].component;
+  }
   for (std::size_t i = 0; i < machine.couplings.size() && document.contains("couplings"); ++i) {
     const auto& g = machine.couplings[i].conductance_W_K;
     if (g) document["couplings"][i]["conductance_W_K"] = *g;
+  }
+  if (machine.room.channel.empty() && machine.room.temperature_C) {
+    document["room"]["temperature_C"] = *machine.room.temperature_C;
   }
   write_effects(document, machine);
   return document;

@@ -8,6 +8,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/machine.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -15,7 +16,7 @@ namespace zerodrift::diagnosis {
 inline Result<Diagnosis> answer_with_details(const proof::Case& one) {
   const auto machine = physics::machine_from_json(one.machine, one.name);
   EXPECT_TRUE(machine.has_value());
-  return diagnose(*machine, one.recordings);
+  return diagnosed_and_simulated(*machine, one.recordings);
 }
 
 inline bool notes(const Diagnosis& d, const std::string& beginning) {

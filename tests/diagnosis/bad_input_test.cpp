@@ -6,8 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/checked_runs.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/simulate.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -16,7 +18,7 @@ namespace {
 Result<Diagnosis> answer_for(const proof::Case& one) {
   const auto machine = physics::machine_from_json(one.machine, one.name);
   EXPECT_TRUE(machine.has_value());
-  return diagnose(*machine, one.recordings, {false});
+  return diagnosed_and_simulated(*machine, one.recordings, {false});
 }
 
 void scale(recording::Recording& recording, char first_letter, double factor) {
@@ -63,7 +65,7 @@ TEST(BadInput, PowersInKilowattsAreRefused) {
   }
   const auto machine = physics::machine_from_json(one.machine, one.name);
   if (!machine) return;  // the reader already refuses it
-  const auto answer = diagnose(*machine, one.recordings, {false});
+  const auto answer = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_FALSE(answer.has_value());
   EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
 }
@@ -230,7 +232,8 @@ TEST(BadInput, WhatMakesAnotherRunWorseIsSaid) {
     }
     return run;
   };
-  const auto answer = diagnose(*machine, {made(open, one.recordings[0]), made(*machine, one.recordings[1])}, {false});
+  const auto answer =
+      diagnosed_and_simulated(*machine, {made(open, one.recordings[0]), made(*machine, one.recordings[1])}, {false});
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   ASSERT_TRUE(only_names(*answer, "draught"));
   const HeldOut& other = answer->held_out.at(0);
@@ -270,7 +273,8 @@ TEST(BadInput, NothingIsNamedAgainstItsOwnEvidence) {
   }
 }
 
-TEST(BadInput, FahrenheitIsConvertedAsForAFit) {
+// Nothing is converted by its look: the values are taken as they are named, and the doubt is said with its remedy.
+TEST(BadInput, ValuesThatMayBeFahrenheitAreNamedAndNotConverted) {
   proof::Case one = proof::make_case(110, "none");
   for (auto& channel : one.recordings[0].channels) {
     if (!channel.name.ends_with("_C")) continue;
@@ -278,12 +282,18 @@ TEST(BadInput, FahrenheitIsConvertedAsForAFit) {
   }
   one.machine.erase("initial_temperature_C");
   one.recordings.resize(1);
-  const auto answer = answer_for(one);
-  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_EQ(answer->verdict, Verdict::consistent);
-  ASSERT_FALSE(answer->findings.empty());
-  EXPECT_EQ(answer->findings.front().finding.kind, analysis::FindingKind::fahrenheit);
-  EXPECT_TRUE(std::any_of(answer->sentences.begin(), answer->sentences.end(),
+  const auto machine = physics::machine_from_json(one.machine, "machine.json");
+  ASSERT_TRUE(machine.has_value()) << describe(machine.error());
+  const auto runs = checked_runs(*machine, one.recordings);
+  ASSERT_TRUE(runs.has_value()) << describe(runs.error());
+  ASSERT_FALSE(runs->findings.empty());
+  EXPECT_EQ(runs->findings.front().finding.kind, analysis::FindingKind::fahrenheit);
+  EXPECT_EQ(runs->findings.front().finding.action, analysis::FindingAction::noted);
+  for (const auto& channel : runs->recordings.front().channels) {
+    if (channel.kind() != recording::ChannelKind::temperature) continue;
+    EXPECT_DOUBLE_EQ(channel.values.front(), one.recordings[0].find(channel.name)->values.front()) << channel.name;
+  }
+  EXPECT_TRUE(std::any_of(runs->told.begin(), runs->told.end(),
                           [](const Sentence& sentence) { return sentence.id == "run_fahrenheit"; }));
 }
 
@@ -413,7 +423,7 @@ TEST(BadInput, ACoolantsRegionIsFoundAndHalfAnExplanationIsNone) {
         channel.values[k] = seen->values[k] + (moved ? 0.1 : 0.02) * noise;
       }
     }
-    const auto answer = diagnose(*machine, {run}, {false});
+    const auto answer = diagnosed_and_simulated(*machine, {run}, {false});
     ASSERT_TRUE(answer.has_value()) << describe(answer.error());
     if (twice) {
       EXPECT_EQ(answer->verdict, Verdict::unexplained) << answer->excess_after;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/physics/machine.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -31,10 +32,10 @@ TEST(Contradiction, TheOtherRecordingIsFittedWhereTheFirstCannotShowTheEffect) {
   const auto machine = physics::machine_from_json(one.machine, one.name);
   const recording::Recording idle = before_the_first_cut(one.recordings[0]);
   ASSERT_GT(idle.rows(), 100u);
-  const auto alone = diagnose(*machine, {idle}, {false});
+  const auto alone = diagnosed_and_simulated(*machine, {idle}, {false});
   ASSERT_TRUE(alone.has_value());
   EXPECT_EQ(alone->verdict, Verdict::consistent);
-  const auto both = diagnose(*machine, {idle, one.recordings[1]}, {false});
+  const auto both = diagnosed_and_simulated(*machine, {idle, one.recordings[1]}, {false});
   ASSERT_TRUE(both.has_value());
   ASSERT_FALSE(both->effects.empty());
   EXPECT_EQ(both->effects[0].id, "cutting_heat");
@@ -49,7 +50,7 @@ TEST(Contradiction, WhatTheFirstLeavesInDoubtIsSoughtInTheOtherToo) {
   ASSERT_EQ(one.hidden[0].id, "bearing_viscosity");
   ASSERT_EQ(one.hidden[1].id, "coolant");
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  const auto both = diagnose(*machine, one.recordings, {false});
+  const auto both = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(both.has_value());
   ASSERT_EQ(both->effects.size(), 2U);
   EXPECT_EQ(both->effects[0].id, "coolant");
@@ -59,7 +60,7 @@ TEST(Contradiction, WhatTheFirstLeavesInDoubtIsSoughtInTheOtherToo) {
 TEST(Contradiction, AFittedFirstRecordingThatPredictsTheSecondStays) {
   const proof::Case one = proof::make_case(11, "contact_resistance");
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  const auto both = diagnose(*machine, one.recordings, {false});
+  const auto both = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(both.has_value());
   EXPECT_FALSE(noted(*both, "fitted_instead:"));
   EXPECT_LT(missed_by(*both), 3.0);
@@ -73,7 +74,7 @@ TEST(Contradiction, WhatMovesADisplacementInOneRecordingAloneIsNoPhysicsOfTheMac
     std::vector<double>& values = run.find("dZ_um")->values;
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += 1.5 * (run.time_s[k] - run.time_s[0]) / 3600.0;
     const auto machine = physics::machine_from_json(one.machine, one.name);
-    const auto both = diagnose(*machine, one.recordings, {false});
+    const auto both = diagnosed_and_simulated(*machine, one.recordings, {false});
     ASSERT_TRUE(both.has_value());
     EXPECT_EQ(both->verdict, Verdict::unexplained) << drifting;
     for (const FoundEffect& found : both->effects) EXPECT_LE(found.confidence, 0.4) << drifting << found.id;
@@ -84,7 +85,7 @@ TEST(Contradiction, WhatMovesADisplacementInOneRecordingAloneIsNoPhysicsOfTheMac
 TEST(Contradiction, AnExplanationThatMakesTheOtherRecordingWorseIsNone) {
   const proof::Case one = proof::make_case(31, "unlisted:creep");
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  const auto both = diagnose(*machine, one.recordings, {false});
+  const auto both = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->verdict, Verdict::unexplained);
 }
@@ -93,14 +94,14 @@ TEST(Contradiction, AnExplanationThatMakesTheOtherRecordingWorseIsNone) {
 TEST(Contradiction, AMovementThatOnlyTheOtherRecordingHasIsNotConsistent) {
   proof::Case one = proof::make_case(5, "none");
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  const auto before = diagnose(*machine, one.recordings, {false});
+  const auto before = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(before.has_value());
   EXPECT_EQ(before->verdict, Verdict::consistent);
   recording::Recording& other = one.recordings[1];
   for (std::size_t k = 0; k < other.rows(); ++k) {
     other.find("dZ_um")->values[k] += 8.0 * std::sin(2.0 * 3.14159265 * other.time_s[k] / 5000.0);
   }
-  const auto both = diagnose(*machine, one.recordings, {false});
+  const auto both = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->verdict, Verdict::unexplained);
   EXPECT_EQ(both->mismatch.channels.front(), "dZ_um");
@@ -116,12 +117,12 @@ TEST(Contradiction, WhatJumpsToAndFroInTheOtherRecordingDidNotSlip) {
     }
   };
   shift(one.recordings[0], 6000.0, 1e9);
-  const auto slipped = diagnose(*machine, one.recordings, {false});
+  const auto slipped = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(slipped.has_value());
   ASSERT_FALSE(slipped->effects.empty());
   EXPECT_EQ(slipped->effects[0].id, "bracket_slip");
   for (const double from_s : {2000.0, 6000.0, 10000.0}) shift(one.recordings[1], from_s, from_s + 2000.0);
-  const auto loose = diagnose(*machine, one.recordings, {false});
+  const auto loose = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(loose.has_value());
   EXPECT_EQ(loose->verdict, Verdict::unexplained);
 }

@@ -9,6 +9,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/machine.h"
+#include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -71,7 +72,7 @@ recording::Recording run_of(unsigned seed) {
 Diagnosis answer_for(const Json& machine) {
   const auto read = physics::machine_from_json(machine, "machine.json");
   EXPECT_TRUE(read.has_value());
-  auto result = diagnose(*read, {run_of(1), run_of(2)}, {false});
+  auto result = diagnosed_and_simulated(*read, {run_of(1), run_of(2)}, {false});
   EXPECT_TRUE(result.has_value());
   return result ? *result : Diagnosis{};
 }

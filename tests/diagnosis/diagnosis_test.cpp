@@ -9,6 +9,7 @@
 #include "core/diagnosis/locate.h"
 #include "core/diagnosis/screening.h"
 #include "core/physics/simulate.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -16,7 +17,7 @@ namespace {
 
 Diagnosis diagnosed(const proof::Case& one, const TaskContext& context = {}) {
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  auto result = diagnose(*machine, one.recordings, {}, context);
+  auto result = diagnosed_and_simulated(*machine, one.recordings, {}, context);
   EXPECT_TRUE(result.has_value());
   return result ? *result : Diagnosis{};
 }
@@ -140,7 +141,7 @@ TEST(Diagnosis, CanBeCancelled) {
   stop.request_stop();
   TaskContext context;
   context.stop = stop.get_token();
-  const auto result = diagnose(*machine, one.recordings, {}, context);
+  const auto result = diagnosed_and_simulated(*machine, one.recordings, {}, context);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().code, ErrorCode::cancelled);
 }

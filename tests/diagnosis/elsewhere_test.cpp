@@ -12,6 +12,7 @@
 #include "core/diagnosis/refined.h"
 #include "core/diagnosis/selection.h"
 #include "core/physics/machine.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -195,7 +196,7 @@ TEST(Elsewhere, WhatOneRunHidesInTheExpansionTheOtherShows) {
   alone.fit({20, 0.05, true});
   EXPECT_LT(excess_of(alone).largest, least_evident);
   EXPECT_EQ(moved_elsewhere(alone, {dataset_of(bodies, one.recordings[1])}), "dZ_um");
-  const auto both = diagnose(*machine, one.recordings, {false});
+  const auto both = diagnosed_and_simulated(*machine, one.recordings, {false});
   ASSERT_TRUE(both);
   EXPECT_EQ(both->verdict, Verdict::unexplained);
   ASSERT_FALSE(both->mismatch.channels.empty());

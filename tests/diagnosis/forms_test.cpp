@@ -15,6 +15,7 @@
 #include "core/diagnosis/screening.h"
 #include "core/physics/builder.h"
 #include "core/physics/prediction.h"
+#include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -126,7 +127,8 @@ physics::Machine with_oil_and_preload() {
 TEST(Forms, AHeatStandsElsewhereBesideOneBearingThanBesideBoth) {
   const auto runs = runs_of(1);
   for (const std::size_t count : {1u, 2u}) {
-    const auto d = diagnose(spindle(), {runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(count)}, {false});
+    const auto d =
+        diagnosed_and_simulated(spindle(), {runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(count)}, {false});
     ASSERT_TRUE(d);
     EXPECT_EQ(d->forms, forms_hidden);
     const auto heat = std::find_if(d->effects.begin(), d->effects.end(),
@@ -138,7 +140,7 @@ TEST(Forms, AHeatStandsElsewhereBesideOneBearingThanBesideBoth) {
 
 /// Beside the front bearing alone a room sensor that is off by 2 K was a little better than the heat.
 TEST(Forms, BesideAWrongFormAnotherFamilyIsNotNamed) {
-  const auto d = diagnose(spindle(), runs_of(9), {false});
+  const auto d = diagnosed_and_simulated(spindle(), runs_of(9), {false});
   ASSERT_TRUE(d);
   EXPECT_EQ(d->forms, forms_hidden);
 }
@@ -147,7 +149,7 @@ TEST(Forms, BesideAWrongFormAnotherFamilyIsNotNamed) {
 /// from there - or nothing at all was.
 TEST(Forms, TwoThatHideEachOtherAreFoundTogether) {
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
-    const auto d = diagnose(spindle(), runs_of(seed, with_oil_and_preload()), {false});
+    const auto d = diagnosed_and_simulated(spindle(), runs_of(seed, with_oil_and_preload()), {false});
     ASSERT_TRUE(d);
     EXPECT_EQ(d->tried, (std::vector<std::string>{"bearing_preload", "bearing_viscosity"})) << seed;
     EXPECT_EQ(d->verdict, Verdict::missing_effect) << seed;
@@ -171,7 +173,7 @@ TEST(Forms, ANeighbourTouchesARodWhereItDoes) {
                           false,
                           {{"conductance_W_K", 1.5}, {"position_mm", touched_mm}},
                           {{"component", "spindle"}, {"neighbour", "gearbox"}}});
-  const auto d = diagnose(with_gearbox(spindle()), runs_of(5, real), {false});
+  const auto d = diagnosed_and_simulated(with_gearbox(spindle()), runs_of(5, real), {false});
   ASSERT_TRUE(d) << describe(d.error());
   ASSERT_EQ(d->tried, std::vector<std::string>{"neighbour_heat"});
   EXPECT_EQ(d->verdict, Verdict::missing_effect);
@@ -183,7 +185,7 @@ TEST(Forms, ARodsLengthMayFollowLate) {
   physics::Machine real = real_spindle();
   real.effects.erase(real.effects.begin() + 1, real.effects.end());
   real.effects.push_back({"structure_lag", false, {{"lag_s", 400.0}}, {{"channel", "dZ_um"}}});
-  const auto d = diagnose(spindle(), runs_of(6, real), {false});
+  const auto d = diagnosed_and_simulated(spindle(), runs_of(6, real), {false});
   ASSERT_TRUE(d) << describe(d.error());
   ASSERT_EQ(d->tried, std::vector<std::string>{"structure_lag"});
   EXPECT_EQ(d->verdict, Verdict::missing_effect);
@@ -198,7 +200,7 @@ TEST(Forms, AMotorMayHaveABodyOfItsOwn) {
                           false,
                           {{"heat_capacity_J_K", 2500.0}, {"contact_W_K", 7.0}},
                           {{"component", real.components.front().id}, {"source", "motor"}}});
-  const auto d = diagnose(spindle(), runs_of(8, real), {false});
+  const auto d = diagnosed_and_simulated(spindle(), runs_of(8, real), {false});
   ASSERT_TRUE(d) << describe(d.error());
   ASSERT_EQ(d->tried, std::vector<std::string>{"heater_body"});
   EXPECT_EQ(d->verdict, Verdict::missing_effect);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/diagnosis/diagnosis.h"
+#include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -73,7 +74,7 @@ Diagnosis of_part(const recording::Recording& run) {
     "room": {"channel": "room_C"}})"),
                                                   "part.json");
   EXPECT_TRUE(machine.has_value());
-  auto result = diagnose(*machine, {run}, {false});
+  auto result = diagnosed_and_simulated(*machine, {run}, {false});
   EXPECT_TRUE(result.has_value());
   return result ? *result : Diagnosis{};
 }
@@ -142,7 +143,7 @@ TEST(Lumps, WhatIsMissingIsToldInWatts) {
     "room": {"channel": "room_C"}})"),
                                                   "tank.json");
   ASSERT_TRUE(machine.has_value());
-  const auto d = diagnose(*machine, {run}, {false});
+  const auto d = diagnosed_and_simulated(*machine, {run}, {false});
   ASSERT_TRUE(d.has_value());
   EXPECT_EQ(d->verdict, Verdict::unexplained);
   ASSERT_FALSE(d->mismatch.channels.empty());
@@ -189,7 +190,7 @@ TEST(Lumps, AFrameThatGrowsLateBesideABedThatLiftsTheNose) {
     "room": {"sigma_C": 2.0, "per_recording": true}})"),
                                                   "gantry.json");
   ASSERT_TRUE(machine.has_value());
-  const auto d = diagnose(*machine, {run}, {false});
+  const auto d = diagnosed_and_simulated(*machine, {run}, {false});
   ASSERT_TRUE(d.has_value());
   std::set<std::string> ids;
   for (const auto& effect : d->effects) {

@@ -7,6 +7,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/machine.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -14,7 +15,7 @@ namespace {
 
 Diagnosis answer_of(const proof::Case& one) {
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  const auto d = diagnose(*machine, one.recordings, {false});
+  const auto d = diagnosed_and_simulated(*machine, one.recordings, {false});
   EXPECT_TRUE(d);
   return d ? *d : Diagnosis{};
 }

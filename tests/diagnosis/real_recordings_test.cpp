@@ -8,6 +8,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/recording/csv.h"
+#include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -22,7 +23,7 @@ Diagnosis diagnosed(const std::string& set, const std::vector<std::string>& file
   const auto machine = physics::read_machine(data_folder() / set / "machine.json");
   std::vector<recording::Recording> recordings;
   for (const auto& file : files) recordings.push_back(*recording::read_recording(data_folder() / set / file));
-  auto result = diagnose(*machine, recordings, {false});
+  auto result = diagnosed_and_simulated(*machine, recordings, {false});
   EXPECT_TRUE(result.has_value());
   return result ? *result : Diagnosis{};
 }
@@ -67,7 +68,7 @@ TEST(RealRecordings, AluminiumRodSaysWhatItCannotTellAndWhichRunWould) {
   NEEDS("aluminium-rod");
   const auto machine = physics::read_machine(data_folder() / "aluminium-rod" / "machine.json");
   const auto run = recording::read_recording(data_folder() / "aluminium-rod" / "rod_6_7.csv");
-  const auto d = diagnose(*machine, {*run});
+  const auto d = diagnosed_and_simulated(*machine, {*run});
   ASSERT_TRUE(d.has_value()) << describe(d.error());
   EXPECT_TRUE(std::any_of(d->sentences.begin(), d->sentences.end(), [](const Sentence& said) {
     return said.english.find("cannot tell whether there is radiation") != std::string::npos;
@@ -95,7 +96,7 @@ TEST(RealRecordings, GantryLosesHeatAndFollowsBedAndFrame) {
   const auto machine = physics::read_machine(data_folder() / "gantry-drift" / "machine.json");
   const auto heating = part_of(*run, 0.0, 10000.0), cooling = part_of(*run, 10000.0, 1e9);
   for (const auto& recordings : {std::vector{*run}, std::vector{heating, cooling}}) {
-    const auto d = diagnose(*machine, recordings, {false});
+    const auto d = diagnosed_and_simulated(*machine, recordings, {false});
     ASSERT_TRUE(d.has_value()) << describe(d.error());
     EXPECT_EQ(d->verdict, Verdict::missing_effect);
     EXPECT_EQ(d->tried, (std::vector<std::string>{"convection", "structure_driver", "structure_lag"}));
@@ -135,7 +136,7 @@ TEST(RealRecordings, SpindlePartsAreNamedAlikeBesideAnotherRecording) {
   const auto run = recording::read_recording(data_folder() / "spindle-drift" / "spindle_drift.csv");
   const auto machine = physics::read_machine(data_folder() / "spindle-drift" / "machine.json");
   const auto first = part_of(*run, -1.0, 24 * 3600.0), last = part_of(*run, 24 * 3600.0, 1e9);
-  const auto d = diagnose(*machine, {first, last}, {false});
+  const auto d = diagnosed_and_simulated(*machine, {first, last}, {false});
   ASSERT_TRUE(d.has_value()) << describe(d.error());
   std::set<std::string> cooled, felt;
   for (const auto& effect : d->effects) {

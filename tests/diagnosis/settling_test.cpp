@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/machine.h"
+#include "tests/diagnosis/simulated.h"
 #include "tests/proof/case_generator.h"
 
 namespace zerodrift::diagnosis {
@@ -13,7 +14,7 @@ namespace {
 
 Diagnosis diagnosed(const proof::Case& one) {
   const auto machine = physics::machine_from_json(one.machine, one.name);
-  auto d = diagnose(*machine, one.recordings, {false});
+  auto d = diagnosed_and_simulated(*machine, one.recordings, {false});
   EXPECT_TRUE(d.has_value());
   return d ? std::move(*d) : Diagnosis{};
 }

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "tests/diagnosis/answered.h"
+#include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -102,7 +103,7 @@ recording::Recording run_of(double before_s) {
 /// The nut ends between two faces of the cells. With a centre of its heat half a millimetre off, a sound screw had a
 /// joint at 0.99.
 TEST(SlenderRod, ASteepSourceThatEndsBetweenFacesIsNoJoint) {
-  const auto answer = diagnose(described(), {run_of(0.0)});
+  const auto answer = diagnosed_and_simulated(described(), {run_of(0.0)});
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   EXPECT_EQ(answer->verdict, Verdict::consistent);
 }
@@ -111,7 +112,7 @@ TEST(SlenderRod, ASteepSourceThatEndsBetweenFacesIsNoJoint) {
 TEST(SlenderRod, WhatRanBeforeIsMadeOfTheSourcesThatRan) {
   const recording::Recording run = run_of(9000.0);
   EXPECT_GT(run.find("T3_C")->values.front(), hall_C + 40.0);
-  const auto answer = diagnose(described(), {run});
+  const auto answer = diagnosed_and_simulated(described(), {run});
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
   EXPECT_EQ(answer->verdict, Verdict::consistent);
   EXPECT_TRUE(notes(*answer, "warm_start:screw"));

@@ -8,6 +8,7 @@
 #include "core/diagnosis/dataset.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/builder.h"
+#include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -117,7 +118,7 @@ TEST(Timing, AStatedTimingCounts) {
 TEST(Timing, SwitchingBetweenSamplesIsNoMissingPhysics) {
   int unexplained = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    const auto answer = diagnose(bar(), {logged_each_minute(seed)}, {false});
+    const auto answer = diagnosed_and_simulated(bar(), {logged_each_minute(seed)}, {false});
     ASSERT_TRUE(answer.has_value()) << describe(answer.error());
     EXPECT_NE(answer->verdict, Verdict::missing_effect) << seed;
     if (answer->verdict == Verdict::unexplained) ++unexplained;
