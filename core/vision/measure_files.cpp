@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/file.h"
 #include "core/recording/csv.h"
+#include "core/recording/import/text_table.h"
 #include "core/vision/error_view.h"
+#include "core/vision/file_order.h"
 #include "core/vision/image_codec.h"
 #include "core/vision/one_direction.h"
 #include "core/vision/region_finder.h"
@@ -74,7 +77,9 @@ Result<std::vector<fs::path>> pictures_in(const fs::path& folder, std::vector<st
   if (problem) {
     return fail(ErrorCode::file_unreadable, {{"file", folder.string()}, {"detail", problem.message()}});
   }
-  std::sort(out.begin(), out.end(), [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
+  std::sort(out.begin(), out.end(), [](const fs::path& a, const fs::path& b) {
+    return is_before_by_number(a.filename().string(), b.filename().string());
+  });
   if (out.empty()) {
     return fail(ErrorCode::wrong_format,
                 {{"file", folder.string()}, {"found", "a folder without pictures"}, {"expected", folder_of_pictures}});
@@ -197,34 +202,100 @@ std::optional<Target> other_pattern(const Target& target) {
   return other ? std::optional(std::move(*other)) : std::nullopt;
 }
 
-Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::string>* warnings) {
-  ZD_TRY(const recording::TextTable table, recording::read_table(file));
-  std::array<int, 3> columns{};
-  const std::array<const char*, 3> names{"image", "x_mm", "y_mm"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    columns[k] = table.column(names[k]);
-    if (columns[k] >= 0) continue;
-    return fail(ErrorCode::csv_bad_header, {{"file", file.string()},
-                                            {"column", std::to_string(k + 1)},
-                                            {"found", k < table.header.size() ? shortened(table.header[k]) : ""},
-                                            {"expected", "image,x_mm,y_mm"}});
+namespace {
+
+constexpr std::array<const char*, 3> view_columns{"image", "x_mm", "y_mm"};
+
+/// views.csv as cells, and where its columns are.
+struct ViewTable {
+  recording::Cells cells;
+  std::size_t header = 0;
+  std::array<std::size_t, 3> columns{};
+  recording::NumberFormat numbers;
+};
+
+/// Columns of image, x_mm and y_mm in a row; the first that is missing, else 3.
+std::size_t find_view_columns(const recording::Cells& cells, std::size_t row, std::array<std::size_t, 3>& columns) {
+  for (std::size_t k = 0; k < view_columns.size(); ++k) {
+    columns[k] = 0;
+    while (columns[k] < cells.columns(row) && cells.at(row, columns[k]) != view_columns[k]) ++columns[k];
+    if (columns[k] == cells.columns(row)) return k;
   }
+  return view_columns.size();
+}
+
+Result<ViewTable> read_view_table(const fs::path& file) {
+  ZD_TRY(const std::string bytes, read_file(file));
+  std::optional<Error> unnamed;
+  for (const char* separator : {"", ";", "tab", ","}) {
+    recording::TableOptions form;
+    form.separator = separator;
+    ZD_TRY(recording::SourceCells source, recording::parse_cells(bytes, file.string(), form));
+    ViewTable table;
+    while (table.header < source.cells.rows() &&
+           (source.cells.is_blank(table.header) || source.cells.is_comment(table.header))) {
+      ++table.header;
+    }
+    if (table.header == source.cells.rows()) return fail(ErrorCode::csv_empty, {{"file", file.string()}});
+    const std::size_t missing = find_view_columns(source.cells, table.header, table.columns);
+    if (missing == view_columns.size()) {
+      table.cells = std::move(source.cells);
+      return table;
+    }
+    if (unnamed) continue;
+    unnamed = Error{ErrorCode::csv_bad_header,
+                    {{"file", file.string()},
+                     {"column", std::to_string(missing + 1)},
+                     {"found", shortened(std::string(source.cells.at(table.header, missing)))},
+                     {"expected", "image,x_mm,y_mm"}}};
+  }
+  return fail(*unnamed);
+}
+
+/// Decimal point or comma: as all positions of the file say together.
+Result<recording::NumberFormat> numbers_of(const ViewTable& table, const fs::path& file) {
+  recording::NumberEvidence evidence;
+  for (std::size_t row = table.header + 1; row < table.cells.rows(); ++row) {
+    for (std::size_t k = 1; k < view_columns.size(); ++k) {
+      const std::string_view cell = table.cells.at(row, table.columns[k]);
+      evidence.add(cell, [&] {
+        return recording::NumberEvidence::Place{std::string(cell), table.cells.line(row), view_columns[k]};
+      });
+    }
+  }
+  return evidence.decide(file.string());
+}
+
+}  // namespace
+
+Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::string>* warnings) {
+  ZD_TRY(ViewTable table, read_view_table(file));
+  ZD_TRY(table.numbers, numbers_of(table, file));
+  const std::size_t width = table.cells.columns(table.header);
   std::vector<ViewRow> out;
   std::optional<Error> first_fault;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+  for (std::size_t row = table.header + 1; row < table.cells.rows(); ++row) {
+    if (table.cells.is_blank(row) || table.cells.is_comment(row)) continue;
+    const int line = table.cells.line(row);
+    if (table.cells.columns(row) != width) {
+      return fail(ErrorCode::csv_cell_count, {{"file", file.string()},
+                                              {"line", std::to_string(line)},
+                                              {"found", std::to_string(table.cells.columns(row))},
+                                              {"expected", std::to_string(width)}});
+    }
     ViewRow view;
-    view.name = table.rows[row][static_cast<std::size_t>(columns[0])];
+    view.name = table.cells.at(row, table.columns[0]);
     bool good = true;
     for (std::size_t k = 1; k < 3 && good; ++k) {
-      const Result<double> value = recording::number_in(table, row, columns[k]);
+      const std::string_view cell = table.cells.at(row, table.columns[k]);
+      const std::optional<double> value = table.numbers.number(cell);
       good = value && std::abs(*value) <= farthest_mm;
       if (good) {
         (k == 1 ? view.x_mm : view.y_mm) = *value;
         continue;
       }
-      const std::string& cell = table.rows[row][static_cast<std::size_t>(columns[k])];
-      const std::string found = cell.empty() ? "an empty cell" : shortened(cell);
-      const std::string place = fmt::format("{}, line {}, {}", file.string(), table.lines[row], names[k]);
+      const std::string found = cell.empty() ? "an empty cell" : shortened(std::string(cell));
+      const std::string place = fmt::format("{}, line {}, {}", file.string(), line, view_columns[k]);
       warn(warnings, fmt::format("{}: \"{}\" is no position in mm; {} was left out", place, found, view.name));
       if (!first_fault) {
         first_fault = Error{ErrorCode::bad_argument,
@@ -238,7 +309,7 @@ Result<std::vector<ViewRow>> read_views(const fs::path& file, std::vector<std::s
     const auto before =
         std::find_if(out.begin(), out.end(), [&](const ViewRow& one) { return one.image == view.image; });
     if (before != out.end()) {
-      const std::string place = fmt::format("{}, line {}", file.string(), table.lines[row]);
+      const std::string place = fmt::format("{}, line {}", file.string(), line);
       if (before->x_mm != view.x_mm || before->y_mm != view.y_mm) {
         return fail(ErrorCode::bad_argument,
                     {{"what", place},

@@ -11,6 +11,7 @@
 
 #include "core/base/file.h"
 #include "core/vision/error_view.h"
+#include "core/vision/file_order.h"
 #include "core/vision/image_codec.h"
 #include "core/vision/one_direction.h"
 #include "core/vision/region_finder.h"
@@ -256,6 +257,32 @@ TEST_F(MeasureFiles, MostViewsWithoutTheTargetAreNoCalibration) {
   EXPECT_EQ(result.error().code, ErrorCode::calibration_refused);
   EXPECT_NE(result.error().context.at("reason").find("found in 3 of 9 views"), std::string::npos);
   EXPECT_EQ(warnings.size(), 6u);
+}
+
+// A spreadsheet of another country: ";" and decimal commas; the same positions.
+TEST_F(MeasureFiles, ViewsWithDecimalCommas) {
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image;x_mm;y_mm\na.png;0,012;-0,007\nb.png;1,5;0,06\n"));
+  const auto views = read_views(m_folder / "views.csv");
+  ASSERT_TRUE(views) << describe(views.error());
+  ASSERT_EQ(views->size(), 2U);
+  EXPECT_DOUBLE_EQ((*views)[0].x_mm, 0.012);
+  EXPECT_DOUBLE_EQ((*views)[0].y_mm, -0.007);
+  EXPECT_DOUBLE_EQ((*views)[1].x_mm, 1.5);
+  // Nothing says whether the comma is a decimal mark; and both marks in one file.
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image;x_mm;y_mm\na.png;1,234;2,345\nb.png;1,500;2,000\n"));
+  EXPECT_FALSE(read_views(m_folder / "views.csv"));
+  ASSERT_TRUE(write_file(m_folder / "views.csv", "image;x_mm;y_mm\na.png;1,5;2\nb.png;2.5;3\n"));
+  EXPECT_FALSE(read_views(m_folder / "views.csv"));
+}
+
+TEST(FileOrder, NumbersAreComparedAsNumbers) {
+  std::vector<std::string> names = {"image_10.png", "image_2.png",    "image_1.png",   "b_1.png",
+                                    "image_02.png", "image_2_10.png", "image_2_9.png", "image.png"};
+  std::sort(names.begin(), names.end(), [](const auto& a, const auto& b) { return is_before_by_number(a, b); });
+  EXPECT_EQ(names, (std::vector<std::string>{"b_1.png", "image.png", "image_1.png", "image_2.png", "image_02.png",
+                                             "image_2_9.png", "image_2_10.png", "image_10.png"}));
+  EXPECT_FALSE(is_before_by_number("a1", "a1"));
+  EXPECT_TRUE(is_before_by_number("f_99999999999999999999", "f_100000000000000000000"));
 }
 
 TEST_F(MeasureFiles, ViewsFileFaultsAreNamed) {
