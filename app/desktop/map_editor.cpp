@@ -229,7 +229,7 @@ void MapEditor::remove(int row) {
 
 Status MapEditor::import(const QString& path) {
   std::vector<std::string> warnings;
-  ZD_TRY(RegisterMap map, controller::read_register_list(path.toStdString(), &warnings));
+  ZD_TRY(RegisterMap map, controller::read_register_list(path.toStdString(), -1, &warnings));
   for (const auto& warning : warnings) m_bench.log(LogKind::warning, coreText(warning));
   m_draft = std::move(map);
   m_changed = true;

@@ -69,12 +69,13 @@ struct RegisterMap {
 
 Result<RegisterMap> register_map_from_json(const nlohmann::json& document, const std::string& file,
                                            std::vector<std::string>* warnings = nullptr);
-/// From a list with the columns name, address and, as needed, function, type, count, scale, sign, missing, word_order,
-/// byte_order; numbers from 0, or Modicon's 40001 and 30001. Elements "temperature_C[1]" in a row make one array.
-Result<RegisterMap> register_map_from_csv(std::string_view text, const std::string& file,
-                                          std::vector<std::string>* warnings = nullptr);
+/// From a list of registers (register_list.h); `base`: what the first one is called where addresses are plain numbers,
+/// -1 for as the list says, else 0.
+Result<RegisterMap> register_map_from_list(std::string_view bytes, const std::string& file, int base = -1,
+                                           std::vector<std::string>* warnings = nullptr);
 /// A map in either form, told from its content.
-Result<RegisterMap> read_register_list(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
+Result<RegisterMap> read_register_list(const std::filesystem::path& path, int base = -1,
+                                       std::vector<std::string>* warnings = nullptr);
 nlohmann::json to_json(const Register& entry);
 /// With base 0; reads back as the same map.
 nlohmann::json to_json(const RegisterMap& map);

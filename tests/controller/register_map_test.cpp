@@ -84,38 +84,6 @@ TEST(RegisterMap, FaultsNameFileAndKey) {
   EXPECT_EQ(map.error().context.at("key"), "registers.a.address");
 }
 
-TEST(RegisterMap, FromAListOfAPlc) {
-  std::vector<std::string> warnings;
-  const auto map = register_map_from_csv(
-      "Name;Address;Data type;Factor;Function;Word order\n"
-      "temperature_C[1];40011;INT;0,1;;\n",
-      "plc.csv", &warnings);
-  ASSERT_FALSE(map);  // a decimal comma is no number by the contract, and the line is named
-  EXPECT_EQ(map.error().context.at("line"), "2");
-  const auto good = register_map_from_csv(
-      "Name;Address;Data type;Factor;Function;Word order\n"
-      "temperature_C[1];40011;INT;0.1;;\ntemperature_C[2];40012;INT;0.1;;\n"
-      "compensation_state;0x28;BOOL;;3;\nhost_offset_um;40051;REAL;;;CDAB\nspindle_rpm;30005;REAL;;;\nM12;7;WORD;;;\n",
-      "plc.csv", &warnings);
-  ASSERT_TRUE(good) << describe(good.error());
-  EXPECT_EQ(good->name, "plc");
-  const Register& t = good->registers.at("temperature_C");
-  EXPECT_EQ(t.address, 10);
-  EXPECT_EQ(t.count, 2);
-  EXPECT_EQ(t.type, RegisterType::int16);
-  EXPECT_DOUBLE_EQ(t.scale, 0.1);
-  EXPECT_EQ(good->registers.at("compensation_state").address, 40);
-  EXPECT_FALSE(good->registers.at("host_offset_um").high_word_first);
-  EXPECT_EQ(good->registers.at("spindle_rpm").space, RegisterSpace::input);
-  EXPECT_EQ(good->registers.at("spindle_rpm").address, 4);
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings.front().find("M12"), std::string::npos);
-  for (const char* bad : {"name,address\na,-1\n", "name,address\na,1\na,2\n", "name,address,type\na,1,string\n",
-                          "tag\na\n", "name,address\ntemperature_C[1],1\ntemperature_C[2],5\n"}) {
-    EXPECT_FALSE(register_map_from_csv(bad, "plc.csv")) << bad;
-  }
-}
-
 TEST(RegisterMap, WrittenAndReadBack) {
   for (const char* name : {"zerodrift-virtual", "linuxcnc-gateway"}) {
     const auto map = load_register_map(name);

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (size == 0) return 0;
   if (bytes[0] % 2 == 0) {
     const std::string_view text(reinterpret_cast<const char*>(bytes) + 1, size - 1);
-    const auto map = controller::register_map_from_csv(text, "fuzz");
+    const auto map = controller::register_map_from_list(text, "fuzz");
     if (map && !controller::register_map_from_json(controller::to_json(*map), "fuzz, written")) std::abort();
     return 0;
   }

@@ -138,6 +138,10 @@ void add_machine_check(Cli& cli) {
   chosen->make
       ->add_option("--list", chosen->map.list, "CSV with name, address and, as needed, function, type, count, ...")
       ->required();
+  for (CLI::App* command : {chosen->make, chosen->list}) {
+    command->add_option("--base", chosen->map.base, "What a list with plain addresses calls the first register")
+        ->check(CLI::IsMember({0, 1}));
+  }
   chosen->make->add_option("--name", chosen->map.name, "Name of the map; default: of the file");
   chosen->make->add_option("--out", chosen->map.out, "Register map to write")->required();
   machine->require_subcommand(1);

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 Result<CommandOutput> make_map(const MapOptions& options) {
   CommandOutput output;
-  ZD_TRY(RegisterMap map, controller::read_register_list(options.list, &output.warnings));
+  ZD_TRY(RegisterMap map, controller::read_register_list(options.list, options.base, &output.warnings));
   if (!options.name.empty()) map.name = options.name;
   ZD_CHECK(write_json_file(options.out, controller::to_json(map)));
   output.text = fmt::format("{}: {} registers\n", map.name, map.registers.size());
@@ -37,7 +37,7 @@ Result<CommandOutput> list_registers(const MapOptions& options) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
   ZD_TRY(const RegisterMap map, options.list.empty() ? controller::map_of(profile, &output.warnings)
-                                                     : controller::read_register_list(options.list, &output.warnings));
+                                                     : controller::read_register_list(options.list, options.base, &output.warnings));
   controller::ControllerSettings settings = profile.controller;
   if (map.unit) settings.unit = *map.unit;
   controller::Link link(settings);

@@ -10,6 +10,7 @@ struct MapOptions {
   std::string name;
   std::string out;
   std::string profile;
+  int base = -1;  // of plain addresses in a list: 0 or 1; -1: as the list says, else 0
 };
 
 /// A map file from a list of registers, and what it is good for.
