@@ -22,12 +22,17 @@ struct ColumnQuestion {
   Q_DECLARE_TR_FUNCTIONS(ColumnQuestion)
 };
 
+// In the order of the dialog's lists.
 constexpr std::array<double, 3> position_units_mm = {1.0, 1e-3, 25.4};
-constexpr std::array<double, 3> error_units_um = {1.0, 1000.0, 25400.0};
+constexpr std::array<double, 6> error_units_um = {1.0, 1000.0, 25400.0, 0.0254, 25.4, 2.54};
 
-int unit_of(const std::array<double, 3>& units, double value) {
-  const auto at = std::find(units.begin(), units.end(), value);
-  return at == units.end() ? 0 : static_cast<int>(at - units.begin());
+/// -1: none of the list, then the guess stays.
+template <std::size_t N>
+int unit_of(const std::array<double, N>& units, double value) {
+  constexpr double rounding = 1e-9;
+  const auto at = std::find_if(units.begin(), units.end(),
+                               [&](double unit) { return std::abs(value - unit) < rounding * unit; });
+  return at == units.end() ? -1 : static_cast<int>(at - units.begin());
 }
 
 QString settings_key(const LaserPreview& preview) {
@@ -51,8 +56,10 @@ LaserMapping mapping_of(const ui::ColumnChoice& choice, const LaserMapping& gues
   for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
     mapping.columns[i] = static_cast<LaserColumn>(choice.roles.value(static_cast<int>(i)));
   }
-  mapping.mm_per_position = position_units_mm.at(static_cast<std::size_t>(choice.positionUnit));
-  mapping.um_per_error = error_units_um.at(static_cast<std::size_t>(choice.errorUnit));
+  if (choice.positionUnit >= 0) {
+    mapping.mm_per_position = position_units_mm.at(static_cast<std::size_t>(choice.positionUnit));
+  }
+  if (choice.errorUnit >= 0) mapping.um_per_error = error_units_um.at(static_cast<std::size_t>(choice.errorUnit));
   mapping.negated = choice.negated;
   mapping.direction_from_order = choice.order;
   return mapping;

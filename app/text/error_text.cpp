@@ -45,6 +45,9 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors",
                           "Correct it; if the sample is missing, leave the cell empty or add the word to \"missing\" "
                           "in a header map (--map).")},
+    Row{ErrorCode::column_unclear,
+        QT_TRANSLATE_NOOP("errors", "{file}, line {line}, column {column}: found {found}; expected {expected}."),
+        QT_TRANSLATE_NOOP("errors", "Correct it there, or say with a column map (--map) what the column holds.")},
     Row{ErrorCode::csv_time_order,
         QT_TRANSLATE_NOOP("errors", "{file}, line {line}: the time \"{found}\" does not come after the line before."),
         QT_TRANSLATE_NOOP(

@@ -1,49 +1,20 @@
 #include "core/compensation/laser.h"
 
 #include <fmt/format.h>
-#include <iconv.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
 
 #include "core/base/file.h"
 #include "core/compensation/laser_parts.h"
+#include "core/recording/import/cells.h"
+#include "core/recording/import/text_decoding.h"
 
 namespace zerodrift::compensation {
 namespace {
 
 constexpr double same_target_mm = 1e-6;
-
-bool is_utf8(std::string_view bytes) {
-  for (std::size_t i = 0; i < bytes.size();) {
-    const auto lead = static_cast<unsigned char>(bytes[i]);
-    const std::size_t more = lead < 0x80 ? 0 : lead >> 5 == 6 ? 1 : lead >> 4 == 14 ? 2 : lead >> 3 == 30 ? 3 : 9;
-    if (more == 9 || i + more >= bytes.size() + (more == 0 ? 1 : 0)) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((static_cast<unsigned char>(bytes[i + k]) & 0xC0) != 0x80) return false;
-    }
-    i += more + 1;
-  }
-  return true;
-}
-
-std::string converted(std::string_view bytes, const char* encoding) {
-  const iconv_t converter = ::iconv_open("UTF-8//IGNORE", encoding);
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): the error value that POSIX gives it
-  if (converter == reinterpret_cast<iconv_t>(-1)) return std::string(bytes);
-  std::string input(bytes);
-  std::string out(bytes.size() * 3 + 16, '\0');
-  char* from = input.data();
-  std::size_t from_left = input.size();
-  char* to = out.data();
-  std::size_t to_left = out.size();
-  ::iconv(converter, &from, &from_left, &to, &to_left);
-  ::iconv_close(converter);
-  out.resize(out.size() - to_left);
-  return out;
-}
 
 bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
@@ -56,31 +27,23 @@ bool LaserReport::bidirectional() const {
                      [](const LaserReading& one) { return one.approach == Approach::down; });
 }
 
-std::string to_utf8(std::string_view bytes) {
-  if (bytes.starts_with("\xEF\xBB\xBF")) return std::string(bytes.substr(3));
-  if (bytes.starts_with("\xFF\xFE")) return converted(bytes.substr(2), "UTF-16LE");
-  if (bytes.starts_with("\xFE\xFF")) return converted(bytes.substr(2), "UTF-16BE");
-  return is_utf8(bytes) ? std::string(bytes) : converted(bytes, "GB18030");  // the superset of GBK
-}
-
 Result<LaserReport> parse_laser(std::string_view bytes, const std::string& file, const LaserOptions& options) {
-  const std::string text = to_utf8(bytes);
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (options.mapping) return laser_parts::parse_mapped(text, file, *options.mapping, options);
+  const std::string extension = laser_parts::lowered(std::filesystem::path(file).extension().string());
+  if (options.mapping) return laser_parts::parse_mapped(bytes, file, *options.mapping, options);
+  if (extension == ".rta" || extension == ".rtr") {
+    return fail(ErrorCode::wrong_format, {{"file", file},
+                                          {"found", "a report of a rotary axis"},
+                                          {"expected", "one of a linear axis; rotary axes are not compensated"}});
+  }
+  if (bytes.starts_with("PK")) return laser_parts::parse_tables(bytes, file, options);
+  ZD_TRY(const auto decoded, recording::decode_text(bytes, file));
+  const std::string& text = decoded.text;
   if (has(text, "DEVIATIONS::") || extension == ".rtl") return laser_parts::parse_rtl(text, file, options);
+  // Of a file whose columns the user names no other form is told by its look.
+  if (options.map) return laser_parts::parse_tables(bytes, file, options);
   if (has(text, "Compensation start") || extension == ".ren") return laser_parts::parse_ren(text, file, options);
   if (has(text, "Bidirectional Avg Error") || extension == ".pos") return laser_parts::parse_pos(text, file, options);
-  auto report = laser_parts::parse_csv(text, file, options);
-  if (report || !options.columns.empty()) return report;
-  // Another maker's table, whose names leave no doubt what the columns are.
-  const bool other_form =
-      report.error().code == ErrorCode::csv_bad_header || report.error().code == ErrorCode::csv_cell_count;
-  if (!other_form) return report;
-  const auto preview = preview_laser(bytes, file);
-  if (!preview || !preview->certain) return report;
-  return laser_parts::parse_mapped(text, file, preview->guess, options);
+  return laser_parts::parse_tables(bytes, file, options);
 }
 
 Result<LaserReport> read_laser(const std::filesystem::path& path, const LaserOptions& options) {
@@ -116,30 +79,25 @@ std::vector<Line> lines_of(std::string_view text) {
   std::vector<Line> lines;
   int number = 0;
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-    const auto first = line.find_first_not_of(" \t\r\f\v");
-    const auto last = line.find_last_not_of(" \t\r\f\v");
-    line = first == std::string_view::npos ? std::string_view{} : line.substr(first, last - first + 1);
-    lines.push_back({++number, line});
+    const std::size_t end = text.find_first_of("\r\n");
+    const std::string_view line = text.substr(0, end);
+    const bool both = end != std::string_view::npos && text.substr(end).starts_with("\r\n");
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + (both ? 2 : 1));
+    lines.push_back({++number, recording::trimmed(line)});
   }
   return lines;
 }
 
-std::vector<std::string> words_of(std::string_view line) {
-  std::vector<std::string> words;
-  std::string word;
-  for (const char c : line) {
-    if (c != ' ' && c != '\t' && c != ';' && c != ',') {
-      word += c;
-    } else if (!word.empty()) {
-      words.push_back(std::move(word));
-      word.clear();
-    }
-  }
-  if (!word.empty()) words.push_back(std::move(word));
-  return words;
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return c < 0x80 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c); });
+  return text;
+}
+
+std::optional<int> run_number(double value) {
+  constexpr double most_runs = 1e6;  // a number beyond names no run
+  if (value < 0.0 || value > most_runs || value != std::floor(value)) return {};
+  return static_cast<int>(value);
 }
 
 std::optional<double> number_from(std::string_view word) {

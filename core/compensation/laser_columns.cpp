@@ -8,77 +8,25 @@
 #include <sstream>
 
 #include "core/compensation/laser_parts.h"
+#include "core/compensation/laser_table.h"
+#include "core/recording/import/number_format.h"
+#include "core/recording/import/text_table.h"
 
 namespace zerodrift::compensation {
 namespace {
 
-using laser_parts::cells_of_line;
-using laser_parts::lowered;
-using laser_parts::number_in_cell;
+using laser_parts::ColumnName;
+using laser_parts::ColumnRole;
+using laser_parts::LaserBlock;
+using laser_parts::UnitKind;
 
 constexpr std::array<std::string_view, 10> column_names = {"ignored",    "position", "error",       "error_up",
                                                            "error_down", "measured", "measured_up", "measured_down",
                                                            "direction",  "run"};
-constexpr std::size_t lines_looked_at = 400;
 constexpr std::size_t rows_shown = 12;
 
-bool holds(std::string_view text, std::initializer_list<std::string_view> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::string_view part) { return text.find(part) != std::string_view::npos; });
-}
-
-/// The table of numbers in a file: how its cells are parted, and where it begins.
-struct Body {
-  char separator = ',';
-  bool decimal_comma = false;
-  std::size_t first = 0;  // index into the lines
-  std::size_t columns = 0;
-  std::size_t rows = 0;
-};
-
-std::size_t numbers_in(const std::vector<std::string>& cells, bool decimal_comma) {
-  return static_cast<std::size_t>(std::count_if(
-      cells.begin(), cells.end(), [&](const auto& cell) { return number_in_cell(cell, decimal_comma).has_value(); }));
-}
-
-/// The longest stretch of lines with the same number of cells, two of them numbers at least.
-Body longest_body(const std::vector<laser_parts::Line>& lines, char separator, bool decimal_comma) {
-  Body best;
-  Body now;
-  const auto close = [&] {
-    if (now.rows > best.rows) best = now;
-    now = {};
-  };
-  for (std::size_t i = 0; i < std::min(lines.size(), lines_looked_at); ++i) {
-    if (lines[i].text.empty()) continue;
-    const auto cells = cells_of_line(lines[i].text, separator);
-    const bool row = cells.size() >= 2 && numbers_in(cells, decimal_comma) >= 2;
-    if (row && now.rows > 0 && cells.size() != now.columns) close();
-    if (!row) {
-      close();
-      continue;
-    }
-    if (now.rows == 0) now = {separator, decimal_comma, i, cells.size(), 0};
-    ++now.rows;
-  }
-  close();
-  return best;
-}
-
-Body body_of(const std::vector<laser_parts::Line>& lines) {
-  Body best;
-  for (const char separator : {'\t', ';', ',', '|', ' '}) {
-    for (const bool decimal_comma : {false, true}) {
-      if (separator == ',' && decimal_comma) continue;
-      const Body one = longest_body(lines, separator, decimal_comma);
-      if (one.rows > best.rows) best = one;
-    }
-  }
-  return best;
-}
-
 struct Column {
-  std::string name;  // lower case
+  ColumnName name;
   std::vector<double> values;
   bool numeric() const { return values.size() >= 2; }
   double range() const {
@@ -98,24 +46,22 @@ struct Column {
   }
 };
 
-LaserColumn role_by_name(const std::string& name) {
-  if (name.empty()) return LaserColumn::ignored;
-  if (holds(name, {"direction", "approach", "richtung", "方向"})) return LaserColumn::direction;
-  if (name == "run" || holds(name, {"cycle", "zyklus", "测量次数", "循环"})) return LaserColumn::run;
-  const bool down =
-      holds(name, {"down", "reverse", "rev", "bwd", "backward", "negative", "rückw", "反向", "负向", "↓", "-)"});
-  const bool up = !down && holds(name, {"up", "forward", "fwd", "positive", "vorw", "正向", "↑", "+)"});
-  if (holds(name, {"error", "deviation", "err", "dev", "abweich", "fehler", "误差", "偏差", "combined"})) {
-    return down ? LaserColumn::error_down : up ? LaserColumn::error_up : LaserColumn::error;
+LaserColumn role_by_name(const ColumnName& name) {
+  const bool up = name.approach == Approach::up;
+  switch (name.role) {
+    case ColumnRole::target:
+      return LaserColumn::position;
+    case ColumnRole::measured:
+      return !name.approach ? LaserColumn::measured : up ? LaserColumn::measured_up : LaserColumn::measured_down;
+    case ColumnRole::error:
+      return !name.approach ? LaserColumn::error : up ? LaserColumn::error_up : LaserColumn::error_down;
+    case ColumnRole::direction:
+      return LaserColumn::direction;
+    case ColumnRole::run:
+      return LaserColumn::run;
+    default:
+      return LaserColumn::ignored;
   }
-  if (holds(name, {"measured", "actual", "reference", "istwert", "ist-", "reading", "laser", "实际", "测量"})) {
-    return down ? LaserColumn::measured_down : up ? LaserColumn::measured_up : LaserColumn::measured;
-  }
-  if (holds(name, {"position", "target", "nominal", "command", "soll", "pos", "目标", "位置", "指令"})) {
-    return LaserColumn::position;
-  }
-  if (down) return LaserColumn::error_down;
-  return up ? LaserColumn::error_up : LaserColumn::ignored;
 }
 
 /// Where the names say nothing: the first column that is no row number is the position, the next one the value.
@@ -147,17 +93,16 @@ void guess_by_numbers(const std::vector<Column>& columns, LaserMapping& mapping)
   mapping.columns[value] = follows ? LaserColumn::measured : LaserColumn::error;
 }
 
+/// A proposal for the user, who settles it: nothing is read with it unseen.
 void guess_units(const std::vector<Column>& columns, LaserMapping& mapping) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string& name = columns[i].name;
-    const bool micro = holds(name, {"um", "µm", "μm", "micro", "微米"});
-    const bool inch = holds(name, {"inch", "(in)", "[in]"});
-    const bool milli = !micro && holds(name, {"mm", "milli", "毫米"});
-    if (mapping.columns[i] == LaserColumn::position) mapping.mm_per_position = inch ? 25.4 : micro ? 1e-3 : 1.0;
+    const auto& unit = columns[i].name.unit;
+    const bool length = unit && unit->kind == UnitKind::length;
+    if (mapping.columns[i] == LaserColumn::position && length) mapping.mm_per_position = unit->mm;
     if (!is_error(mapping.columns[i])) continue;
     // Without a word: no laser report has errors below half a micrometre throughout, nor above half a millimetre.
     const bool small = columns[i].largest() < 0.5;
-    mapping.um_per_error = micro ? 1.0 : inch ? 25400.0 : milli || small ? 1000.0 : 1.0;
+    mapping.um_per_error = length ? 1000.0 * unit->mm : small ? 1000.0 : 1.0;
   }
 }
 
@@ -185,11 +130,27 @@ bool turns_back(const std::vector<Column>& columns, const LaserMapping& mapping)
   return rising > 0 && falling > 1 && 3 * falling > rising;
 }
 
-std::string encoding_of(std::string_view bytes) {
-  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) return "UTF-16";
-  const std::string text = to_utf8(bytes);
-  const std::string_view plain = bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
-  return text == plain ? "UTF-8" : "GBK";
+char separator_named(const std::string& name) {
+  return name == "tab" ? '\t' : name == "blanks" || name.empty() ? ' ' : name.front();
+}
+
+/// As the window shows it.
+std::string short_encoding(const std::string& name) {
+  if (name.starts_with("UTF-16")) return "UTF-16";
+  if (name.starts_with("UTF-8")) return "UTF-8";
+  return name == "GB18030" ? "GBK" : name;
+}
+
+/// The decimal mark that most of the table's cells have; what contradicts it shows when it is read.
+recording::NumberFormat numbers_in(const LaserBlock& block, const recording::Cells& cells) {
+  recording::NumberEvidence evidence;
+  for (const std::size_t row : block.rows) {
+    for (std::size_t k = 0; k < block.width; ++k) {
+      evidence.add(cells.at(row, k), [&] { return recording::NumberEvidence::Place{}; });
+    }
+  }
+  const auto format = evidence.decide({});
+  return format ? *format : recording::NumberFormat{};
 }
 
 }  // namespace
@@ -199,38 +160,34 @@ std::string_view name_of(LaserColumn column) {
 }
 
 Result<LaserPreview> preview_laser(std::string_view bytes, const std::string& file) {
-  const std::string text = to_utf8(bytes);
-  const auto lines = laser_parts::lines_of(text);
-  const Body body = body_of(lines);
-  if (body.rows < 2) {
+  ZD_TRY(const recording::SourceCells source, recording::parse_cells(bytes, file));
+  ZD_TRY(const std::vector<LaserBlock> blocks, laser_parts::blocks_of(source.cells, file));
+  const auto longest = std::max_element(blocks.begin(), blocks.end(),
+                                        [](const auto& a, const auto& b) { return a.rows.size() < b.rows.size(); });
+  const std::size_t found = longest == blocks.end() ? 0 : longest->rows.size();
+  if (found < 2) {
     return fail(ErrorCode::not_enough_data,
-                {{"what", "rows of numbers in " + file}, {"found", std::to_string(body.rows)}, {"needed", "2"}});
+                {{"what", "rows of numbers in " + file}, {"found", std::to_string(found)}, {"needed", "2"}});
   }
+  const LaserBlock& block = *longest;
+  const recording::NumberFormat numbers = numbers_in(block, source.cells);
   LaserPreview preview;
-  preview.encoding = encoding_of(bytes);
-  preview.names.resize(body.columns);
-  if (body.first > 0) {
-    std::size_t above = body.first;
-    while (above > 0 && lines[above - 1].text.empty()) --above;
-    const auto names = above == 0 ? std::vector<std::string>{} : cells_of_line(lines[above - 1].text, body.separator);
-    if (names.size() == body.columns) preview.names = names;
+  preview.encoding = short_encoding(source.form.encoding);
+  std::vector<Column> columns(block.width);
+  for (std::size_t k = 0; k < block.width; ++k) {
+    if (!block.columns.empty()) columns[k].name = block.columns[k];
+    preview.names.push_back(columns[k].name.text);
   }
-  std::vector<Column> columns(body.columns);
-  for (std::size_t i = 0; i < body.columns; ++i) columns[i].name = lowered(preview.names[i]);
-  std::size_t taken = 0;
-  for (std::size_t i = body.first; i < lines.size() && taken < body.rows; ++i) {
-    if (lines[i].text.empty()) continue;
-    ++taken;
-    const auto cells = cells_of_line(lines[i].text, body.separator);
-    if (preview.rows.size() < rows_shown) preview.rows.push_back(cells);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      if (const auto value = number_in_cell(cells[k], body.decimal_comma)) columns[k].values.push_back(*value);
+  for (const std::size_t row : block.rows) {
+    if (preview.rows.size() < rows_shown) preview.rows.push_back(source.cells.row(row));
+    for (std::size_t k = 0; k < block.width; ++k) {
+      if (const auto value = numbers.number(source.cells.at(row, k))) columns[k].values.push_back(*value);
     }
   }
   LaserMapping& mapping = preview.guess;
-  mapping.separator = body.separator;
-  mapping.decimal_comma = body.decimal_comma;
-  mapping.first_line = lines[body.first].number;
+  mapping.separator = separator_named(source.form.separator);
+  mapping.decimal_comma = numbers.decimal == ',';
+  mapping.first_line = source.cells.line(block.rows.front());
   bool position = false;
   bool value = false;
   for (const Column& column : columns) {

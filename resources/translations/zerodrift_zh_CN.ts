@@ -2806,12 +2806,12 @@
         <translation>有缺失</translation>
     </message>
     <message>
-        <source>looks like degrees Fahrenheit and was converted</source>
-        <translation>疑似华氏温度，已换算</translation>
+        <source>may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>可能为华氏度，但已按摄氏度处理：请在列映射中给出单位</translation>
     </message>
     <message>
-        <source>looks like kelvin and was converted</source>
-        <translation>疑似开尔文温度，已换算</translation>
+        <source>may be in kelvin but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>可能为开尔文，但已按摄氏度处理：请在列映射中给出单位</translation>
     </message>
     <message>
         <source>has values no machine tool reaches</source>
@@ -3130,20 +3130,20 @@
         <translation>%1 有缺失（%2）</translation>
     </message>
     <message>
-        <source>%1 looks like degrees Fahrenheit and was converted</source>
-        <translation>%1 疑似华氏温度，已换算</translation>
+        <source>%1 may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>%1 可能为华氏度，但已按摄氏度处理：请在列映射中给出单位</translation>
     </message>
     <message>
-        <source>%1 looks like degrees Fahrenheit and was converted (%2)</source>
-        <translation>%1 疑似华氏温度，已换算（%2）</translation>
+        <source>%1 may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map (%2)</source>
+        <translation>%1 可能为华氏度，但已按摄氏度处理：请在列映射中给出单位（%2）</translation>
     </message>
     <message>
-        <source>%1 looks like kelvin and was converted</source>
-        <translation>%1 疑似开尔文温度，已换算</translation>
+        <source>%1 may be in kelvin but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>%1 可能为开尔文，但已按摄氏度处理：请在列映射中给出单位</translation>
     </message>
     <message>
-        <source>%1 looks like kelvin and was converted (%2)</source>
-        <translation>%1 疑似开尔文温度，已换算（%2）</translation>
+        <source>%1 may be in kelvin but was taken as degrees Celsius: give its unit in the column map (%2)</source>
+        <translation>%1 可能为开尔文，但已按摄氏度处理：请在列映射中给出单位（%2）</translation>
     </message>
     <message>
         <source>%1 has values no machine tool reaches</source>
@@ -4414,12 +4414,12 @@
         <translation>记录 {recording}：{@what}。</translation>
     </message>
     <message>
-        <source>Recording {recording}: the temperatures look like degrees Fahrenheit and were converted.</source>
-        <translation>记录 {recording}：温度似为华氏度，已换算。</translation>
+        <source>Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; give their unit in the column map.</source>
+        <translation>记录 {recording}：温度可能为华氏度，但已按摄氏度处理；请在列映射中给出单位。</translation>
     </message>
     <message>
-        <source>Recording {recording}: the temperatures look like kelvin and were converted.</source>
-        <translation>记录 {recording}：温度似为开尔文，已换算。</translation>
+        <source>Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit in the column map.</source>
+        <translation>记录 {recording}：温度可能为开尔文，但已按摄氏度处理；请在列映射中给出单位。</translation>
     </message>
     <message>
         <source>may not be in seconds: no machine tool warms so fast</source>
@@ -4704,6 +4704,364 @@
     <message>
         <source>damaged XML</source>
         <translation>损坏的 XML</translation>
+        <source>a report of a rotary axis</source>
+        <translation>旋转轴报告</translation>
+    </message>
+    <message>
+        <source>one of a linear axis; rotary axes are not compensated</source>
+        <translation>直线轴报告；不补偿旋转轴</translation>
+    </message>
+    <message>
+        <source>of a rotary axis (column %1 is in %2)</source>
+        <translation>旋转轴的文件（列 %1 的单位为 %2）</translation>
+    </message>
+    <message>
+        <source>positions of a linear axis; rotary axes are not compensated</source>
+        <translation>直线轴的位置；不补偿旋转轴</translation>
+    </message>
+    <message>
+        <source>a report of another kind (%1)</source>
+        <translation>其他类型的报告（%1）</translation>
+    </message>
+    <message>
+        <source>a unit of length: mm, um, in, uin, mil</source>
+        <translation>长度单位：mm、um、in、uin、mil</translation>
+    </message>
+    <message>
+        <source>says whether a row counts</source>
+        <translation>说明该行是否有效</translation>
+    </message>
+    <message>
+        <source>not used: in %1</source>
+        <translation>未使用：单位为 %1</translation>
+    </message>
+    <message>
+        <source>not used: no reading</source>
+        <translation>未使用：不是读数</translation>
+    </message>
+    <message>
+        <source>not used: empty</source>
+        <translation>未使用：空列</translation>
+    </message>
+    <message>
+        <source>not used: words</source>
+        <translation>未使用：文字</translation>
+    </message>
+    <message>
+        <source>not used: a mean of other columns</source>
+        <translation>未使用：其他列的平均值</translation>
+    </message>
+    <message>
+        <source>not used: a compensation beside the readings</source>
+        <translation>未使用：读数旁的补偿值</translation>
+    </message>
+    <message>
+        <source>not used: means of both directions</source>
+        <translation>未使用：双向平均值</translation>
+    </message>
+    <message>
+        <source>not used: no positions with errors</source>
+        <translation>未使用：没有带误差的位置</translation>
+    </message>
+    <message>
+        <source>not used: the same as %1</source>
+        <translation>未使用：与 %1 相同</translation>
+    </message>
+    <message>
+        <source>the same reading as %1, compared with it</source>
+        <translation>与 %1 为同一读数，已相互核对</translation>
+    </message>
+    <message>
+        <source>a second column like %1</source>
+        <translation>与 %1 同类的第二列</translation>
+    </message>
+    <message>
+        <source>one of them</source>
+        <translation>其中之一</translation>
+    </message>
+    <message>
+        <source>numbers of unknown meaning</source>
+        <translation>含义不明的数字</translation>
+    </message>
+    <message>
+        <source>words of unknown meaning</source>
+        <translation>含义不明的文字</translation>
+    </message>
+    <message>
+        <source>a name that says what it holds</source>
+        <translation>能说明内容的列名</translation>
+    </message>
+    <message>
+        <source>no unit of length</source>
+        <translation>没有长度单位</translation>
+    </message>
+    <message>
+        <source>no unit</source>
+        <translation>没有单位</translation>
+    </message>
+    <message>
+        <source>the unit %1</source>
+        <translation>单位 %1</translation>
+    </message>
+    <message>
+        <source>one column of targets</source>
+        <translation>只有一列目标位置</translation>
+    </message>
+    <message>
+        <source>%1 beside %2 in %3</source>
+        <translation>%1，而 %3 中为 %2</translation>
+    </message>
+    <message>
+        <source>compensation values, whose sign makers do not agree on</source>
+        <translation>补偿值，各厂家的符号约定不一致</translation>
+    </message>
+    <message>
+        <source>errors, or a column map that makes them errors (scale -1)</source>
+        <translation>误差，或用列映射换算为误差（scale -1）</translation>
+    </message>
+    <message>
+        <source>no column of readings beside it</source>
+        <translation>旁边没有读数列</translation>
+    </message>
+    <message>
+        <source>a direction beside the column %1</source>
+        <translation>列 %1 之外又给出方向</translation>
+    </message>
+    <message>
+        <source>run %1 beside readings of other runs</source>
+        <translation>第 %1 次测量与其他次数的读数并列</translation>
+    </message>
+    <message>
+        <source>one way to say the run</source>
+        <translation>只用一种方式说明测量次数</translation>
+    </message>
+    <message>
+        <source>no direction</source>
+        <translation>没有方向</translation>
+    </message>
+    <message>
+        <source>a name that says the direction of its runs, as others have</source>
+        <translation>像其他列那样说明测量方向的列名</translation>
+    </message>
+    <message>
+        <source>no names above the numbers</source>
+        <translation>数字上方没有列名</translation>
+    </message>
+    <message>
+        <source>a header that names positions and errors with their units</source>
+        <translation>带单位的位置和误差的表头</translation>
+    </message>
+    <message>
+        <source>the channel of the column %1</source>
+        <translation>列 %1 的通道</translation>
+    </message>
+    <message>
+        <source>position_mm, error_um, measured_mm, direction, run or axis</source>
+        <translation>position_mm、error_um、measured_mm、direction、run 或 axis</translation>
+    </message>
+    <message>
+        <source>the unit of the column %1</source>
+        <translation>列 %1 的单位</translation>
+    </message>
+    <message>
+        <source>table at line %1</source>
+        <translation>第 %1 行处的表</translation>
+    </message>
+    <message>
+        <source>another table, with no direction above it</source>
+        <translation>另一个表，其上方没有说明方向</translation>
+    </message>
+    <message>
+        <source>a line above each table that says its direction</source>
+        <translation>每个表上方有一行说明方向</translation>
+    </message>
+    <message>
+        <source>position in %1</source>
+        <translation>位置，单位 %1</translation>
+    </message>
+    <message>
+        <source>measured position in %1</source>
+        <translation>实测位置，单位 %1</translation>
+    </message>
+    <message>
+        <source>error in %1</source>
+        <translation>误差，单位 %1</translation>
+    </message>
+    <message>
+        <source>%1, upwards</source>
+        <translation>%1，正向</translation>
+    </message>
+    <message>
+        <source>%1, downwards</source>
+        <translation>%1，负向</translation>
+    </message>
+    <message>
+        <source>%1, run %2</source>
+        <translation>%1，第 %2 次</translation>
+    </message>
+    <message>
+        <source>%1: the order of the rows tells the direction</source>
+        <translation>%1：由行的顺序得出方向</translation>
+    </message>
+    <message>
+        <source>%1: means of both directions; the file says nothing of backlash</source>
+        <translation>%1：双向平均值；文件未给出反向间隙</translation>
+    </message>
+    <message>
+        <source>%1: column %2: %3</source>
+        <translation>%1：列 %2：%3</translation>
+    </message>
+    <message>
+        <source>a word for the direction: up or down, + or -, forward or reverse</source>
+        <translation>表示方向的词：up 或 down、+ 或 -、forward 或 reverse</translation>
+    </message>
+    <message>
+        <source>the same in every row, or a file without the rows that do not count</source>
+        <translation>每行相同，或不含无效行的文件</translation>
+    </message>
+    <message>
+        <source>the direction that stands above the table</source>
+        <translation>表上方给出的方向</translation>
+    </message>
+    <message>
+        <source>%1 um where %2 says %3 um: the sign is turned</source>
+        <translation>%1 um，而 %2 为 %3 um：符号相反</translation>
+    </message>
+    <message>
+        <source>%1 um where %2 says %3 um</source>
+        <translation>%1 um，而 %2 为 %3 um</translation>
+    </message>
+    <message>
+        <source>the same reading (error = actual - target)</source>
+        <translation>同一读数（误差 = 实际 - 目标）</translation>
+    </message>
+    <message>
+        <source>%1, while the positions go the other way</source>
+        <translation>%1，而位置朝相反方向变化</translation>
+    </message>
+    <message>
+        <source>directions along the positions as they were driven</source>
+        <translation>与实际移动顺序一致的方向</translation>
+    </message>
+    <message>
+        <source>%1, which may mean either end</source>
+        <translation>%1，可能指任一端</translation>
+    </message>
+    <message>
+        <source>positions in the order they were driven, or forward and reverse</source>
+        <translation>按移动顺序排列的位置，或 forward 和 reverse</translation>
+    </message>
+    <message>
+        <source>none, and positions in no order of a drive</source>
+        <translation>没有方向，且位置没有移动顺序</translation>
+    </message>
+    <message>
+        <source>a column that says the direction of each reading</source>
+        <translation>说明每个读数方向的列</translation>
+    </message>
+    <message>
+        <source>one unit for each column</source>
+        <translation>每列一个单位</translation>
+    </message>
+    <message>
+        <source>a table of forward, backward or bidirectional errors</source>
+        <translation>正向、反向或双向误差的表</translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3 readings; was the file cut?</source>
+        <translation>%1：%3 个读数中只有 %2 个；文件是否不完整？</translation>
+    </message>
+    <message>
+        <source>a line Units: um or Units: mm above the table</source>
+        <translation>表上方有一行 Units: um 或 Units: mm</translation>
+    </message>
+    <message>
+        <source>an API report in mm</source>
+        <translation>以 mm 为单位的 API 报告</translation>
+    </message>
+    <message>
+        <source>%1: errors in mm, means of several runs; confirm the sign on one point</source>
+        <translation>%1：误差以 mm 为单位，为多次测量的平均值；请用一个点确认符号</translation>
+    </message>
+    <message>
+        <source>a column of a known name (scale, type, count, sign ...), or none</source>
+        <translation>已知名称的列（scale、type、count、sign 等），或没有该列</translation>
+    </message>
+    <message>
+        <source>numbers of one kind (line %1 has %2)</source>
+        <translation>同一种编号（第 %1 行为 %2）</translation>
+    </message>
+    <message>
+        <source>%1: plain addresses are counted from 0; many lists count from 1: check one value that you know, or say --base 1</source>
+        <translation>%1：普通地址按从 0 开始计数；许多列表从 1 开始：请核对一个已知的数值，或指定 --base 1</translation>
+    </message>
+    <message>
+        <source>a register: 10, 40011, 400011, 4x00011 or %MW10</source>
+        <translation>一个寄存器：10、40011、400011、4x00011 或 %MW10</translation>
+    </message>
+    <message>
+        <source>an address of 1 or more</source>
+        <translation>不小于 1 的地址</translation>
+    </message>
+    <message>
+        <source>a number of the function in its row (%1)</source>
+        <translation>与该行功能（%1）一致的编号</translation>
+    </message>
+    <message>
+        <source>one column of a scale</source>
+        <translation>只有一列比例系数</translation>
+    </message>
+    <message>
+        <source>0: a register map has a scale and a sign, and no offset</source>
+        <translation>0：寄存器映射只有比例和符号，没有偏移</translation>
+    </message>
+    <message>
+        <source>%1, as the name says</source>
+        <translation>%1，与名称一致</translation>
+    </message>
+    <message>
+        <source>a number in the brackets, for example temperature_C[3]</source>
+        <translation>方括号中的数字，例如 temperature_C[3]</translation>
+    </message>
+    <message>
+        <source>%1[1] or %2[0] as the first element</source>
+        <translation>第一个元素为 %1[1] 或 %2[0]</translation>
+    </message>
+    <message>
+        <source>each element once, none left out</source>
+        <translation>每个元素一次，不缺少</translation>
+    </message>
+    <message>
+        <source>%1 behind element %2: an array&apos;s elements follow each other (from 0: %3)</source>
+        <translation>%1 紧接元素 %2：数组元素依次相连（从 0 计：%3）</translation>
+    </message>
+    <message>
+        <source>type, scale and the like as those of the first element</source>
+        <translation>类型、比例等与第一个元素相同</translation>
+    </message>
+    <message>
+        <source>one for each element</source>
+        <translation>每个元素各一个</translation>
+    </message>
+    <message>
+        <source>one unit number for the whole list</source>
+        <translation>整个列表只有一个单元号</translation>
+    </message>
+    <message>
+        <source>File type:</source>
+        <translation>文件类型：</translation>
+    </message>
+    <message>
+        <source>Axis position</source>
+        <translation>轴位置</translation>
+    </message>
+    <message>
+        <source>a sign or a factor in its name</source>
+        <translation>列名中含符号或系数</translation>
+    </message>
+    <message>
+        <source>actual - target in a unit; say other ones with a column map</source>
+        <translation>实际 - 目标，并带单位；其他情况请用列映射说明</translation>
     </message>
     <message>
         <source>%1, scale %2</source>
@@ -5551,6 +5909,12 @@
     <message>
         <source>Open the workbook in a spreadsheet program, save it, and import it again.</source>
         <translation>请用电子表格程序打开并保存该工作簿，然后重新导入。</translation>
+        <source>{file}, line {line}, column {column}: found {found}; expected {expected}.</source>
+        <translation>{file}，第 {line} 行，列 {column}：发现 {found}；应为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Correct it there, or say with a column map (--map) what the column holds.</source>
+        <translation>请在该处更正，或用列映射（--map）说明该列的内容。</translation>
     </message>
     <message>
         <source>Correct it; if the sample is missing, leave the cell empty or add the word to &quot;missing&quot; in a header map (--map).</source>
@@ -7758,6 +8122,18 @@
     <message>
         <source>Use these columns</source>
         <translation>使用这些列</translation>
+    </message>
+    <message>
+        <source>microinch</source>
+        <translation>微英寸</translation>
+    </message>
+    <message>
+        <source>mil (0.001 inch)</source>
+        <translation>密耳（0.001 英寸）</translation>
+    </message>
+    <message>
+        <source>0.0001 inch</source>
+        <translation>0.0001 英寸</translation>
     </message>
 </context>
 <context>

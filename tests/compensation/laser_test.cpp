@@ -107,7 +107,7 @@ TEST(Laser, FaultsNameTheLine) {
   EXPECT_TRUE(parse_laser("Pos,Err\n0,1\n1,1\n", "a.csv", mapped));
 }
 
-// A number that names no run: refused where the form names its columns, else the runs are counted.
+// A number that names no run is refused, whoever said which column holds the runs.
 TEST(Laser, ARunBeyondAnyCountIsNone) {
   const std::string head = "target_mm,direction,run,measured_mm\n0,up,1,0.001\n10,up,";
   EXPECT_TRUE(parse_laser(head + "1,10.002\n", "a.csv"));
@@ -121,10 +121,9 @@ TEST(Laser, ARunBeyondAnyCountIsNone) {
   options.mapping = LaserMapping{};
   options.mapping->separator = ' ';
   options.mapping->columns = {LaserColumn::position, LaserColumn::run, LaserColumn::error};
-  const auto counted = parse_laser("0 1e300 1\n10 nan 2\n10 1e300 4\n", "a.dat", options);
-  ASSERT_TRUE(counted) << describe(counted.error());
-  ASSERT_EQ(counted->readings.size(), 3U);
-  EXPECT_EQ(counted->readings[2].run, 2);
+  const auto settled = parse_laser("0 1 1\n10 1e300 2\n", "a.dat", options);
+  ASSERT_FALSE(settled);
+  EXPECT_EQ(settled.error().context.at("found"), "1e300");
   std::string vendor = rtl_of("VMC", false);
   const auto at = vendor.find("Run Target Data");
   ASSERT_NE(at, std::string::npos);
@@ -155,19 +154,83 @@ TEST(Laser, EncodingsSeen) {
   EXPECT_TRUE(parse_laser(utf16, "a.csv"));
 }
 
-TEST(Laser, RenAndPos) {
-  const auto ren = parse_laser(
-      "Compensation start: 0\nCompensation end: 200\nCompensation spacing: 100\nNo.\tAxis "
-      "position\tCombined\n1\t0.0\t0\n"
-      "2\t100.0\t-2\n3\t200.0\t-5\n",
-      "a.REN");
+TEST(Laser, RenHoldsCompensationsInAUnitThatItSays) {
+  const std::string rows =
+      "Compensation start: 0\nCompensation end: 200\nCompensation spacing: 100\nNo.\tAxis position\tCombined\n"
+      "1\t0.0\t0\n2\t100.0\t-2\n3\t200.0\t-5\n";
+  const auto ren = parse_laser("Units: um\n" + rows, "a.REN");
   ASSERT_TRUE(ren) << describe(ren.error());
   EXPECT_DOUBLE_EQ(points_of(*ren)[2].error_up_um, 5.0);
   EXPECT_FALSE(ren->warnings.empty());
-  const auto pos = parse_laser("Position\tBidirectional Avg Error\n0\t0.0\n50\t-0.0025\n", "a.pos");
-  ASSERT_TRUE(pos) << describe(pos.error());
-  EXPECT_DOUBLE_EQ(points_of(*pos)[1].error_up_um, 2.5);
-  EXPECT_FALSE(pos->warnings.empty());
+  const auto in_mm = parse_laser("Units: mm\n" + rows, "a.REN");
+  ASSERT_TRUE(in_mm) << describe(in_mm.error());
+  EXPECT_DOUBLE_EQ(points_of(*in_mm)[2].error_up_um, 5000.0);
+  const auto unsaid = parse_laser(rows, "a.REN");
+  ASSERT_FALSE(unsaid);
+  EXPECT_EQ(unsaid.error().context.at("column"), "Combined");
+}
+
+std::string pos_of(const std::string& names) {
+  std::string out = "HEADER::\nFile type: Positioning\n\nTARGET DATA::\nTargets :\n0.0 50.0\nFlags: 0\n";
+  for (const char name : names) {
+    const std::string title = name == 'B'   ? "Bidirectional"
+                              : name == 'F' ? "Forward Directional"
+                                            : "Backward Directional";
+    const std::string second = name == 'B' ? "0.0025" : name == 'F' ? "0.0045" : "0.0005";
+    out += "\nPosition   \t" + title + " Avg Error\n0.0000\t0.001000\n50.0000\t" + second + "\n";
+  }
+  return out + "ENVIRONMENT::\nAir temp   : 20.1 20.2 0\n";
+}
+
+// An API report has means: of each direction, and of both.
+TEST(Laser, PosHasATableForEachDirection) {
+  for (const char* tables : {"BFR", "FR", "RFB"}) {
+    const auto pos = parse_laser(pos_of(tables), "a.pos");
+    ASSERT_TRUE(pos) << describe(pos.error());
+    EXPECT_EQ(pos->readings.size(), 4U) << tables;
+    EXPECT_DOUBLE_EQ(points_of(*pos)[1].error_up_um, 4.5);
+    EXPECT_DOUBLE_EQ(points_of(*pos)[1].error_down_um, 0.5);
+    EXPECT_FALSE(pos->warnings.empty());
+  }
+  const auto both = parse_laser(pos_of("B"), "a.pos");
+  ASSERT_TRUE(both) << describe(both.error());
+  EXPECT_DOUBLE_EQ(points_of(*both)[1].error_up_um, 2.5);
+  std::string comma = pos_of("BFR");
+  std::replace(comma.begin(), comma.end(), '.', ',');
+  const auto german = parse_laser(comma, "a.pos");
+  ASSERT_TRUE(german) << describe(german.error());
+  EXPECT_DOUBLE_EQ(points_of(*german)[1].error_down_um, 0.5);
+  EXPECT_FALSE(parse_laser("Position\tSideways Avg Error\n0\t0\n50\t1\n", "a.pos"));
+  EXPECT_FALSE(parse_laser("Units: inch\n" + pos_of("B"), "a.pos"));
+  const auto um = parse_laser("Position (mm)\tForward Directional Avg Error (um)\n0\t1\n50\t2.5\n", "a.pos");
+  ASSERT_TRUE(um) << describe(um.error());
+  EXPECT_DOUBLE_EQ(points_of(*um)[1].error_up_um, 2.5);
+  EXPECT_FALSE(parse_laser("Position (mm)\tForward Directional Avg Error (digits)\n0\t1\n50\t2.5\n", "a.pos"));
+}
+
+// Re-saved on a computer with decimal commas; cut; of another kind.
+TEST(Laser, RtlWithDecimalCommasAndCutOnes) {
+  std::string comma = rtl_of("VMC", true);
+  for (std::size_t i = comma.find("Targets :"); i < comma.size(); ++i) {
+    if (comma[i] == '.' && comma[i + 1] >= '0' && comma[i + 1] <= '9') comma[i] = ',';
+  }
+  const auto report = parse_laser(comma, "a.rtl");
+  ASSERT_TRUE(report) << describe(report.error());
+  ASSERT_EQ(report->targets_mm.size(), 7U);
+  EXPECT_DOUBLE_EQ(report->targets_mm[6], 600.0);
+  EXPECT_DOUBLE_EQ(points_of(*report)[2].error_up_um, 2.5);
+  EXPECT_DOUBLE_EQ(points_of(*report)[6].error_down_um, 5.6);
+  const auto without = [](const std::string& part) {
+    std::string text = rtl_of("VMC", false);
+    const auto at = text.find(part);
+    return text.erase(at, part.size());
+  };
+  EXPECT_EQ(parse_laser(without(" 400.000000"), "a.rtl").error().code, ErrorCode::csv_bad_number);
+  EXPECT_TRUE(parse_laser(rtl_of("VMC", false), "a.rtl")->warnings.empty());
+  EXPECT_FALSE(parse_laser(without("2 1 0.700\n"), "a.rtl")->warnings.empty());
+  std::string rotary = rtl_of("VMC", false);
+  rotary.replace(rotary.find("Linear"), 6, "Rotary");
+  EXPECT_EQ(parse_laser(rotary, "a.rtl").error().code, ErrorCode::wrong_format);
 }
 
 // Tables of other makers: the names or the numbers tell what the columns are; the wide form has a column a direction.
@@ -200,14 +263,14 @@ TEST(LaserColumns, AreGuessedFromNamesUnitsAndNumbers) {
 }
 
 TEST(LaserColumns, WideFormAndOrderGiveDirections) {
-  const auto wide = parse_laser("Position,Forward error,Reverse error\n0,1,3\n10,2,4\n", "a.csv");
+  const auto wide = parse_laser("Position (mm),Forward error (um),Reverse error (um)\n0,1,3\n10,2,4\n", "a.csv");
   ASSERT_TRUE(wide) << describe(wide.error());
   EXPECT_TRUE(wide->bidirectional());
   EXPECT_DOUBLE_EQ(points_of(*wide)[1].error_up_um, 2.0);
   EXPECT_DOUBLE_EQ(points_of(*wide)[1].error_down_um, 4.0);
-  EXPECT_EQ(wide->warnings.size(), 1U);
+  EXPECT_EQ(wide->columns.size(), 3U);
   // There and back, twice: the turning point stands twice.
-  std::string order = "Position Error_um\n";
+  std::string order = "Position_mm Error_um\n";
   for (int cycle = 0; cycle < 2; ++cycle) order += "0 1\n10 2\n20 3\n20 6\n10 5\n0 4\n";
   const auto both = parse_laser(order, "a.txt");
   ASSERT_TRUE(both) << describe(both.error());

@@ -60,7 +60,7 @@ ColumnDialog::ColumnDialog(const QStringList& names, const QVector<QStringList>&
   m_positionUnit->setCurrentIndex(choice.positionUnit);
   m_errorUnit = new QComboBox(this);
   m_errorUnit->setObjectName("errorUnit");
-  m_errorUnit->addItems({tr("µm"), tr("mm"), tr("inch")});
+  m_errorUnit->addItems({tr("µm"), tr("mm"), tr("inch"), tr("microinch"), tr("mil (0.001 inch)"), tr("0.0001 inch")});
   m_errorUnit->setCurrentIndex(choice.errorUnit);
   m_negated = new QCheckBox(tr("The file holds compensations (turn the sign)"), this);
   m_negated->setObjectName("negated");

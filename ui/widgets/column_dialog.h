@@ -17,8 +17,8 @@ namespace zerodrift::ui {
 
 struct ColumnChoice {
   QVector<int> roles{};  // of each column, an index into ColumnDialog::roleNames()
-  int positionUnit = 0;  // mm, µm, inch
-  int errorUnit = 0;     // µm, mm, inch
+  int positionUnit = 0;  // mm, µm, inch; -1: another
+  int errorUnit = 0;     // µm, mm, inch, microinch, mil, 0.0001 inch; -1: another
   bool negated = false;
   bool order = false;  // the order of the rows tells the approach
 

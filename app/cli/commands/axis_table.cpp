@@ -25,6 +25,7 @@ struct TableOptions {
   std::string criterion = "errors";
   SegmentationOptions segmentation;
   std::vector<std::string> columns;
+  std::string map;
   bool negate = false;
   std::size_t max_points = 20000;
   std::string out;
@@ -94,6 +95,13 @@ std::string axis_of(const TableOptions& options, const std::string& told, std::v
   return "X";
 }
 
+/// What became of each column of the file.
+json columns_of(const compensation::LaserReport& report) {
+  json list = json::array();
+  for (const auto& [column, fate] : report.columns) list.push_back({{"column", column}, {"fate", fate}});
+  return list;
+}
+
 Result<CommandOutput> make_table(const TableOptions& options) {
   CommandOutput output;
   compensation::LaserOptions how;
@@ -101,8 +109,11 @@ Result<CommandOutput> make_table(const TableOptions& options) {
   how.max_points = options.max_points;
   how.axis = options.axis;
   ZD_TRY(how.columns, columns_from(options.columns));
+  if (!options.map.empty()) {
+    ZD_TRY(how.map, recording::read_header_map(options.map, &output.warnings));
+  }
   ZD_TRY(const auto report, compensation::read_laser(options.laser, how));
-  output.warnings = report.warnings;
+  output.warnings.insert(output.warnings.end(), report.warnings.begin(), report.warnings.end());
   const auto points = compensation::points_of(report);
   std::vector<double> x;
   std::vector<double> e;
@@ -129,7 +140,8 @@ Result<CommandOutput> make_table(const TableOptions& options) {
   if (options.segmentation.criterion == Criterion::coordinates) output.warnings.push_back(segmentation.notes.front());
   output.json = {{"table", to_json(table)},        {"statistics", to_json(figures)},
                  {"criterion", options.criterion}, {"largest_residual_um", segmentation.largest_residual_um},
-                 {"notes", segmentation.notes},    {"comparison", comparison}};
+                 {"notes", segmentation.notes},    {"comparison", comparison},
+                 {"columns", columns_of(report)}};
   return output;
 }
 
@@ -211,7 +223,7 @@ void add_axis_table(Cli& cli) {
                                                                                 : Criterion::errors;
         return make_table(*options);
       });
-  command->add_option("--laser", options->laser, "Laser report: CSV, .rtl, .REN, .pos")->required();
+  command->add_option("--laser", options->laser, "Laser report: a table (CSV, XLSX ...), .rtl, .REN, .pos")->required();
   command->add_option("--criterion", options->criterion, "When a segment is good: r of errors, of coordinates, or um")
       ->check(CLI::IsMember({"coordinates", "errors", "tolerance"}));
   command->add_option("--threshold", options->segmentation.threshold, "Least |r| of a segment")
@@ -228,6 +240,7 @@ void add_axis_table(Cli& cli) {
                    "Axis of the report, or which one of a report with several; default: as it says, else X")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command->add_option("--column", options->columns, "COLUMN=NAME: read a column of the CSV as another name");
+  command->add_option("--map", options->map, "Column map (JSON): what the columns of the file are");
   command->add_option("--max-points", options->max_points, "Most targets an axis may have");
   command->add_flag("--negate", options->negate, "Turn the sign of the report");
   add_apply(cli);

@@ -134,9 +134,11 @@ bool AxisErrorsPresenter::read() {
       }
     }
   }
-  const bool other_form =
-      !report && (report.error().code == ErrorCode::csv_bad_header ||
-                  report.error().code == ErrorCode::csv_cell_count || report.error().code == ErrorCode::csv_bad_number);
+  const auto is_one_of = [&](std::initializer_list<ErrorCode> codes) {
+    return std::find(codes.begin(), codes.end(), report.error().code) != codes.end();
+  };
+  const bool other_form = !report && is_one_of({ErrorCode::csv_bad_header, ErrorCode::csv_cell_count,
+                                                ErrorCode::csv_bad_number, ErrorCode::column_unclear});
   if (other_form && m_preview && m_asking) {
     m_how.mapping = ask_columns(m_page, m_bytes, m_file.toStdString(), *m_preview);
     if (!m_how.mapping) return false;

@@ -1,0 +1,112 @@
+// Phrases of the readers of axis files and register lists.
+
+#include <QCoreApplication>
+#include <array>
+
+#include "app/text/core_phrases.h"
+
+namespace zerodrift {
+namespace {
+
+constexpr std::array<const char*, 90> tables = {{
+    QT_TRANSLATE_NOOP("core", "a report of a rotary axis"),
+    QT_TRANSLATE_NOOP("core", "one of a linear axis; rotary axes are not compensated"),
+    QT_TRANSLATE_NOOP("core", "of a rotary axis (column %1 is in %2)"),
+    QT_TRANSLATE_NOOP("core", "positions of a linear axis; rotary axes are not compensated"),
+    QT_TRANSLATE_NOOP("core", "a report of another kind (%1)"),
+    QT_TRANSLATE_NOOP("core", "a unit of length: mm, um, in, uin, mil"),
+    QT_TRANSLATE_NOOP("core", "says whether a row counts"),
+    QT_TRANSLATE_NOOP("core", "not used: in %1"),
+    QT_TRANSLATE_NOOP("core", "not used: no reading"),
+    QT_TRANSLATE_NOOP("core", "not used: empty"),
+    QT_TRANSLATE_NOOP("core", "not used: words"),
+    QT_TRANSLATE_NOOP("core", "not used: a mean of other columns"),
+    QT_TRANSLATE_NOOP("core", "not used: a compensation beside the readings"),
+    QT_TRANSLATE_NOOP("core", "not used: means of both directions"),
+    QT_TRANSLATE_NOOP("core", "not used: no positions with errors"),
+    QT_TRANSLATE_NOOP("core", "not used: the same as %1"),
+    QT_TRANSLATE_NOOP("core", "the same reading as %1, compared with it"),
+    QT_TRANSLATE_NOOP("core", "a second column like %1"),
+    QT_TRANSLATE_NOOP("core", "one of them"),
+    QT_TRANSLATE_NOOP("core", "numbers of unknown meaning"),
+    QT_TRANSLATE_NOOP("core", "words of unknown meaning"),
+    QT_TRANSLATE_NOOP("core", "a name that says what it holds"),
+    QT_TRANSLATE_NOOP("core", "no unit of length"),
+    QT_TRANSLATE_NOOP("core", "no unit"),
+    QT_TRANSLATE_NOOP("core", "the unit %1"),
+    QT_TRANSLATE_NOOP("core", "one column of targets"),
+    QT_TRANSLATE_NOOP("core", "%1 beside %2 in %3"),
+    QT_TRANSLATE_NOOP("core", "compensation values, whose sign makers do not agree on"),
+    QT_TRANSLATE_NOOP("core", "errors, or a column map that makes them errors (scale -1)"),
+    QT_TRANSLATE_NOOP("core", "no column of readings beside it"),
+    QT_TRANSLATE_NOOP("core", "a direction beside the column %1"),
+    QT_TRANSLATE_NOOP("core", "run %1 beside readings of other runs"),
+    QT_TRANSLATE_NOOP("core", "one way to say the run"),
+    QT_TRANSLATE_NOOP("core", "no direction"),
+    QT_TRANSLATE_NOOP("core", "a name that says the direction of its runs, as others have"),
+    QT_TRANSLATE_NOOP("core", "no names above the numbers"),
+    QT_TRANSLATE_NOOP("core", "a header that names positions and errors with their units"),
+    QT_TRANSLATE_NOOP("core", "the channel of the column %1"),
+    QT_TRANSLATE_NOOP("core", "position_mm, error_um, measured_mm, direction, run or axis"),
+    QT_TRANSLATE_NOOP("core", "the unit of the column %1"),
+    QT_TRANSLATE_NOOP("core", "table at line %1"),
+    QT_TRANSLATE_NOOP("core", "another table, with no direction above it"),
+    QT_TRANSLATE_NOOP("core", "a line above each table that says its direction"),
+    QT_TRANSLATE_NOOP("core", "position in %1"),
+    QT_TRANSLATE_NOOP("core", "measured position in %1"),
+    QT_TRANSLATE_NOOP("core", "error in %1"),
+    QT_TRANSLATE_NOOP("core", "%1, upwards"),
+    QT_TRANSLATE_NOOP("core", "%1, downwards"),
+    QT_TRANSLATE_NOOP("core", "%1, run %2"),
+    QT_TRANSLATE_NOOP("core", "%1: the order of the rows tells the direction"),
+    QT_TRANSLATE_NOOP("core", "%1: means of both directions; the file says nothing of backlash"),
+    QT_TRANSLATE_NOOP("core", "%1: column %2: %3"),
+    QT_TRANSLATE_NOOP("core", "a word for the direction: up or down, + or -, forward or reverse"),
+    QT_TRANSLATE_NOOP("core", "the same in every row, or a file without the rows that do not count"),
+    QT_TRANSLATE_NOOP("core", "the direction that stands above the table"),
+    QT_TRANSLATE_NOOP("core", "%1 um where %2 says %3 um: the sign is turned"),
+    QT_TRANSLATE_NOOP("core", "%1 um where %2 says %3 um"),
+    QT_TRANSLATE_NOOP("core", "the same reading (error = actual - target)"),
+    QT_TRANSLATE_NOOP("core", "%1, while the positions go the other way"),
+    QT_TRANSLATE_NOOP("core", "directions along the positions as they were driven"),
+    QT_TRANSLATE_NOOP("core", "%1, which may mean either end"),
+    QT_TRANSLATE_NOOP("core", "positions in the order they were driven, or forward and reverse"),
+    QT_TRANSLATE_NOOP("core", "none, and positions in no order of a drive"),
+    QT_TRANSLATE_NOOP("core", "a column that says the direction of each reading"),
+    QT_TRANSLATE_NOOP("core", "one unit for each column"),
+    QT_TRANSLATE_NOOP("core", "a table of forward, backward or bidirectional errors"),
+    QT_TRANSLATE_NOOP("core", "%1: %2 of %3 readings; was the file cut?"),
+    QT_TRANSLATE_NOOP("core", "a line Units: um or Units: mm above the table"),
+    QT_TRANSLATE_NOOP("core", "an API report in mm"),
+    QT_TRANSLATE_NOOP("core", "%1: errors in mm, means of several runs; confirm the sign on one point"),
+    QT_TRANSLATE_NOOP("core", "a column of a known name (scale, type, count, sign ...), or none"),
+    QT_TRANSLATE_NOOP("core", "numbers of one kind (line %1 has %2)"),
+    QT_TRANSLATE_NOOP("core",
+                      "%1: plain addresses are counted from 0; many lists count from 1: check one value that you know, "
+                      "or say --base 1"),
+    QT_TRANSLATE_NOOP("core", "a register: 10, 40011, 400011, 4x00011 or %MW10"),
+    QT_TRANSLATE_NOOP("core", "an address of 1 or more"),
+    QT_TRANSLATE_NOOP("core", "a number of the function in its row (%1)"),
+    QT_TRANSLATE_NOOP("core", "one column of a scale"),
+    QT_TRANSLATE_NOOP("core", "0: a register map has a scale and a sign, and no offset"),
+    QT_TRANSLATE_NOOP("core", "%1, as the name says"),
+    QT_TRANSLATE_NOOP("core", "a number in the brackets, for example temperature_C[3]"),
+    QT_TRANSLATE_NOOP("core", "%1[1] or %2[0] as the first element"),
+    QT_TRANSLATE_NOOP("core", "each element once, none left out"),
+    QT_TRANSLATE_NOOP("core", "%1 behind element %2: an array's elements follow each other (from 0: %3)"),
+    QT_TRANSLATE_NOOP("core", "type, scale and the like as those of the first element"),
+    QT_TRANSLATE_NOOP("core", "File type:"),
+    QT_TRANSLATE_NOOP("core", "Axis position"),
+    QT_TRANSLATE_NOOP("core", "one for each element"),
+    QT_TRANSLATE_NOOP("core", "one unit number for the whole list"),
+    QT_TRANSLATE_NOOP("core", "a sign or a factor in its name"),
+    QT_TRANSLATE_NOOP("core", "actual - target in a unit; say other ones with a column map"),
+}};
+
+}  // namespace
+
+std::span<const char* const> phrases_of_tables() {
+  return tables;
+}
+
+}  // namespace zerodrift
