@@ -37,6 +37,9 @@ Run::Run(MachineIo& machine, ErrorSource& errors, Clock& clock, RunSink& sink, c
 Result<RunSummary> Run::record(const std::optional<Stand>& at_rest) {
   Result<RunEnd> end = loop(at_rest);
   if (!end && m_control.abort_requested()) end = RunEnd::aborted;
+  // Asked to finish while the machine is away: what was recorded until then is the run.
+  const bool away = !end && is_link_failure(end.error());
+  if (away && m_control.finish_requested() && m_log.rows() > 0) end = RunEnd::finished;
   m_summary.machine_stopped = stop_machine();
   if (!m_summary.machine_stopped) event("problem", "machine_not_stopped");
   m_summary.rows = m_log.rows();
@@ -212,6 +215,13 @@ void Run::event(std::string kind, std::string text, std::string details) {
   m_log.event({std::max(0.0, m_time_s), std::move(kind), std::move(text), std::move(details)});
 }
 
+/// Periods that have passed without a row since the link was lost; keep() counts them for good when it is back.
+std::int64_t Run::missing_now() const {
+  if (!m_link_was_lost || m_last_row_s < 0.0) return 0;
+  const double since_s = std::max(m_last_row_s, m_measured_to_s);
+  return std::max(0LL, std::llround((time_now_s() - since_s) / m_start.plan.sample_period_s) - 1);
+}
+
 void Run::publish(RunPhase phase, const std::vector<double>* row, const ErrorSample* measured) {
   RunUpdate update;
   update.phase = phase;
@@ -234,7 +244,7 @@ void Run::publish(RunPhase phase, const std::vector<double>* row, const ErrorSam
   update.trend = m_trend.now();
   update.rows = m_log.rows();
   update.committed_rows = m_log.committed_rows();
-  update.lost_samples = m_summary.lost_samples;
+  update.lost_samples = m_summary.lost_samples + missing_now();
   update.measurements = m_summary.measurements;
   update.refused = m_summary.refused;
   m_options.observer(update);

@@ -42,6 +42,7 @@ class Run {
   void note_pace(double due_s);
   Status expect_enough();
   void publish(RunPhase phase, const std::vector<double>* row = nullptr, const ErrorSample* measured = nullptr);
+  std::int64_t missing_now() const;
   double idle_s() const;
   void wait_for_next();
   Status keep(const MachineSample& sample, const ErrorSample* error, bool expected_late);

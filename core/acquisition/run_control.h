@@ -15,7 +15,7 @@ class RunControl {
  public:
   void pause() { m_paused = true; }
   void resume() { m_paused = false; }
-  /// Ends the run before its plan does, with a last measurement; what was recorded counts.
+  /// Ends the run before its plan does, with a last measurement unless the machine is away; what was recorded counts.
   void finish() { m_finish = true; }
   /// Ends the run now; the series is marked as aborted.
   void abort() {

@@ -12,6 +12,7 @@ namespace {
 constexpr double first_pause_s = 0.2;  // wall
 constexpr double longest_pause_s = 5.0;
 constexpr double budget_share = 0.5;  // of the measuring period, for trying a measurement again
+constexpr int attempts_to_finish = 3;
 constexpr int stale_readings_shown = 5;
 // A controller's clock may be read a little before another part of the same sample.
 constexpr double clock_slack_s = 0.5;
@@ -31,7 +32,9 @@ Status Run::wait_for_link(const Error& error, double& waited_s, int attempt) {
   m_link_was_lost = true;
   m_commanded_step.reset();  // the machine may have stopped by itself
   publish(RunPhase::link_lost);
-  if (waited_s >= m_options.link_patience_s) return fail(error);
+  // Whoever asks to finish waits no longer than a glitch lasts.
+  const bool finish = m_control.finish_requested() && attempt >= attempts_to_finish;
+  if (finish || waited_s >= m_options.link_patience_s) return fail(error);
   const double pause_s = std::min(longest_pause_s, first_pause_s * static_cast<double>(1 << std::min(attempt, 10)));
   m_log.commit_before_waiting(pause_s);
   if (!m_clock.wait_for(Seconds(pause_s * m_options.time_factor), m_context.stop)) return cancelled();

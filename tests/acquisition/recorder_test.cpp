@@ -201,6 +201,36 @@ TEST_F(RecorderTest, WaitsForWhateverMayPass) {
   }
 }
 
+TEST_F(RecorderTest, CountsLostSamplesWhileTheMachineIsAway) {
+  machine.cable_is_out = [](double time_s) { return time_s > 305.0 && time_s < 500.0; };
+  std::vector<std::int64_t> lost;
+  options.observer = [&](const RunUpdate& update) {
+    if (update.phase == RunPhase::link_lost) lost.push_back(update.lost_samples);
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  ASSERT_FALSE(lost.empty());
+  EXPECT_LE(lost.front(), 1);
+  EXPECT_TRUE(std::is_sorted(lost.begin(), lost.end()));
+  EXPECT_GE(lost.back(), 10);
+  EXPECT_LE(lost.back(), summary->lost_samples);
+}
+
+TEST_F(RecorderTest, FinishesWithoutAMachineThatIsAway) {
+  machine.cable_is_out = [](double time_s) { return time_s > 305.0; };
+  options.observer = [&](const RunUpdate& update) {
+    if (update.phase == RunPhase::link_lost) control->finish();
+  };
+  const auto summary = run();
+  ASSERT_TRUE(summary) << describe(summary.error());
+  EXPECT_EQ(summary->end, RunEnd::finished);
+  EXPECT_FALSE(summary->machine_stopped);
+  EXPECT_TRUE(sink.ended);
+  EXPECT_GE(sink.times.back(), 290.0);
+  EXPECT_LT(clock.steady().count(), 400.0);
+  EXPECT_EQ(sink.count("problem", "machine_not_stopped"), 1);
+}
+
 TEST_F(RecorderTest, GivesUpACableThatStaysOut) {
   machine.cable_is_out = [](double time_s) { return time_s > 305.0; };
   const auto summary = run();
