@@ -9,7 +9,6 @@
 
 #include "app/desktop/ask.h"
 #include "app/desktop/file_opener.h"
-#include "app/desktop/machine_writes.h"
 #include "app/desktop/pin_dialog.h"
 #include "app/desktop/registry.h"
 #include "app/desktop/steps/compensator_presenter.h"
@@ -20,6 +19,7 @@
 #include "app/desktop/steps/warmup_presenter.h"
 #include "app/text/error_text.h"
 #include "core/acquisition/job_sink.h"
+#include "core/flow/rollback_and_switch.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 
@@ -63,8 +63,9 @@ Application::Application(ui::Theme& theme)
 }
 
 Application::~Application() {
-  // The task ends before what it uses: it may hold the job and the pages.
-  m_bench->tasks().cancel();
+  // The task ends before what it uses: the pages go first, and it calls them.
+  m_window->hide();
+  m_bench->tasks().end();
 }
 
 void Application::wire() {
@@ -98,6 +99,16 @@ void Application::wire() {
     updateSteps();
     updateLamps();
   };
+  // The one place that empties the pages: nothing of the job before is seen in the next one.
+  connect(m_bench.get(), &Workbench::jobLeft, this, [this] {
+    for (auto* presenter : m_presenters) {
+      presenter->forget();
+      presenter->refresh();
+    }
+  });
+  connect(m_bench.get(), &Workbench::jobChanged, this, [this] {
+    for (auto* presenter : m_presenters) presenter->page()->clearProblem();  // they were of the job before
+  });
   connect(m_bench.get(), &Workbench::jobChanged, this, changed);
   connect(m_bench.get(), &Workbench::artefactsChanged, this, changed);
   connect(m_bench.get(), &Workbench::profileChanged, this, changed);
@@ -173,8 +184,9 @@ void Application::switchCompensation() {
   if (!permit) return;
   m_bench->tasks().start<bool>(
       tr("Switching the compensation"),
-      [profile = *profile, permit = *permit, job = m_bench->job(), on](const TaskContext&) {
-        return desktop::switch_compensation(job, profile, permit, on);
+      [profile = *profile, permit = *permit, job = m_bench->job(), on](const TaskContext&) -> Result<bool> {
+        ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
+        return flow::switch_compensation(job.get(), devices, flow::Consent::given(), on);
       },
       [this](Result<bool> now) {
         m_bench->log(now ? LogKind::good : LogKind::bad, !now   ? lineOf(now.error())
@@ -221,7 +233,7 @@ void Application::sayDamaged(const Error& damage) {
 /// A run that was broken off is the first thing to know of a job.
 void Application::sayInterrupted() {
   auto* open = presenter(m_open);
-  const auto* job = m_bench->job();
+  const auto job = m_bench->job();
   if (open == nullptr || job == nullptr || m_bench->tasks().running() || m_bench->has("warmup")) return;
   const auto interrupted = acquisition::interrupted_run(*job, "warm-up");
   if (!interrupted || !*interrupted) return;

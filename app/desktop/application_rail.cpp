@@ -40,7 +40,7 @@ QString Application::wordsOf(const flow::StepStatus& status) const {
 }
 
 void Application::updateSteps() {
-  const auto* job = m_bench->job();
+  const auto job = m_bench->job();
   if (job == nullptr) {
     for (auto* presenter : m_presenters) {
       m_window->setStepState(presenter->id(), ui::StepState::blocked, tr("Not started"));

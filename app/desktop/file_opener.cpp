@@ -45,6 +45,7 @@ void FileOpener::openOne(const QString& path) {
         tr("Wait until it has ended, or end it, and open the file then."));
     return;
   }
+  if (const Status idle = m_application.bench().idle(); !idle) return show(idle.error());
   if (!QFileInfo::exists(path)) {
     show(Error{ErrorCode::file_not_found, {{"file", path.toStdString()}}});
     return;
@@ -107,12 +108,14 @@ void FileOpener::openRecording(const QString& path) {
     if (bench.job() == nullptr) return;
   }
   m_application.openPage(QStringLiteral("warmup"));
-  const auto made = flow::import_warmup(*bench.job(), *run, name.toStdString());
-  if (!made) return show(made.error());
-  if (const Status kept = bench.keep(*made); !kept) show(kept.error());
+  const auto kept = bench.takeIn("warmup", [&](commissioning::Job& job, const TaskContext&) {
+    return flow::import_warmup(job, *run, name.toStdString());
+  });
+  if (!kept) show(kept.error());
 }
 
 void FileOpener::openSample() {
+  if (const Status idle = m_application.bench().idle(); !idle) return show(idle.error());
   const auto sample = find_resource(sample_name);
   if (!sample) return show(sample.error());
   const QString copy = free_job_path(tr("sample"));

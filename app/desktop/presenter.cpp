@@ -5,9 +5,10 @@
 
 namespace zerodrift::desktop {
 
+using commissioning::Artefact;
+
 Presenter::Presenter(Workbench& bench, ui::Page* page) : QObject(page), m_bench(bench), m_page(page) {
   connect(page, &ui::Page::cancelRequested, this, [this] { m_bench.tasks().cancel(); });
-  connect(&bench, &Workbench::jobChanged, page, [page] { page->clearProblem(); });  // it was of the job before
 }
 
 void Presenter::showOnly(const Error& error) {
@@ -79,21 +80,20 @@ QString Presenter::offlineReason() const {
   return m_bench.lost() ? tr("The controller does not answer.") : QString();
 }
 
-Error Presenter::busy() const {
-  return Error{ErrorCode::machine_busy,
-               {{"what", tr("%1 is still running").arg(m_bench.tasks().name()).toStdString()}}};
-}
-
-void Presenter::runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
-                        std::function<void(bool good)> done) {
-  runTask<commissioning::NewArtefact>(name, std::move(work),
-                                      [this, done = std::move(done)](Result<commissioning::NewArtefact> made) {
-                                        const Status kept = made ? m_bench.keep(*made) : Status(fail(made.error()));
-                                        if (made && !kept) show(kept.error());
-                                        // What is kept renews the open page by itself.
-                                        if (!kept || !m_page->isVisible()) refresh();
-                                        if (done) done(kept.has_value());
-                                      });
+void Presenter::runStep(const QString& name, flow::StepRun work, std::function<void(bool good)> done, From from) {
+  const auto job = m_bench.job();
+  const std::string step = id().toStdString();
+  const auto perform = [job, step, from, work = std::move(work)](const TaskContext& context) -> Result<Artefact> {
+    if (job == nullptr) return fail(ErrorCode::step_blocked, {{"step", step}, {"needs", "a job"}});
+    const flow::Flow flow;
+    return from == From::job ? flow.perform(*job, step, work, context) : flow.take_in(*job, step, work, context);
+  };
+  runTask<Artefact>(name, perform, [this, done = std::move(done)](const Result<Artefact>& made) {
+    if (made) m_bench.announce(*made);
+    // What is kept renews the open page by itself.
+    if (!made || !m_page->isVisible()) refresh();
+    if (done) done(made.has_value());
+  });
 }
 
 }  // namespace zerodrift::desktop

@@ -20,6 +20,10 @@ class Presenter : public QObject {
   QString id() const { return m_page->id(); }
   /// Draws the page from the job and the machine as they are now.
   virtual void refresh() = 0;
+  /// The job that was open is not any more: whatever is known of it and was chosen in it goes. Application calls this
+  /// on every page at each change of job, and draws the one that is open from the next job; a page that is opened later
+  /// is drawn then.
+  virtual void forget() = 0;
   /// Says again, in the language chosen now, what was said in another one.
   virtual void languageChanged();
   /// Light or dark: what carries colours of its own is coloured anew.
@@ -54,9 +58,12 @@ class Presenter : public QObject {
  protected:
   Workbench& bench() { return m_bench; }
   const Workbench& bench() const { return m_bench; }
-  /// Runs a step that makes an artefact: progress in the page, errors in its banner, the artefact into the job.
-  void runStep(const QString& name, std::function<Result<commissioning::NewArtefact>(const TaskContext&)> work,
-               std::function<void(bool good)> done = {});
+  /// Does this page's step of the job that is open now, by Flow: progress in the page, errors in its banner, and the
+  /// job is held until it has ended. From elsewhere: what is made names its inputs itself
+  /// (Flow::take_in).
+  enum class From { job, elsewhere };
+  void runStep(const QString& name, flow::StepRun work, std::function<void(bool good)> done = {},
+               From from = From::job);
   /// Any other work on the task thread: progress in the page, an error in its banner before `done` gets it.
   template <class T>
   void runTask(const QString& name, std::function<Result<T>(const TaskContext&)> work,
@@ -69,7 +76,8 @@ class Presenter : public QObject {
     };
     if (m_bench.tasks().start<T>(name, std::move(work), std::move(finish))) return;
     endTask(progress);
-    const Error refused = busy();
+    const Status idle = m_bench.idle();
+    const Error refused = idle ? Error{ErrorCode::cancelled, {}} : idle.error();
     show(refused);
     done(fail(refused));
   }
@@ -81,8 +89,6 @@ class Presenter : public QObject {
   QString offlineReason() const;
   /// Of a step that is done: that the machine holds another table than this job wrote, or none.
   Standing tableStanding() const;
-  /// Why nothing else can be done now: the task that runs.
-  Error busy() const;
   /// Calls `act` now, or when the task that runs has ended.
   void whenIdle(std::function<void()> act);
 

@@ -125,6 +125,7 @@ void RunFeed::forget() {
   m_marks.clear();
   m_pauses.clear();
   m_pausing = false;
+  m_badSensors.clear();
   m_view->clear();
   m_view->setTrouble({});
 }

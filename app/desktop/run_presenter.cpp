@@ -17,8 +17,7 @@ RunPresenter::RunPresenter(Workbench& bench, ui::Page* page, ui::RunView* view)
 void RunPresenter::record(const QString& name, const acquisition::Plan& plan, Step step,
                           std::function<void(bool good)> done) {
   const auto profile = bench().profile();
-  auto* job = bench().job();
-  if (!profile || job == nullptr || m_running) {
+  if (!profile || bench().job() == nullptr || m_running) {
     if (!profile)
       show(Error{ErrorCode::step_blocked, {{"step", id().toStdString()}, {"needs", "a connected machine"}}});
     if (done) done(false);
@@ -30,20 +29,20 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
     return;
   }
   m_running = true;
-  m_again = false;
   m_feed->begin();
   flow::RunOptions options;
   options.plan = plan;
+  options.anew = std::exchange(m_again, false);
   options.observer = m_feed->observer();
   options.control = m_feed->control();
   options.cameras = m_feed->cameras();
   refresh();
   runStep(
       name,
-      [profile = *profile, job, options, permit = *permit,
-       step = std::move(step)](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+      [profile = *profile, options, permit = *permit, step = std::move(step)](
+          commissioning::Job& job, const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
-        return step(*job, devices, options, context);
+        return step(job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {
         m_feed->stop();
@@ -93,10 +92,12 @@ bool RunPresenter::agreed(const acquisition::Plan& plan) {
 
 bool RunPresenter::steer(const QString& action) {
   if (action == QStringLiteral("finish")) {
-    if (m_running && ask(page(), tr("Finish the run?"),
-                         tr("The run ends here and what was recorded is kept and used. The spindle, the path and "
-                            "the coolant stop."),
-                         tr("Finish"))) {
+    const QString text = bench().lost()
+                             ? tr("The run ends here and what was recorded is kept and used. The controller does not "
+                                  "answer, so nothing is stopped from here: look whether the spindle stands.")
+                             : tr("The run ends here and what was recorded is kept and used. The spindle, the path and "
+                                  "the coolant stop.");
+    if (m_running && ask(page(), tr("Finish the run?"), text, tr("Finish"))) {
       m_feed->finish();
     }
     return true;
@@ -123,21 +124,29 @@ bool RunPresenter::steer(const QString& action) {
   return true;
 }
 
+void RunPresenter::forget() {
+  m_again = false;
+  forgetRun();
+}
+
 void RunPresenter::forgetRun() {
   m_feed->forget();
   m_shown = 0;
 }
 
 void RunPresenter::showKept(const nlohmann::json& body) {
-  if (!body.is_object()) return;
-  const auto series = body.at("series").get<long long>();
-  if (series == m_shown) return;
-  if (const auto run = bench().job()->read_series(series)) {
-    m_shown = series;
-    m_feed->showRecording(*run, bench().job()->events(series).value_or(std::vector<commissioning::Event>{}));
-    m_feed->showHappened(acquisition::happenings_from_json(body.value("happened", nlohmann::json())),
-                         body.value("measurements", 0), body.value("refused", 0));
-  }
+  if (!body.is_object() || !showSeries(body.at("series").get<long long>())) return;
+  m_feed->showHappened(acquisition::happenings_from_json(body.value("happened", nlohmann::json())),
+                       body.value("measurements", 0), body.value("refused", 0));
+}
+
+bool RunPresenter::showSeries(long long series) {
+  if (series == m_shown) return false;
+  const auto run = bench().job()->read_series(series);
+  if (!run) return false;
+  m_shown = series;
+  m_feed->showRecording(*run, bench().job()->events(series).value_or(std::vector<commissioning::Event>{}));
+  return true;
 }
 
 QString RunPresenter::wallTime(double machine_s) const {

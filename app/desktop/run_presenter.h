@@ -16,6 +16,7 @@ class RunPresenter : public Presenter {
   RunPresenter(Workbench& bench, ui::Page* page, ui::RunView* view);
   void languageChanged() override;
   void themeChanged() override;
+  void forget() override;
 
   bool running() const { return m_running; }
 
@@ -33,6 +34,8 @@ class RunPresenter : public Presenter {
   bool steer(const QString& action);
   /// Draws the run that this artefact names, once.
   void showKept(const nlohmann::json& body);
+  /// Draws a run of the job, once; false: it is drawn already, or cannot be read.
+  bool showSeries(long long series);
   /// The plots of the run shown are cleared.
   void forgetRun();
   /// Pause, finish and abort end a run as it should; stopping the work as such has no place beside them.

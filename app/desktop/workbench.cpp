@@ -7,6 +7,7 @@
 #include "app/text/error_text.h"
 #include "core/base/json.h"
 #include "core/base/redact.h"
+#include "core/flow/flow.h"
 
 namespace zerodrift::desktop {
 
@@ -62,11 +63,33 @@ void Workbench::useAccess(std::unique_ptr<access::Access> access) {
   Q_EMIT accessChanged();
 }
 
-Status Workbench::useJob(Result<commissioning::Job> job) {
-  if (!job) return fail(std::move(job).error());
+std::shared_ptr<const QString> Workbench::beginWork(const QString& name) {
+  auto work = std::make_shared<const QString>(name);
+  std::erase_if(m_work, [](const auto& one) { return one.expired(); });
+  m_work.push_back(work);
+  return work;
+}
+
+Status Workbench::idle() const {
+  QString name = m_tasks.running() ? m_tasks.name() : QString();
+  for (const auto& work : m_work) {
+    if (const auto running = work.lock()) name = *running;
+  }
+  if (name.isEmpty()) return {};
+  return fail(ErrorCode::machine_busy, {{"what", tr("%1 is still running").arg(name).toStdString()}});
+}
+
+void Workbench::leaveJob() {
   forgetRead();
   m_damage.reset();
-  m_job = std::make_unique<commissioning::Job>(std::move(*job));
+  if (!m_job) return;
+  m_job.reset();
+  Q_EMIT jobLeft();
+}
+
+void Workbench::useJob(commissioning::Job job) {
+  leaveJob();
+  m_job = std::make_shared<commissioning::Job>(std::move(job));
   log(LogKind::note, tr("Job %1").arg(QString::fromStdString(m_job->path().string())));
   // A job of another machine takes neither the connection nor its profile over.
   const auto tested = body("machine");
@@ -74,7 +97,7 @@ Status Workbench::useJob(Result<commissioning::Job> job) {
   if (connected() && serial != 0 && m_look && m_look->identity.serial != serial) {
     log(LogKind::warning, tr("Disconnected: this job is of another machine (serial %1).").arg(serial));
     const unsigned from = m_look->identity.serial;
-    disconnectMachine();
+    static_cast<void>(disconnectMachine());  // nothing runs, or the job would not be changed
     m_profile.reset();
     Q_EMIT disconnectedFor(from, serial);
   }
@@ -96,7 +119,6 @@ Status Workbench::useJob(Result<commissioning::Job> job) {
     }
   }
   Q_EMIT jobChanged();
-  return {};
 }
 
 void Workbench::forgetRead() {
@@ -106,11 +128,16 @@ void Workbench::forgetRead() {
 }
 
 Status Workbench::createJob(const std::filesystem::path& path) {
-  return useJob(commissioning::Job::create(path));
+  ZD_CHECK(idle());
+  ZD_TRY(auto job, commissioning::Job::create(path));
+  useJob(std::move(job));
+  return {};
 }
 
 Status Workbench::openJob(const std::filesystem::path& path) {
-  ZD_CHECK(useJob(commissioning::Job::open(path)));
+  ZD_CHECK(idle());
+  ZD_TRY(auto job, commissioning::Job::open(path));
+  useJob(std::move(job));
   checkWhole();
   return {};
 }
@@ -133,24 +160,28 @@ void Workbench::checkWhole() {
   });
 }
 
-void Workbench::closeJob() {
-  forgetRead();
-  m_damage.reset();
-  m_job.reset();
+Status Workbench::closeJob() {
+  ZD_CHECK(idle());
+  leaveJob();
   Q_EMIT jobChanged();
+  return {};
 }
 
-Status Workbench::keep(const commissioning::NewArtefact& made) {
-  if (!m_job) return fail(ErrorCode::step_blocked, {{"step", made.kind}, {"needs", "a job"}});
-  ZD_TRY(const auto kept, m_job->put(made));
-  log(LogKind::good, tr("Kept %1 #%2").arg(stepName(kept.kind)).arg(kept.id));
-  if (kept.kind == "upload" && m_look) {  // what was seen before is no longer so
+Result<commissioning::Artefact> Workbench::takeIn(const std::string& step, const flow::StepRun& run) {
+  if (!m_job) return fail(ErrorCode::step_blocked, {{"step", step}, {"needs", "a job"}});
+  ZD_TRY(auto made, flow::Flow().take_in(*m_job, step, run, {}));
+  announce(made);
+  return made;
+}
+
+void Workbench::announce(const commissioning::Artefact& made) {
+  log(LogKind::good, tr("Kept %1 #%2").arg(stepName(made.kind)).arg(made.id));
+  if (made.kind == "upload" && m_look) {  // what was seen before is no longer so
     auto look = std::make_shared<MachineLook>(*m_look);
     look->table.reset();
     m_look = look;
   }
   Q_EMIT artefactsChanged();
-  return {};
 }
 
 Status Workbench::setHeader(const commissioning::JobHeader& header) {
@@ -187,6 +218,7 @@ const recording::Recording& Workbench::warmupRun() const {
 }
 
 Status Workbench::loadProfile(const std::filesystem::path& path) {
+  ZD_CHECK(idle());
   std::vector<std::string> warnings;
   ZD_TRY(auto profile, controller::read_profile(path, &warnings));
   ZD_TRY(m_profileDocument, read_json_file(path));
@@ -201,6 +233,7 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
 }
 
 Status Workbench::setRegisterMap(const std::filesystem::path& path) {
+  ZD_CHECK(idle());
   if (!m_profile) return fail(ErrorCode::step_blocked, {{"step", "machine"}, {"needs", "a connection profile"}});
   auto document = m_profileDocument;
   document["controller"]["register_map"] = path.string();
@@ -221,7 +254,8 @@ void Workbench::connectMachine() {
   m_monitor.start(*m_profile);
 }
 
-void Workbench::disconnectMachine() {
+Status Workbench::disconnectMachine() {
+  ZD_CHECK(idle());
   m_monitor.stop();
   m_reached = false;
   m_look.reset();
@@ -230,6 +264,7 @@ void Workbench::disconnectMachine() {
   m_lastProblem.reset();
   m_attempts = 0;
   Q_EMIT profileChanged();
+  return {};
 }
 
 HeldTable Workbench::heldTable() const {

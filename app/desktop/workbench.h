@@ -16,6 +16,7 @@
 #include "core/access/access.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
+#include "core/flow/step.h"
 #include "core/recording/recording.h"
 #include "core/report/wording.h"
 #include "core/vision/camera.h"
@@ -48,16 +49,19 @@ class Workbench : public QObject {
   access::Access& access() { return *m_access; }
   void useAccess(std::unique_ptr<access::Access> access);
 
-  // The job
+  // The job. Whoever works on it holds it; while work runs it is neither closed nor changed (machine_busy).
   Status createJob(const std::filesystem::path& path);
   Status openJob(const std::filesystem::path& path);
-  void closeJob();
+  Status closeJob();
   /// What the check of the whole file has found since it was opened; the job works on with what can be read.
   const std::optional<Error>& damage() const { return m_damage; }
-  commissioning::Job* job() { return m_job ? m_job.get() : nullptr; }
-  const commissioning::Job* job() const { return m_job ? m_job.get() : nullptr; }
-  /// Keeps what a step made and tells everybody.
-  Status keep(const commissioning::NewArtefact& made);
+  /// Null: none is open. Work beside the window takes the pointer with it, never the address.
+  const std::shared_ptr<commissioning::Job>& job() { return m_job; }
+  std::shared_ptr<const commissioning::Job> job() const { return m_job; }
+  /// Does a step that is quick and does not come from what the job holds (Flow::take_in), and tells everybody.
+  Result<commissioning::Artefact> takeIn(const std::string& step, const flow::StepRun& run);
+  /// Tells everybody what a step has made.
+  void announce(const commissioning::Artefact& made);
   /// Customer, machine, engineer: what the report's head says.
   Status setHeader(const commissioning::JobHeader& header);
   bool has(const std::string& kind) const;
@@ -75,7 +79,8 @@ class Workbench : public QObject {
   /// Every register of this map is read with each look at the machine; null: none.
   void watchRegisters(std::shared_ptr<const controller::RegisterMap> map) { m_monitor.watch(std::move(map)); }
   void connectMachine();
-  void disconnectMachine();
+  /// machine_busy while work runs: it may use the machine.
+  Status disconnectMachine();
   bool connected() const { return m_look != nullptr; }
   /// It was there and does not answer any more: what is known of it is how it stood, not how it is.
   bool lost() const { return m_lost; }
@@ -99,10 +104,16 @@ class Workbench : public QObject {
 
   // Work: one task at a time; the monitor is paused meanwhile.
   TaskRunner& tasks() { return m_tasks; }
+  /// Other work on the job, until what is returned is let go: a report that is being drawn.
+  [[nodiscard]] std::shared_ptr<const QString> beginWork(const QString& name);
+  /// machine_busy with the name of the work that runs.
+  Status idle() const;
 
   void log(LogKind kind, const QString& text);
 
  Q_SIGNALS:
+  /// The job that was open is not any more: whatever is known of it is forgotten, before anything of another is shown.
+  void jobLeft();
   void jobChanged();
   void jobDamaged(const zerodrift::Error& damage);
   void artefactsChanged();
@@ -121,19 +132,21 @@ class Workbench : public QObject {
   report::Labels labels() const;
   /// Cameras that are not needed any more; they may be waiting for a picture.
   void dropCameras();
-  Status useJob(Result<commissioning::Job> job);
+  void leaveJob();
+  void useJob(commissioning::Job job);
   /// Beside the window and by a connection of its own: the whole file is read.
   void checkWhole();
   void forgetRead();
 
   std::unique_ptr<access::Access> m_access;
-  std::unique_ptr<commissioning::Job> m_job;
+  std::shared_ptr<commissioning::Job> m_job;
   std::optional<controller::Profile> m_profile;
   nlohmann::json m_profileDocument;
   std::shared_ptr<const MachineLook> m_look;
   std::vector<std::shared_ptr<vision::Camera>> m_cameras;
   MachineMonitor m_monitor;
   TaskRunner m_tasks;
+  std::vector<std::weak_ptr<const QString>> m_work;  // beside the tasks: names
   Aside m_ending;
   std::optional<Error> m_damage;
   struct Body {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <utility>
 
 namespace zerodrift {
 namespace {
@@ -22,6 +23,11 @@ void TaskRunner::cancel() {
   m_thread.request_stop();
 }
 
+void TaskRunner::end() {
+  m_thread.request_stop();
+  if (m_thread.joinable()) m_thread.join();
+}
+
 bool TaskRunner::launch(const QString& name, std::function<std::any(const TaskContext&)> work,
                         std::function<void(std::any)> done) {
   if (m_running) return false;
@@ -31,7 +37,7 @@ bool TaskRunner::launch(const QString& name, std::function<std::any(const TaskCo
   Q_EMIT started(name);
   // Work on std::jthread, results through the event loop: the receiver is this object, so nothing arrives after its
   // end.
-  m_thread = std::jthread([this, work = std::move(work), done = std::move(done)](std::stop_token stop) {
+  m_thread = std::jthread([this, work = std::move(work), done = std::move(done)](std::stop_token stop) mutable {
     auto last = steady_clock::now() - shortest_pause;
     TaskContext context;
     context.stop = std::move(stop);
@@ -46,7 +52,7 @@ bool TaskRunner::launch(const QString& name, std::function<std::any(const TaskCo
           },
           Qt::QueuedConnection);
     };
-    std::any result = work(context);
+    std::any result = std::exchange(work, nullptr)(context);
     QMetaObject::invokeMethod(
         this,
         [this, result = std::move(result), done]() mutable {

@@ -1,6 +1,7 @@
 #pragma once
 // Runs one piece of core work on a thread of its own and posts what it says back to the GUI thread: progress at most 20
-// times a second, then the result once. A second start while one runs is refused. The destructor stops and joins.
+// times a second, then the result once. A second start while one runs is refused. The destructor stops and joins. What
+// the work holds is let go before its result is told.
 
 #include <QObject>
 #include <QString>
@@ -45,6 +46,8 @@ class TaskRunner : public QObject {
 
   /// Asks the work to stop; it ends with ErrorCode::cancelled at its next safe point.
   void cancel();
+  /// The same, and waits for that point. What it made is not told to anybody any more.
+  void end();
 
  Q_SIGNALS:
   void started(const QString& name);

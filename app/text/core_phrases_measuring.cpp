@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 251> measuring = {{
+constexpr std::array<const char*, 254> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -38,6 +38,12 @@ constexpr std::array<const char*, 251> measuring = {{
     QT_TRANSLATE_NOOP("core", "the axis table"),
     QT_TRANSLATE_NOOP("core", "Writing the table"),
     QT_TRANSLATE_NOOP("core", "upload table"),
+    QT_TRANSLATE_NOOP("core", "Going back to version %1"),
+    QT_TRANSLATE_NOOP("core", "roll back table"),
+    QT_TRANSLATE_NOOP("core", "A test move"),
+    QT_TRANSLATE_NOOP("core", "Switching the compensation on"),
+    QT_TRANSLATE_NOOP("core", "Switching the compensation off"),
+    QT_TRANSLATE_NOOP("core", "switch compensation"),
     QT_TRANSLATE_NOOP("core", "compensation table"),
     QT_TRANSLATE_NOOP("core", "version %1, %2 registers"),
     QT_TRANSLATE_NOOP("core", "the uploaded table"),

@@ -1,9 +1,9 @@
 #pragma once
 // The whole job without a person: machine, calibrate, warm-up, sensors, fit, physics, upload, verify; a correction and
-// a second verification when a part error of the first exceeds its threshold. What the job already holds and is current
-// is not done again, so a commissioning that was broken off goes on where it stopped.
+// a second verification when a part error of the first exceeds its threshold. Each is done by Flow::perform, and what
+// the job already holds and is current is not done again: a commissioning that was broken off goes on where it stopped,
+// and sensors chosen by hand stay chosen. A step that is out of date is done again as it was asked for.
 
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -11,17 +11,16 @@
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
-#include "core/flow/steps/upload_step.h"
+#include "core/flow/machine_write.h"
 
 namespace zerodrift::flow {
 
 struct CommissionOptions {
   acquisition::Plan plan;
-  access::Permit permit = access::Permit::read_only();  // it writes: without one the first write is refused
+  access::Permit permit = access::Permit::read_only();  // it writes: without one nothing is begun
+  Consent consent;                                      // asked before each write that stays in the machine
   double limit_um = 5.0;
-  bool keep_views = true;                                // the pictures of the calibration's positions
-  std::function<bool(const UploadPreview&)> confirm;     // absent: confirmed
-  std::function<void(const std::string&)> step_started;  // "machine", "calibrate", ...
+  bool keep_views = true;  // the pictures of the calibration's positions
 };
 
 struct CommissionResult {
@@ -30,7 +29,8 @@ struct CommissionResult {
   nlohmann::json sensors;
 };
 
-/// `profile_document` is what `profile` was read from; it is kept in the job.
+/// `profile_document` is what `profile` was read from; it is kept in the job. access_locked or not_confirmed before
+/// anything moves when the table could not be written in the end.
 Result<CommissionResult> commission(commissioning::Job& job, const controller::Profile& profile,
                                     const nlohmann::json& profile_document, const CommissionOptions& options,
                                     const TaskContext& context);

@@ -16,6 +16,7 @@ constexpr int fast_frames = 3;
 Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras, access::Permit permit) {
   Devices devices;
   devices.profile = profile;
+  devices.permit = permit;
   ZD_TRY(devices.machine, controller::ModbusMachine::open(profile, permit));
   if (!with_cameras || profile.error_source != controller::ErrorSourceKind::camera) return devices;
   for (const auto& camera : profile.cameras) {

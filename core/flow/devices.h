@@ -21,6 +21,7 @@ struct CameraDevice {
 
 struct Devices {
   controller::Profile profile;
+  access::Permit permit = access::Permit::read_only();
   std::unique_ptr<controller::ModbusMachine> machine;
   std::vector<CameraDevice> cameras;  // reading already; empty when the errors come from probes
 

@@ -112,12 +112,22 @@ const StepStatus* Flow::next(const std::vector<StepStatus>& status) {
   return at == status.end() ? nullptr : &*at;
 }
 
-Result<Artefact> Flow::perform(Job& job, std::string_view id, const StepRun& run, const TaskContext& context) const {
+Result<const StepInfo*> Flow::find(std::string_view id) const {
   const auto step = std::find_if(m_steps.begin(), m_steps.end(), [&](const StepInfo& one) { return one.id == id; });
-  if (step == m_steps.end()) {
-    return fail(ErrorCode::bad_argument,
-                {{"what", "step"}, {"found", std::string(id)}, {"expected", "a step of the flow"}});
-  }
+  if (step != m_steps.end()) return &*step;
+  return fail(ErrorCode::bad_argument,
+              {{"what", "step"}, {"found", std::string(id)}, {"expected", "a step of the flow"}});
+}
+
+Result<Artefact> Flow::take_in(Job& job, std::string_view id, const StepRun& run, const TaskContext& context) const {
+  ZD_CHECK(find(id).map([](auto) {}));
+  ZD_TRY(const commissioning::NewArtefact made, run(job, context));
+  if (context.cancelled()) return fail(ErrorCode::cancelled);
+  return job.put(made);
+}
+
+Result<Artefact> Flow::perform(Job& job, std::string_view id, const StepRun& run, const TaskContext& context) const {
+  ZD_TRY(const StepInfo* step, find(id));
   std::vector<InputRef> held;
   std::string missing;
   const auto hold = [&](const std::string& kind, bool optional) -> Status {

@@ -57,12 +57,17 @@ class Flow {
   /// something it needs is missing; nothing is kept when it fails or is cancelled.
   Result<commissioning::Artefact> perform(commissioning::Job& job, std::string_view step, const StepRun& run,
                                           const TaskContext& context) const;
+  /// For a result that was not made from what the job holds now: a run from a file, a former table brought back, an
+  /// older result judged anew. It needs nothing and names its inputs itself.
+  Result<commissioning::Artefact> take_in(commissioning::Job& job, std::string_view step, const StepRun& run,
+                                          const TaskContext& context) const;
 
  private:
   using LatestOf = std::map<std::string, std::optional<commissioning::Artefact>, std::less<>>;
   using StateOf = std::map<std::string, StepState, std::less<>>;
   StepStatus status_of(const StepInfo& step, const LatestOf& latest, const StateOf& made_by) const;
   std::string maker_of(std::string_view kind) const;
+  Result<const StepInfo*> find(std::string_view step) const;
 
   std::vector<StepInfo> m_steps;
 };

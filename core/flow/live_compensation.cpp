@@ -15,7 +15,7 @@
 #include "core/compensation/model_table.h"
 #include "core/controller/table_words.h"
 #include "core/flow/devices.h"
-#include "core/flow/steps/audited.h"
+#include "core/flow/machine_write.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 
@@ -147,8 +147,10 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
   how.switch_on = true;
   if (!model.is_static()) how.predictor = compensation::live_predictor(model);
 
+  // It ends with the operation: whoever starts it has given the word for it.
+  ZD_TRY(const auto write, MachineWrite::begin(&job, options.permit, Consent::given(),
+                                               {"Compensating", machine_text(identity.name, identity.serial)}));
   commissioning::AuditEntry entry;
-  entry.machine = machine_text(identity.name, identity.serial);
   entry.action = "compensate from this computer";
   entry.subject = "host offset of X, Y, Z";
   ZD_TRY(const bool was_on, machine->compensation_on());
@@ -165,7 +167,7 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
     summary = *ran;
     return {};
   };
-  ZD_CHECK(audited(job, entry, work));
+  ZD_CHECK(write.write(entry, work));
   return summary;
 }
 

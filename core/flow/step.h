@@ -33,6 +33,6 @@ std::span<const StepInfo> standard_steps();
 /// Null when there is no such step.
 const StepInfo* find_step(std::string_view id);
 
-using StepRun = std::function<Result<commissioning::NewArtefact>(const commissioning::Job&, const TaskContext&)>;
+using StepRun = std::function<Result<commissioning::NewArtefact>(commissioning::Job&, const TaskContext&)>;
 
 }  // namespace zerodrift::flow

@@ -2010,42 +2010,6 @@
         <translation>相机不发送图像</translation>
     </message>
     <message>
-        <source>the target still moves in the picture</source>
-        <translation>靶标在图像中仍在移动</translation>
-    </message>
-    <message>
-        <source>the picture does not show the move to the measuring position</source>
-        <translation>图像没有显示向测量位置的移动</translation>
-    </message>
-    <message>
-        <source>the machine moved while it was measured</source>
-        <translation>测量时机床发生了移动</translation>
-    </message>
-    <message>
-        <source>its picture does not follow the machine</source>
-        <translation>其图像不随机床移动</translation>
-    </message>
-    <message>
-        <source>a measurement</source>
-        <translation>测量</translation>
-    </message>
-    <message>
-        <source>a time from 0.1 to 60 s</source>
-        <translation>0.1 至 60 s 的时间</translation>
-    </message>
-    <message>
-        <source>the plan&apos;s measuring position</source>
-        <translation>计划的测量位置</translation>
-    </message>
-    <message>
-        <source>%1 %2 mm</source>
-        <translation>%1 %2 mm</translation>
-    </message>
-    <message>
-        <source>%1 %2 mm, where the cameras were calibrated</source>
-        <translation>%1 %2 mm，即标定相机的位置</translation>
-    </message>
-    <message>
         <source>camera is frozen</source>
         <translation>相机画面冻结</translation>
     </message>
@@ -2806,12 +2770,12 @@
         <translation>有缺失</translation>
     </message>
     <message>
-        <source>may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map</source>
-        <translation>可能为华氏度，但已按摄氏度处理：请在列映射中给出单位</translation>
+        <source>looks like degrees Fahrenheit and was converted</source>
+        <translation>疑似华氏温度，已换算</translation>
     </message>
     <message>
-        <source>may be in kelvin but was taken as degrees Celsius: give its unit in the column map</source>
-        <translation>可能为开尔文，但已按摄氏度处理：请在列映射中给出单位</translation>
+        <source>looks like kelvin and was converted</source>
+        <translation>疑似开尔文温度，已换算</translation>
     </message>
     <message>
         <source>has values no machine tool reaches</source>
@@ -3130,20 +3094,20 @@
         <translation>%1 有缺失（%2）</translation>
     </message>
     <message>
-        <source>%1 may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map</source>
-        <translation>%1 可能为华氏度，但已按摄氏度处理：请在列映射中给出单位</translation>
+        <source>%1 looks like degrees Fahrenheit and was converted</source>
+        <translation>%1 疑似华氏温度，已换算</translation>
     </message>
     <message>
-        <source>%1 may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map (%2)</source>
-        <translation>%1 可能为华氏度，但已按摄氏度处理：请在列映射中给出单位（%2）</translation>
+        <source>%1 looks like degrees Fahrenheit and was converted (%2)</source>
+        <translation>%1 疑似华氏温度，已换算（%2）</translation>
     </message>
     <message>
-        <source>%1 may be in kelvin but was taken as degrees Celsius: give its unit in the column map</source>
-        <translation>%1 可能为开尔文，但已按摄氏度处理：请在列映射中给出单位</translation>
+        <source>%1 looks like kelvin and was converted</source>
+        <translation>%1 疑似开尔文温度，已换算</translation>
     </message>
     <message>
-        <source>%1 may be in kelvin but was taken as degrees Celsius: give its unit in the column map (%2)</source>
-        <translation>%1 可能为开尔文，但已按摄氏度处理：请在列映射中给出单位（%2）</translation>
+        <source>%1 looks like kelvin and was converted (%2)</source>
+        <translation>%1 疑似开尔文温度，已换算（%2）</translation>
     </message>
     <message>
         <source>%1 has values no machine tool reaches</source>
@@ -4414,12 +4378,12 @@
         <translation>记录 {recording}：{@what}。</translation>
     </message>
     <message>
-        <source>Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; give their unit in the column map.</source>
-        <translation>记录 {recording}：温度可能为华氏度，但已按摄氏度处理；请在列映射中给出单位。</translation>
+        <source>Recording {recording}: the temperatures look like degrees Fahrenheit and were converted.</source>
+        <translation>记录 {recording}：温度似为华氏度，已换算。</translation>
     </message>
     <message>
-        <source>Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit in the column map.</source>
-        <translation>记录 {recording}：温度可能为开尔文，但已按摄氏度处理；请在列映射中给出单位。</translation>
+        <source>Recording {recording}: the temperatures look like kelvin and were converted.</source>
+        <translation>记录 {recording}：温度似为开尔文，已换算。</translation>
     </message>
     <message>
         <source>may not be in seconds: no machine tool warms so fast</source>
@@ -4704,8 +4668,42 @@
     <message>
         <source>damaged XML</source>
         <translation>损坏的 XML</translation>
-        <source>a report of a rotary axis</source>
-        <translation>旋转轴报告</translation>
+    </message>
+    <message>
+        <source>%1, scale %2</source>
+        <translation>%1，比例 %2</translation>
+    </message>
+    <message>
+        <source>may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>可能为华氏度，但已按摄氏度处理：请在列映射中给出单位</translation>
+    </message>
+    <message>
+        <source>may be in kelvin but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>可能为开尔文，但已按摄氏度处理：请在列映射中给出单位</translation>
+    </message>
+    <message>
+        <source>%1 may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>%1 可能为华氏度，但已按摄氏度处理：请在列映射中给出单位</translation>
+    </message>
+    <message>
+        <source>%1 may be in degrees Fahrenheit but was taken as degrees Celsius: give its unit in the column map (%2)</source>
+        <translation>%1 可能为华氏度，但已按摄氏度处理：请在列映射中给出单位（%2）</translation>
+    </message>
+    <message>
+        <source>%1 may be in kelvin but was taken as degrees Celsius: give its unit in the column map</source>
+        <translation>%1 可能为开尔文，但已按摄氏度处理：请在列映射中给出单位</translation>
+    </message>
+    <message>
+        <source>%1 may be in kelvin but was taken as degrees Celsius: give its unit in the column map (%2)</source>
+        <translation>%1 可能为开尔文，但已按摄氏度处理：请在列映射中给出单位（%2）</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; give their unit in the column map.</source>
+        <translation>记录 {recording}：温度可能为华氏度，但已按摄氏度处理；请在列映射中给出单位。</translation>
+    </message>
+    <message>
+        <source>Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit in the column map.</source>
+        <translation>记录 {recording}：温度可能为开尔文，但已按摄氏度处理；请在列映射中给出单位。</translation>
     </message>
     <message>
         <source>one of a linear axis; rotary axes are not compensated</source>
@@ -5064,8 +5062,88 @@
         <translation>实际 - 目标，并带单位；其他情况请用列映射说明</translation>
     </message>
     <message>
-        <source>%1, scale %2</source>
-        <translation>%1，比例 %2</translation>
+        <source>the room in the room's column (are the two exchanged?)</source>
+        <translation>室温列中应为室温（两列是否互换？）</translation>
+    </message>
+    <message>
+        <source>The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or touched?</source>
+        <translation>室温列在 {at} min 处跳变 {kelvin} K，正是所述气流开始之时：室温传感器是否被移动或触碰？</translation>
+    </message>
+    <message>
+        <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in {unit}?</source>
+        <translation>{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？</translation>
+    </message>
+    <message>
+        <source>the spindle's speed (was it logged?)</source>
+        <translation>主轴转速（是否已记录？）</translation>
+    </message>
+    <message>
+        <source>Going back to version %1</source>
+        <translation>回退到版本 %1</translation>
+    </message>
+    <message>
+        <source>roll back table</source>
+        <translation>回退补偿表</translation>
+    </message>
+    <message>
+        <source>A test move</source>
+        <translation>符号检查</translation>
+    </message>
+    <message>
+        <source>Switching the compensation on</source>
+        <translation>接通补偿</translation>
+    </message>
+    <message>
+        <source>Switching the compensation off</source>
+        <translation>断开补偿</translation>
+    </message>
+    <message>
+        <source>switch compensation</source>
+        <translation>切换补偿</translation>
+    </message>
+    <message>
+        <source>the target still moves in the picture</source>
+        <translation>靶标在图像中仍在移动</translation>
+    </message>
+    <message>
+        <source>the picture does not show the move to the measuring position</source>
+        <translation>图像没有显示向测量位置的移动</translation>
+    </message>
+    <message>
+        <source>the machine moved while it was measured</source>
+        <translation>测量时机床发生了移动</translation>
+    </message>
+    <message>
+        <source>its picture does not follow the machine</source>
+        <translation>其图像不随机床移动</translation>
+    </message>
+    <message>
+        <source>a measurement</source>
+        <translation>测量</translation>
+    </message>
+    <message>
+        <source>a time from 0.1 to 60 s</source>
+        <translation>0.1 至 60 s 的时间</translation>
+    </message>
+    <message>
+        <source>the plan&apos;s measuring position</source>
+        <translation>计划的测量位置</translation>
+    </message>
+    <message>
+        <source>%1 %2 mm</source>
+        <translation>%1 %2 mm</translation>
+    </message>
+    <message>
+        <source>%1 %2 mm, where the cameras were calibrated</source>
+        <translation>%1 %2 mm，即标定相机的位置</translation>
+    </message>
+    <message>
+        <source>heat that something unlogged switches</source>
+        <translation>由未记录的开关控制的热量</translation>
+    </message>
+    <message>
+        <source>a film that a logged input drives</source>
+        <translation>由已记录输入驱动的换热</translation>
     </message>
 </context>
 <context>
@@ -5659,54 +5737,6 @@
         <translation>测量以另一标记继续进行，不确定度增大；请擦净标记，或移开遮挡物。</translation>
     </message>
     <message>
-        <source>Neither the plan nor the profile says where the errors are measured: the position of {axes} is missing.</source>
-        <translation>计划和配置都没有说明在哪里测量误差：缺少 {axes} 的位置。</translation>
-    </message>
-    <message>
-        <source>Give measure_position_mm in the plan or in the profile.</source>
-        <translation>请在计划或配置中给出 measure_position_mm。</translation>
-    </message>
-    <message>
-        <source>A measurement takes longer than its period: the errors are measured every {every_s} s instead of every {period_s} s.</source>
-        <translation>一次测量所需的时间超过测量周期：误差每 {every_s} s 测量一次，而不是每 {period_s} s。</translation>
-    </message>
-    <message>
-        <source>The run goes on; close other programs on this computer, or choose a longer measuring period.</source>
-        <translation>运行继续；请关闭本计算机上的其他程序，或选择更长的测量周期。</translation>
-    </message>
-    <message>
-        <source>At this pace the run will end with {expected} good measurements, at least {needed} are needed.</source>
-        <translation>按目前的速度，运行结束时只有 {expected} 次有效测量，至少需要 {needed} 次。</translation>
-    </message>
-    <message>
-        <source>Look at why measurements are refused or slow, then start again: close other programs on this computer, clear the view, or plan a longer run.</source>
-        <translation>请查明测量被拒绝或变慢的原因，然后重新开始：关闭本计算机上的其他程序、清理视野，或计划更长的运行。</translation>
-    </message>
-    <message>
-        <source>The error in {axis} leapt by {change_um} um since the last measurement; heat can make at most {limit_um} um of it. The measurement was refused.</source>
-        <translation>{axis} 方向的误差自上次测量以来跳变了 {change_um} um，而热变形最多只能造成 {limit_um} um。该测量被拒绝。</translation>
-    </message>
-    <message>
-        <source>Check that the target is firm in its holder and that nothing moves the machine; a leap that is found three times in a row is taken as a slip.</source>
-        <translation>请检查靶标是否固定牢靠、是否有其他原因使机床移动；连续三次出现的跳变按靶标滑移处理。</translation>
-    </message>
-    <message>
-        <source>The error in {axis} leapt by {change_um} um and stayed there: the target or its holder has slipped. The measurements since contain that leap.</source>
-        <translation>{axis} 方向的误差跳变了 {change_um} um 并保持不变：靶标或其支架发生了滑移。此后的测量包含这一跳变。</translation>
-    </message>
-    <message>
-        <source>Fix the target and repeat the run, or leave this part of the run out of the fit.</source>
-        <translation>请固定靶标并重新运行，或在拟合时排除这一段。</translation>
-    </message>
-    <message>
-        <source>The pictures of camera {view} were older than was known when it was calibrated; {seconds} s are waited for now.</source>
-        <translation>相机 {view} 的图像比标定时已知的更旧；现在等待 {seconds} s。</translation>
-    </message>
-    <message>
-        <source>The measurements hold. Check the camera&apos;s network, or calibrate anew.</source>
-        <translation>测量有效。请检查相机的网络，或重新标定。</translation>
-    </message>
-    <message>
         <source>A reference mark is not seen: {reason}.</source>
         <translation>有一个参考标记未被识别：{reason}。</translation>
     </message>
@@ -5909,12 +5939,6 @@
     <message>
         <source>Open the workbook in a spreadsheet program, save it, and import it again.</source>
         <translation>请用电子表格程序打开并保存该工作簿，然后重新导入。</translation>
-        <source>{file}, line {line}, column {column}: found {found}; expected {expected}.</source>
-        <translation>{file}，第 {line} 行，列 {column}：发现 {found}；应为 {expected}。</translation>
-    </message>
-    <message>
-        <source>Correct it there, or say with a column map (--map) what the column holds.</source>
-        <translation>请在该处更正，或用列映射（--map）说明该列的内容。</translation>
     </message>
     <message>
         <source>Correct it; if the sample is missing, leave the cell empty or add the word to &quot;missing&quot; in a header map (--map).</source>
@@ -5923,6 +5947,66 @@
     <message>
         <source>Times must be there in every line and increase: correct the order of the lines, or take the line out.</source>
         <translation>每行都必须有时间且递增：请更正行的次序，或删除该行。</translation>
+    </message>
+    <message>
+        <source>Use a decimal point; leave the cell empty if the sample is missing.</source>
+        <translation>请使用小数点；缺少采样时单元格留空。</translation>
+    </message>
+    <message>
+        <source>time_s must be there in every line and increase.</source>
+        <translation>每行都必须有 time_s，且递增。</translation>
+    </message>
+    <message>
+        <source>Correct it there, or say with a column map (--map) what the column holds.</source>
+        <translation>请在该处更正，或用列映射（--map）说明该列的内容。</translation>
+    </message>
+    <message>
+        <source>Neither the plan nor the profile says where the errors are measured: the position of {axes} is missing.</source>
+        <translation>计划和配置都没有说明在哪里测量误差：缺少 {axes} 的位置。</translation>
+    </message>
+    <message>
+        <source>Give measure_position_mm in the plan or in the profile.</source>
+        <translation>请在计划或配置中给出 measure_position_mm。</translation>
+    </message>
+    <message>
+        <source>A measurement takes longer than its period: the errors are measured every {every_s} s instead of every {period_s} s.</source>
+        <translation>一次测量所需的时间超过测量周期：误差每 {every_s} s 测量一次，而不是每 {period_s} s。</translation>
+    </message>
+    <message>
+        <source>The run goes on; close other programs on this computer, or choose a longer measuring period.</source>
+        <translation>运行继续；请关闭本计算机上的其他程序，或选择更长的测量周期。</translation>
+    </message>
+    <message>
+        <source>At this pace the run will end with {expected} good measurements, at least {needed} are needed.</source>
+        <translation>按目前的速度，运行结束时只有 {expected} 次有效测量，至少需要 {needed} 次。</translation>
+    </message>
+    <message>
+        <source>Look at why measurements are refused or slow, then start again: close other programs on this computer, clear the view, or plan a longer run.</source>
+        <translation>请查明测量被拒绝或变慢的原因，然后重新开始：关闭本计算机上的其他程序、清理视野，或计划更长的运行。</translation>
+    </message>
+    <message>
+        <source>The error in {axis} leapt by {change_um} um since the last measurement; heat can make at most {limit_um} um of it. The measurement was refused.</source>
+        <translation>{axis} 方向的误差自上次测量以来跳变了 {change_um} um，而热变形最多只能造成 {limit_um} um。该测量被拒绝。</translation>
+    </message>
+    <message>
+        <source>Check that the target is firm in its holder and that nothing moves the machine; a leap that is found three times in a row is taken as a slip.</source>
+        <translation>请检查靶标是否固定牢靠、是否有其他原因使机床移动；连续三次出现的跳变按靶标滑移处理。</translation>
+    </message>
+    <message>
+        <source>The error in {axis} leapt by {change_um} um and stayed there: the target or its holder has slipped. The measurements since contain that leap.</source>
+        <translation>{axis} 方向的误差跳变了 {change_um} um 并保持不变：靶标或其支架发生了滑移。此后的测量包含这一跳变。</translation>
+    </message>
+    <message>
+        <source>Fix the target and repeat the run, or leave this part of the run out of the fit.</source>
+        <translation>请固定靶标并重新运行，或在拟合时排除这一段。</translation>
+    </message>
+    <message>
+        <source>The pictures of camera {view} were older than was known when it was calibrated; {seconds} s are waited for now.</source>
+        <translation>相机 {view} 的图像比标定时已知的更旧；现在等待 {seconds} s。</translation>
+    </message>
+    <message>
+        <source>The measurements hold. Check the camera&apos;s network, or calibrate anew.</source>
+        <translation>测量有效。请检查相机的网络，或重新标定。</translation>
     </message>
 </context>
 <context>
@@ -6012,26 +6096,6 @@
         <translation>靶标部分被遮挡</translation>
     </message>
     <message>
-        <source>measuring period stretched</source>
-        <translation>测量周期被延长</translation>
-    </message>
-    <message>
-        <source>too few measurements expected</source>
-        <translation>预计测量次数过少</translation>
-    </message>
-    <message>
-        <source>leap of the error, refused</source>
-        <translation>误差跳变，已拒绝</translation>
-    </message>
-    <message>
-        <source>slip of the target, confirmed</source>
-        <translation>靶标滑移，已确认</translation>
-    </message>
-    <message>
-        <source>camera later than known</source>
-        <translation>相机延迟比已知的更长</translation>
-    </message>
-    <message>
         <source>disk full</source>
         <translation>磁盘已满</translation>
     </message>
@@ -6050,6 +6114,26 @@
     <message>
         <source>reference mark not seen</source>
         <translation>参考标记未识别</translation>
+    </message>
+    <message>
+        <source>measuring period stretched</source>
+        <translation>测量周期被延长</translation>
+    </message>
+    <message>
+        <source>too few measurements expected</source>
+        <translation>预计测量次数过少</translation>
+    </message>
+    <message>
+        <source>leap of the error, refused</source>
+        <translation>误差跳变，已拒绝</translation>
+    </message>
+    <message>
+        <source>slip of the target, confirmed</source>
+        <translation>靶标滑移，已确认</translation>
+    </message>
+    <message>
+        <source>camera later than known</source>
+        <translation>相机延迟比已知的更长</translation>
     </message>
 </context>
 <context>
@@ -6840,6 +6924,10 @@
         <source>What the simulation lacks was not searched.</source>
         <translation>未能查找仿真所缺的内容。</translation>
     </message>
+    <message>
+        <source>The job holds no machine yet: connect it and start the commissioning on the Machine page.</source>
+        <translation>作业中还没有机床：请在“机床”页连接机床并开始调试。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::PinDialog</name>
@@ -7086,6 +7174,10 @@
     <message>
         <source>Copy it from here if it matters.</source>
         <translation>如有需要，请从此处复制。</translation>
+    </message>
+    <message>
+        <source>The run ends here and what was recorded is kept and used. The controller does not answer, so nothing is stopped from here: look whether the spindle stands.</source>
+        <translation>运行到此结束，已记录的数据会保存并使用。控制器没有应答，因此无法从此处停止机床：请查看主轴是否已停。</translation>
     </message>
 </context>
 <context>
@@ -7397,6 +7489,10 @@
     <message>
         <source>The controller answers again</source>
         <translation>控制器恢复应答</translation>
+    </message>
+    <message>
+        <source>%1 is still running</source>
+        <translation>“%1”仍在进行</translation>
     </message>
 </context>
 <context>
@@ -8572,6 +8668,22 @@
     <message>
         <source>Will leave %1 µm rms in the worst axis at speeds like these.</source>
         <translation>在类似转速下最差轴残余 %1 µm rms。</translation>
+    </message>
+    <message>
+        <source>Fit the model</source>
+        <translation>拟合模型</translation>
+    </message>
+    <message>
+        <source>Fit again</source>
+        <translation>重新拟合</translation>
+    </message>
+    <message>
+        <source>Fit a model first.</source>
+        <translation>请先拟合模型。</translation>
+    </message>
+    <message>
+        <source>Out of date: %1 changed after this model was fitted. Fit again.</source>
+        <translation>已过期：拟合此模型后%1已更改。请重新拟合。</translation>
     </message>
 </context>
 <context>

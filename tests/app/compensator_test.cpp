@@ -64,10 +64,10 @@ class CompensatorTest : public QObject, private zerodrift::desktop::TestHome {
     const auto fitted = model();
     QVERIFY(fitted.has_value());
     using zerodrift::commissioning::NewArtefact;
-    QVERIFY(bench.keep(NewArtefact::of("warmup", {{"zero_um", {0.0, 0.0, 0.0}}}, {})).has_value());
-    QVERIFY(bench.keep(NewArtefact::of("model", {{"model", zerodrift::analysis::to_json(*fitted)}}, {})).has_value());
+    QVERIFY(keeps(bench, NewArtefact::of("warmup", {{"zero_um", {0.0, 0.0, 0.0}}}, {})));
+    QVERIFY(keeps(bench, NewArtefact::of("model", {{"model", zerodrift::analysis::to_json(*fitted)}}, {})));
     const nlohmann::json seen = {{"sign_check", nlohmann::json::object()}};
-    QVERIFY(bench.keep(NewArtefact::of("upload", seen, {})).has_value());
+    QVERIFY(keeps(bench, NewArtefact::of("upload", seen, {})));
     QTRY_VERIFY_WITH_TIMEOUT(bench.connected() && !bench.tasks().running(), 20000);
     presenter->refresh();
     QVERIFY2(page->primaryAction().enabled, qPrintable(page->primaryAction().reason));

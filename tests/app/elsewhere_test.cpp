@@ -14,8 +14,8 @@
 #include <QTimer>
 
 #include "app/desktop/application.h"
-#include "app/desktop/machine_writes.h"
 #include "app/desktop/stall_watch.h"
+#include "core/controller/modbus_machine.h"
 #include "ui/shell/theme.h"
 
 namespace {

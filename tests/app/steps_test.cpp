@@ -83,6 +83,71 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
     }
   }
 
+  /// After a fit that failed the page offers to fit, and methods to choose from.
+  void aFitThatFailedLeavesAWayOn() {
+    Application application(m_theme);
+    QVERIFY(recorded(application));
+    auto& bench = application.bench();
+    QVERIFY(keeps(bench, NewArtefact::of("sensors", {{"chosen", {"T99_C"}}}, {(*bench.job()->latest("warmup"))->id})));
+    application.openPage(QStringLiteral("fit"));
+    auto* page = qobject_cast<zerodrift::ui::FitPage*>(application.presenter(QStringLiteral("fit"))->page());
+    auto& tasks = bench.tasks();
+    QTRY_VERIFY_WITH_TIMEOUT(!tasks.running(), 60000);
+    QVERIFY(!page->problem().sentence.isEmpty());
+    QVERIFY(!bench.has("model"));
+    QVERIFY2(page->primaryAction().enabled, qPrintable(page->primaryAction().reason));
+    QVERIFY(page->primaryAction().text.startsWith(QStringLiteral("Fit")));
+    QVERIFY(page->state().methods.size() >= 2);
+    Q_EMIT page->methodChosen(page->state().methods.front().id);
+    QTRY_VERIFY_WITH_TIMEOUT(!tasks.running(), 60000);
+    const auto sensors = zerodrift::flow::choose_sensors(*bench.job(), {}, {});
+    QVERIFY(sensors && keeps(bench, *sensors));
+    Q_EMIT page->primaryTriggered();
+    QTRY_VERIFY_WITH_TIMEOUT(bench.has("model") && !tasks.running(), 60000);
+    QCOMPARE(page->state().standing, zerodrift::ui::FitStanding::current);
+  }
+
+  /// A model that was fitted from other sensors says so and is fitted again as it was asked for; undo begins at the
+  /// method of the job.
+  void aModelThatIsOutOfDateIsFittedAgain() {
+    QString path;
+    {
+      Application application(m_theme);
+      QVERIFY(recorded(application));
+      auto& bench = application.bench();
+      path = QString::fromStdString(bench.job()->path().string());
+      application.openPage(QStringLiteral("fit"));
+      auto* page = qobject_cast<zerodrift::ui::FitPage*>(application.presenter(QStringLiteral("fit"))->page());
+      QTRY_VERIFY_WITH_TIMEOUT(bench.has("model") && !bench.tasks().running(), 60000);
+      Q_EMIT page->methodChosen(QStringLiteral("mlr"));
+      QTRY_VERIFY_WITH_TIMEOUT(!bench.tasks().running(), 60000);
+      QCOMPARE(page->state().standing, zerodrift::ui::FitStanding::current);
+      zerodrift::flow::SensorsOptions by_hand;
+      by_hand.chosen = {"T1_C", "T4_C"};
+      const auto sensors = zerodrift::flow::choose_sensors(*bench.job(), by_hand, {});
+      QVERIFY(sensors && keeps(bench, *sensors));
+      application.openPage(QStringLiteral("fit"));
+      QCOMPARE(page->state().standing, zerodrift::ui::FitStanding::stale);
+      QVERIFY(!page->state().changed.isEmpty());
+      Q_EMIT page->primaryTriggered();
+      QTRY_VERIFY_WITH_TIMEOUT(!bench.tasks().running(), 60000);
+      QCOMPARE(page->state().standing, zerodrift::ui::FitStanding::current);
+      QCOMPARE(page->state().method, QStringLiteral("mlr"));
+    }
+    Application application(m_theme);
+    QVERIFY(application.bench().openJob(path.toStdString()).has_value());
+    application.openPage(QStringLiteral("fit"));
+    auto* presenter = application.presenter(QStringLiteral("fit"));
+    auto* page = qobject_cast<zerodrift::ui::FitPage*>(presenter->page());
+    auto& tasks = application.bench().tasks();
+    Q_EMIT page->methodChosen(QStringLiteral("ridge"));
+    QTRY_VERIFY_WITH_TIMEOUT(!tasks.running(), 60000);
+    QCOMPARE(page->state().method, QStringLiteral("ridge"));
+    presenter->undo();
+    QTRY_VERIFY_WITH_TIMEOUT(!tasks.running(), 60000);
+    QCOMPARE(page->state().method, QStringLiteral("mlr"));
+  }
+
   void aNewerRunCorrectsTheModel() {
     Application application(m_theme);
     QVERIFY(recorded(application));
@@ -120,7 +185,7 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
                 {(*warmup)->id, (*upload)->id}));
     const auto judged = zerodrift::flow::judge_again(job, 2.0);
     QVERIFY2(judged.has_value(), judged ? "" : describe(judged.error()).c_str());
-    QVERIFY(application.bench().keep(*judged).has_value());
+    QVERIFY(keeps(application.bench(), *judged));
 
     application.openPage(QStringLiteral("verify"));
     auto* page = qobject_cast<zerodrift::ui::VerifyPage*>(application.presenter(QStringLiteral("verify"))->page());
@@ -167,7 +232,7 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
                                    {"peak_error_after_um", {{"Z", left_um}}},
                                    {"removed_percent", {{"Z", removed_percent}}}};
       const auto made = NewArtefact::of("verification", body, {(*warmup)->id, (*calibration)->id, (*upload)->id});
-      return application.bench().keep(made).has_value();
+      return keeps(application.bench(), made);
     };
     const auto standing = [&] { return application.presenter(QStringLiteral("verify"))->standing(); };
     QVERIFY(verified(1.2, 97.0));
@@ -235,7 +300,7 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
     for (int time = 0; time < 2; ++time) {
       const auto judged = zerodrift::flow::judge_again(job, 2.0);
       QVERIFY2(judged.has_value(), judged ? "" : describe(judged.error()).c_str());
-      QVERIFY(application.bench().keep(*judged).has_value());
+      QVERIFY(keeps(application.bench(), *judged));
     }
     const auto problems = application.bench().body("verification").at("problems");
     QCOMPARE(problems.size(), std::size_t{1});
@@ -275,7 +340,7 @@ class StepsTest : public QObject, private zerodrift::desktop::TestHome {
       return false;
     }
     const auto sensors = zerodrift::flow::choose_sensors(job, {}, {});
-    return sensors && application.bench().keep(*sensors).has_value();
+    return sensors && keeps(application.bench(), *sensors);
   }
 
   int m_jobs = 0;

@@ -86,7 +86,7 @@ def commission(folder, seed, speedup, hours, marks):
     with VirtualMachine(folder, speedup, seed) as machine:
         use_marks(machine.profile, marks)
         cli("commission", "--profile", machine.profile, "--plan", plan, "--job", job, "--report",
-            os.path.join(folder, "report.pdf"), "--json", timeout=3000)
+            os.path.join(folder, "report.pdf"), "--yes", "--json", timeout=3000)
     truth = Truth(machine.truth_rows())
     template_s = truth.template_time()
     print(f"seed {seed}, {speedup} machine seconds a second, {hours} h, {marks} marks; templates at {template_s:.0f} s")

@@ -23,7 +23,7 @@ def commission(folder, seed):
     with VirtualMachine(folder, 240, seed) as machine:
         started = time.time()
         _, out, _ = cli("commission", "--profile", machine.profile, "--plan", plan, "--job", job, "--report", report,
-                        "--json")
+                        "--yes", "--json")
         took = time.time() - started
     result = json.loads(out)
     rows = machine.truth_rows()

@@ -27,7 +27,7 @@ def commission_the_peer(folder):
         plan = write_json(os.path.join(folder, "plan.json"), warm_up_plan(hours=2.0, measure_period_s=60))
         job = os.path.join(folder, "peer.zdj")
         _, out, _ = cli("commission", "--profile", profile, "--plan", plan, "--job", job, "--report",
-                        os.path.join(folder, "peer.html"), "--json")
+                        os.path.join(folder, "peer.html"), "--yes", "--json")
         result = json.loads(out)
         print("pymodbus peer:", result["peak_error_before_um"], result["peak_error_after_um"], result["table_version"])
         assert result["table_version"] >= 1

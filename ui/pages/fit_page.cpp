@@ -104,14 +104,22 @@ QString FitPage::sentence() const {
 }
 
 PageAction FitPage::primary() const {
-  const bool ready = m_state.blocked.isEmpty() && !m_state.method.isEmpty();
-  return {"primary", tr("Use this model"), ready, m_state.blocked.isEmpty() ? tr("Choose a method.") : m_state.blocked};
+  const bool ready = m_state.blocked.isEmpty();
+  switch (m_state.standing) {
+    case FitStanding::none:
+      return {"primary", tr("Fit the model"), ready, m_state.blocked};
+    case FitStanding::stale:
+      return {"primary", tr("Fit again"), ready, m_state.blocked};
+    case FitStanding::current:
+      break;
+  }
+  return {"primary", tr("Use this model"), ready, m_state.blocked};
 }
 
 QVector<PageAction> FitPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
   return {
-      {"update", tr("Update by a new run…"), !m_state.method.isEmpty(), tr("Choose a method."),
+      {"update", tr("Update by a new run…"), m_state.standing != FitStanding::none, tr("Fit a model first."),
        tr("Machines age. A recording of half an hour corrects this model instead of starting over: what it does not "
           "excite stays as it was.")}};
 }
@@ -157,7 +165,14 @@ void FitPage::render() {
   m_plotCard->setSubtitle(names.isEmpty() ? QStringLiteral("µm") : QStringLiteral("%1, µm").arg(names[index]));
   renderMethods();
   renderWords();
-  if (m_state.series.isEmpty()) return;
+  if (m_state.series.isEmpty()) {
+    m_legend->setItems({});
+    for (XyPlot* plot : {m_prediction, m_overTime, m_overTemperature, m_histogram}) {
+      plot->clear();
+      plot->setSpans({});
+    }
+    return;
+  }
   if (residuals) {
     renderResiduals(m_state.series[index]);
   } else {
@@ -251,7 +266,9 @@ void FitPage::renderMethods() {
 
 void FitPage::renderWords() {
   m_wordCard->setTitle(tr("What to expect"));
-  if (std::isnan(m_state.attainableRms_um)) {
+  if (m_state.standing == FitStanding::stale) {
+    m_headline->setText(tr("Out of date: %1 changed after this model was fitted. Fit again.").arg(m_state.changed));
+  } else if (std::isnan(m_state.attainableRms_um)) {
     m_headline->setText(tr("Choose a method to see what it will leave."));
   } else if (m_state.oneCycle) {
     m_headline->setText(

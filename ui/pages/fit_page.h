@@ -45,8 +45,16 @@ struct FitStretch {
   bool training = true;
 };
 
+enum class FitStanding {
+  none,   // nothing was fitted yet, or the fit failed
+  stale,  // what it was fitted from has changed since
+  current,
+};
+
 struct FitState {
   QString blocked{};
+  FitStanding standing = FitStanding::none;
+  QString changed{};  // stale: what
   QVector<FitSeries> series{};
   QVector<FitStretch> stretches{};
   QVector<MethodRow> methods{};

@@ -266,6 +266,11 @@ void PhysicsPage::renderMap() {
   m_region->setText(m_state.region);
   m_region->setVisible(!m_state.region.isEmpty());
   m_map->setPlaceholder(tr("Drawn when the search is done"));
+  if (m_state.components.isEmpty()) {
+    m_drawing->setComponent({});
+    m_map->setSensors({});
+    m_map->setData({});
+  }
   if (m_state.component < m_state.components.size()) {
     const DrawnComponent& component = m_state.components[m_state.component];
     m_drawing->setComponent(component);
@@ -312,7 +317,11 @@ void PhysicsPage::renderChannel() {
   const QString id = m_channelTable->selectedId();
   const auto found = std::find_if(m_state.channels.begin(), m_state.channels.end(),
                                   [&](const SimulatedChannel& c) { return c.id == id; });
-  if (found == m_state.channels.end()) return;
+  if (found == m_state.channels.end()) {
+    m_channelLegend->setItems({});
+    for (LivePlot* plot : {m_channelPlot, m_residualPlot}) plot->setCurves({});
+    return;
+  }
   const Colors& c = colors();
   const auto curve = [&](const char* name, const QString& tag, const QColor& color, bool dashed) {
     Curve made;

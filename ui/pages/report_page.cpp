@@ -110,6 +110,11 @@ Card* ReportPage::makeSectionCard() {
   return m_sectionCard;
 }
 
+void ReportPage::clearSignature() {
+  const QSignalBlocker quiet(m_signature);
+  m_signature->clear();
+}
+
 void ReportPage::setState(const ReportState& state) {
   m_state = state;
   refresh();

@@ -72,6 +72,9 @@ class ReportPage : public Page {
   /// "bundle", "csv", "html".
   QVector<PageAction> secondary() const override;
 
+  /// It was given for another report.
+  void clearSignature();
+
  Q_SIGNALS:
   void headEdited(const zerodrift::ui::ReportHead& head);
   void languageChosen(int index);

@@ -181,8 +181,17 @@ void RunView::setBand(const QString& id, const QVector<double>& time_s, const QV
 }
 
 void RunView::clear() {
+  for (const RunValue& value : std::as_const(m_values)) {
+    for (ChannelTable* table : {m_temperatureTable, m_errorTable}) {
+      table->setValue(value.id, QStringLiteral("–"), {}, Judgement::none);
+    }
+    if (LivePlot* plot = m_plotOf.value(value.id)) plot->setEmphasis(value.id, false);
+  }
   m_values.clear();
   for (LivePlot* plot : {m_temperatures, m_errors, m_inputs}) plot->clearData();
+  setMarks({});
+  setRegimes({}, 0.0);
+  setFrame({}, {});
 }
 
 void RunView::setValues(const QVector<RunValue>& values) {

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "app/cli/access.h"
+#include "app/cli/consent.h"
 #include "app/cli/report_files.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
@@ -30,18 +31,6 @@ struct Options {
   std::string customer;
   std::string language = "en";
 };
-
-/// A person at a terminal is asked; a script that calls this command has confirmed by calling it.
-bool confirmed(const flow::UploadPreview& preview) {
-  std::fprintf(stderr, "\nThe table to be written to %s (serial %u) changes the compensation by up to %.1f um (%s).\n",
-               preview.record.machine.c_str(), preview.record.serial, preview.largest_change_um,
-               preview.largest_change_axis.c_str());
-  if (::isatty(STDIN_FILENO) == 0) return true;
-  std::fprintf(stderr, "Write it? [y/N] ");
-  std::string answer;
-  std::getline(std::cin, answer);
-  return answer == "y" || answer == "yes";
-}
 
 /// Who did it stands in every entry of the job: given, asked for at a terminal, or missing, which the report says.
 Status name_people(commissioning::Job& job, const Options& options) {
@@ -83,8 +72,9 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   ZD_TRY(commission_options.plan, acquisition::read_plan(options.plan, &output.warnings));
   commission_options.limit_um = options.limit_um;
   commission_options.keep_views = !options.small;
+  commission_options.consent = consent_of(options.yes);
   ZD_TRY(commission_options.permit, engineer(pin, "A commissioning"));
-  if (!options.yes) commission_options.confirm = confirmed;
+  ZD_CHECK(commission_options.consent.possible("A commissioning"));
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
   ZD_CHECK(name_people(job, options));
   ZD_TRY(const auto result, flow::commission(job, profile, document, commission_options, context));
@@ -115,7 +105,8 @@ void add_commission(Cli& cli) {
   command->add_option("--engineer", options->engineer, "Who does the work; stands in the job and the report");
   command->add_option("--customer", options->customer, "For whom; stands in the report");
   command->add_option("--language", options->language, "Language of the report: en or zh");
-  command->add_flag("--yes", options->yes, "Do not ask before the table is written");
+  command->add_flag("--yes", options->yes,
+                    "Do not ask before something is written; without a terminal nothing is without it");
 }
 
 }  // namespace zerodrift::cli

@@ -4,12 +4,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <iostream>
 
 #include "app/cli/access.h"
+#include "app/cli/consent.h"
 #include "core/base/time_text.h"
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
+#include "core/flow/steps/upload_step.h"
 
 namespace zerodrift::cli {
 namespace machine_table_command {
@@ -30,34 +31,6 @@ struct Options {
   bool yes = false;
 };
 
-std::string text_of(const UploadRecord& record) {
-  std::string text;
-  for (const auto& axis : record.difference) {
-    text +=
-        fmt::format("axis {}: largest change {:.2f} um at {:g} mm\n", axis.axis, axis.largest_um, axis.largest_at_mm);
-    for (const auto& row : axis.curve) {
-      text += fmt::format("  {:>10.3f} mm   old {:>8.2f} {:>8.2f}   new {:>8.2f} {:>8.2f} um\n", row.position_mm,
-                          row.old_up_um, row.old_down_um, row.new_up_um, row.new_down_um);
-    }
-  }
-  text += fmt::format("{} registers, CRC {:08x}, version {} -> {}\n", record.new_words.size(), record.crc,
-                      record.old_sequence, record.sequence);
-  text += fmt::format("state: {}", name_of(record.reached));
-  if (record.dry_run) text += " (dry run: nothing was written)";
-  return text;
-}
-
-/// Asks on a terminal; without one only --yes will do.
-Status confirm(const std::string& operation, const UploadRecord& preview) {
-  const bool terminal = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
-  if (terminal) {
-    std::fprintf(stderr, "%s\n%s? Type yes: ", text_of(preview).c_str(), operation.c_str());
-    std::string answer;
-    if (std::getline(std::cin, answer) && answer == "yes") return {};
-  }
-  return fail(ErrorCode::not_confirmed, {{"operation", operation}});
-}
-
 /// A dry run only reads.
 Result<access::Permit> permit_for(const Options& options, const PinOption& pin, const std::string& operation) {
   if (options.dry_run) return access::Permit::read_only();
@@ -67,21 +40,28 @@ Result<access::Permit> permit_for(const Options& options, const PinOption& pin, 
 using Transaction = std::function<UploadRecord(const UploadOptions&)>;
 
 /// Preview, question, then the transaction.
-Result<UploadRecord> confirmed(const std::string& operation, const Options& options, UploadOptions upload,
+Result<UploadRecord> confirmed(const std::string& operation, const Options& options, access::Permit permit,
                                const Transaction& transaction) {
+  flow::UploadPreview preview;
   if (options.dry_run || !options.yes) {
-    UploadOptions dry = upload;
+    UploadOptions dry;
     dry.dry_run = true;
-    UploadRecord preview = transaction(dry);
-    if (!preview.result) return fail(preview.result.error());
-    if (options.dry_run) return preview;
-    ZD_CHECK(confirm(operation, preview));
+    preview.record = transaction(dry);
+    if (!preview.record.result) return fail(preview.record.result.error());
+    if (options.dry_run) return preview.record;
   }
+  const flow::WriteQuestion question{operation, flow::machine_text(preview.record.machine, preview.record.serial),
+                                     &preview};
+  ZD_TRY(const auto write, flow::MachineWrite::begin(nullptr, permit, consent_of(options.yes), question));
+  UploadOptions upload;
   upload.observer = [](const controller::UploadStep& step) {
     if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r%-40s", std::string(name_of(step.state)).c_str());
   };
-  UploadRecord record = transaction(upload);
-  if (!record.result) return fail(record.result.error());
+  UploadRecord record;
+  ZD_CHECK(write.write({}, [&]() -> Status {
+    record = transaction(upload);
+    return record.result;
+  }));
   return record;
 }
 
@@ -103,9 +83,10 @@ Result<CommandOutput> push(const Options& options, const TaskContext& context) {
   ZD_TRY(const compensation::Table table, compensation::read_table_file(options.table, &warnings));
   ZD_TRY(const auto permit, permit_for(options, *options.push_pin, "Writing the table into the controller"));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
-  const auto record = confirmed("Writing the table into the controller", options, {}, [&](const UploadOptions& how) {
-    return controller::push_table(*machine, table, controller::TableOrigin::upload, how, context);
-  });
+  const auto record =
+      confirmed("Writing the table into the controller", options, permit, [&](const UploadOptions& how) {
+        return controller::push_table(*machine, table, controller::TableOrigin::upload, how, context);
+      });
   if (!record) return fail(record.error());
   return output_of(*record, *machine, std::move(warnings));
 }
@@ -185,7 +166,7 @@ Result<CommandOutput> rollback(const Options& options, const TaskContext& contex
   ZD_TRY(const auto target, controller::rollback_target(*machine, {options.to, ""}));
   const std::string since = target.table.time.empty() ? "" : fmt::format(" of {}", target.table.time);
   ZD_TRY(const UploadRecord record,
-         confirmed(fmt::format("Going back to version {}{}", target.table.version, since), options, {},
+         confirmed(fmt::format("Going back to version {}{}", target.table.version, since), options, *permit,
                    [&](const UploadOptions& how) { return controller::roll_back(*machine, target, how, context); }));
   CommandOutput output = output_of(record, *machine, std::move(warnings));
   output.json["rolled_back_to"] = target.table.version;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "app/cli/access.h"
+#include "app/cli/consent.h"
 #include "core/acquisition/plan.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/upload_step.h"
 #include "core/flow/steps/verify_step.h"
 
@@ -22,15 +24,17 @@ struct Options {
 };
 
 Status apply_correction(commissioning::Job& job, flow::Devices& devices, const commissioning::Artefact& verification,
-                        const Options& options, const TaskContext& context) {
+                        const flow::Consent& consent, const TaskContext& context) {
   ZD_TRY(const auto table, flow::corrected_table(verification));
   if (!table) return {};
-  flow::UploadStepOptions upload_options;
-  upload_options.table = table;
-  upload_options.sign_check = false;
-  upload_options.confirm = [&](const flow::UploadPreview&) { return options.yes; };
-  ZD_TRY(const auto made, flow::upload(job, devices, upload_options, context));
-  return job.put(made).map([](auto) {});
+  const auto write = [&](commissioning::Job& in, const TaskContext& inner) {
+    flow::UploadStepOptions options;
+    options.table = table;
+    options.sign_check = false;
+    options.consent = consent;
+    return flow::upload(in, devices, options, inner);
+  };
+  return flow::Flow().perform(job, "upload", write, context).map([](const auto&) {});
 }
 
 Result<CommandOutput> run(const Options& options, const PinOption& pin, const TaskContext& context) {
@@ -43,9 +47,13 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
     ZD_TRY(verify_options.run.plan, acquisition::read_plan(options.plan, &output.warnings));
   }
   ZD_TRY(const auto permit, engineer(pin, "A verification"));
+  const flow::Consent consent = consent_of(options.yes);
+  if (options.correct) ZD_CHECK(consent.possible("Writing the corrected table"));  // not after an hour of measuring
   ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
-  ZD_TRY(const auto made, flow::verify(job, devices, verify_options, context));
-  ZD_TRY(const auto artefact, job.put(made));
+  const auto verify = [&](commissioning::Job& in, const TaskContext& inner) {
+    return flow::verify(in, devices, verify_options, inner);
+  };
+  ZD_TRY(const auto artefact, flow::Flow().perform(job, "verify", verify, context));
   ZD_TRY(output.json, artefact.document());
   output.json.erase("plan");
   const auto peaks = output.json.value("peak_error_after_um", nlohmann::json::object());
@@ -58,7 +66,7 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
     output.text += fmt::format("\n{}: kappa {:.3f}, {}", axis.value("axis", ""), axis.value("kappa", 1.0),
                                axis.value("reason", ""));
   }
-  if (options.correct) ZD_CHECK(apply_correction(job, devices, artefact, options, context));
+  if (options.correct) ZD_CHECK(apply_correction(job, devices, artefact, consent, context));
   return output;
 }
 
@@ -75,7 +83,8 @@ void add_verify(Cli& cli) {
   command->add_option("--job", options->job, "Job file")->required();
   command->add_option("--plan", options->plan, "Plan of the run; else the warm-up's speeds in another order");
   command->add_option("--limit-um", options->limit_um, "Largest error that may be left")->check(CLI::PositiveNumber);
-  command->add_flag("--correct", options->correct, "Upload the corrected table when too much is left (needs --yes)");
+  command->add_flag("--correct", options->correct,
+                    "Upload the corrected table when too much is left, after a question or with --yes");
   command->add_flag("--yes", options->yes, "Confirm the upload of a corrected table");
 }
 

@@ -235,6 +235,21 @@ compensation::Table AxisErrorsPresenter::table() const {
   return made;
 }
 
+void AxisErrorsPresenter::forget() {
+  m_file.clear();
+  m_bytes.clear();
+  m_how = {};
+  m_preview.reset();
+  m_report = {};
+  m_position_mm.clear();
+  m_error_um.clear();
+  m_options = {};
+  m_published = {};
+  m_optimal = {};
+  m_useOptimal = true;
+  m_format = 0;
+}
+
 void AxisErrorsPresenter::use() {
   nlohmann::json notes = nlohmann::json::array();
   for (const auto& note : chosen().notes) notes.push_back(note);
@@ -258,7 +273,10 @@ void AxisErrorsPresenter::use() {
                                {"file", QFileInfo(QString::fromStdString(m_report.file)).fileName().toStdString()},
                                {"largest_residual_um", chosen().largest_residual_um},
                                {"notes", notes}};
-  if (const Status kept = bench().keep(commissioning::NewArtefact::of("axis_table", body)); !kept) {
+  const auto kept = bench().takeIn("axis", [&body](commissioning::Job&, const TaskContext&) {
+    return Result<commissioning::NewArtefact>(commissioning::NewArtefact::of("axis_table", body));
+  });
+  if (!kept) {
     show(kept.error());
     return;
   }

@@ -18,6 +18,7 @@ class AxisErrorsPresenter : public Presenter {
  public:
   AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page);
   void refresh() override;
+  void forget() override;
   Standing standing() const override;
   void tour(std::function<void(bool good)> done) override;
   bool load(const QString& path);

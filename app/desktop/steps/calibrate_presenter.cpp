@@ -66,6 +66,19 @@ CalibratePresenter::CalibratePresenter(Workbench& bench, ui::CalibratePage* page
   connect(page, &ui::CalibratePage::markRemoved, this, &CalibratePresenter::removeMark);
 }
 
+void CalibratePresenter::forget() {
+  m_moveCamera.clear();
+  m_drawn = {};
+  m_undo.clear();
+  m_camera = 0;
+  m_current = false;
+  m_shownFor.clear();
+  m_live = std::make_shared<Live>();
+  static_cast<void>(m_page->takeConsent());  // it was for the moves of that job
+  m_page->setFrame({}, {});
+  m_page->setQuality({});
+}
+
 std::string CalibratePresenter::cameraShown() const {
   const auto& profile = bench().profile();
   if (!profile || m_camera >= static_cast<int>(profile->cameras.size())) return {};
@@ -222,8 +235,7 @@ void CalibratePresenter::confirmed() {
 
 void CalibratePresenter::start(std::function<void(bool good)> done) {
   const auto profile = bench().profile();
-  const auto* job = bench().job();
-  if (!profile || job == nullptr || m_running) return;
+  if (!profile || bench().job() == nullptr || m_running) return;
   const auto permit = permit_for(bench(), m_page, tr("Calibrating"));
   if (!permit) {
     if (done) done(false);
@@ -246,8 +258,9 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
   }
   runStep(
       tr("Calibrating"),
-      [profile = *profile, job, permit = *permit, live = m_live, shown, asking = m_asking,
-       span_mm = m_page->state().span_mm](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+      [profile = *profile, permit = *permit, live = m_live, shown, asking = m_asking,
+       span_mm = m_page->state().span_mm](commissioning::Job& job,
+                                          const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
         flow::CalibrateOptions options;
         options.regions = shown.regions;
@@ -266,7 +279,7 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
             return waitForConsent(*live, camera, now);
           };
         }
-        return flow::calibrate(*job, devices, options, context);
+        return flow::calibrate(job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {
         m_running = false;

@@ -25,6 +25,7 @@ class CalibratePresenter : public Presenter {
  public:
   CalibratePresenter(Workbench& bench, ui::CalibratePage* page);
   void refresh() override;
+  void forget() override;
   void enter() override;
   void leave() override;
   void tour(std::function<void(bool good)> done) override;

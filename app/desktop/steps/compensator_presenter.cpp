@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "app/desktop/ask.h"
-#include "app/desktop/machine_writes.h"
 #include "app/desktop/pin_dialog.h"
+#include "core/flow/rollback_and_switch.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
@@ -57,6 +57,11 @@ CompensatorPresenter::CompensatorPresenter(Workbench& bench, ui::CompensatorPage
   });
 }
 
+void CompensatorPresenter::forget() {
+  m_state = {};
+  m_page->clear();
+}
+
 /// The sign of the offset was watched by camera or probes, in this job.
 bool CompensatorPresenter::signsSeen() const {
   const auto& upload = bench().body("upload");
@@ -80,7 +85,7 @@ bool CompensatorPresenter::agreed(bool signs_seen) {
 
 void CompensatorPresenter::start() {
   const auto profile = bench().profile();
-  auto* job = bench().job();
+  const auto job = bench().job();
   if (!profile || job == nullptr || m_running) return;
   const bool seen = signsSeen();
   if (!agreed(seen)) return;
@@ -100,7 +105,7 @@ void CompensatorPresenter::start() {
       [job, profile = *profile, permit = *permit, seen,
        shared = m_shared](const TaskContext& context) -> Result<controller::CompensatorSummary> {
         if (!seen) {
-          ZD_TRY(const auto signs, try_signs(*job, profile, permit, context));
+          ZD_TRY(const auto signs, flow::try_signs(*job, profile, permit, flow::Consent::given(), context));
           ZD_CHECK(signs.result);
         }
         flow::LiveOptions options;

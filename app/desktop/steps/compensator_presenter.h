@@ -16,6 +16,7 @@ class CompensatorPresenter : public Presenter {
  public:
   CompensatorPresenter(Workbench& bench, ui::CompensatorPage* page);
   void refresh() override;
+  void forget() override;
   Standing standing() const override;
   void tour(std::function<void(bool good)> done) override { done(true); }
   bool running() const { return m_running; }

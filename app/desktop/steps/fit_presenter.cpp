@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "app/text/core_text.h"
+#include "app/text/error_text.h"
 #include "core/analysis/figures.h"
 #include "core/analysis/predict.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 #include "core/recording/csv.h"
@@ -93,6 +96,20 @@ QVector<ui::MethodRow> methods_of(Workbench& bench, const commissioning::Artefac
   return rows;
 }
 
+/// What can be asked for before anything was tried, or after a fit that failed.
+void offerUntried(ui::FitState& state) {
+  for (const auto method : {analysis::Method::ridge, analysis::Method::mlr, analysis::Method::dynamic}) {
+    const QString id = method_name(method);
+    if (std::any_of(state.methods.begin(), state.methods.end(), [&](const auto& row) { return row.id == id; }))
+      continue;
+    ui::MethodRow row;
+    row.id = id;
+    row.name = coreText(id);
+    row.onController = analysis::is_static(method);
+    state.methods.append(row);
+  }
+}
+
 /// One cycle: where the end of the run was left out, the curve is that of the fit that did not see it.
 void show_left_out(const analysis::Model& model, const recording::Recording& run, ui::FitState& state) {
   const auto figures = analysis::fit_figures(model, {run});
@@ -122,34 +139,37 @@ void show_left_out(const analysis::Model& model, const recording::Recording& run
 }  // namespace
 
 FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(bench, page), m_page(page) {
-  connect(&bench, &Workbench::jobChanged, this, [this] {
-    m_method = "auto";
-    m_undo.clear();
-  });
   connect(page, &ui::FitPage::methodChosen, this, [this](const QString& method) {
     if (this->bench().tasks().running()) return;
-    m_undo.push_back(m_method);
+    if (this->bench().has("model")) m_undo.push_back(asked());
     run(method.toStdString(), {});
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) {
     const QString path = QFileDialog::getOpenFileName(m_page, tr("Recording of a newer run"), QDir::homePath(),
                                                       tr("Recordings (*.csv)"));
     if (path.isEmpty() || this->bench().tasks().running()) return;
-    m_undo.push_back(m_method);  // undone by fitting as before
+    m_undo.push_back(asked());  // undone by fitting as before
     update(path.toStdString(), {});
   });
   connect(page, &ui::Page::primaryTriggered, this, [this] {
-    if (this->bench().has("model")) {
+    if (m_page->state().standing == ui::FitStanding::current) {
       Q_EMIT nextRequested();
     } else {
-      run("auto", {});
+      run(asked(), {});
     }
   });
 }
 
+std::string FitPresenter::asked() {
+  const auto job = bench().job();
+  const auto options =
+      job == nullptr ? flow::FitStepOptions{} : flow::fit_asked_for(*job).value_or(flow::FitStepOptions{});
+  return options.method;
+}
+
 void FitPresenter::enter() {
   refresh();
-  if (bench().has("sensors") && !bench().has("model") && !bench().tasks().running()) run("auto", {});
+  if (bench().has("sensors") && !bench().has("model") && !bench().tasks().running()) run(asked(), {});
 }
 
 void FitPresenter::undo() {
@@ -160,22 +180,20 @@ void FitPresenter::undo() {
 }
 
 void FitPresenter::run(const std::string& method, std::function<void(bool good)> done) {
-  const auto* job = bench().job();
-  if (job == nullptr) return;
-  m_method = method;
+  if (bench().job() == nullptr) return;
   runStep(
       tr("Fitting the model"),
-      [job, method](const TaskContext& context) { return flow::fit_model(*job, {method}, context); }, std::move(done));
+      [method](commissioning::Job& job, const TaskContext& context) { return flow::fit_model(job, {method}, context); },
+      std::move(done));
 }
 
 void FitPresenter::update(const std::string& recording, std::function<void(bool good)> done) {
-  const auto* job = bench().job();
-  if (job == nullptr) return;
+  if (bench().job() == nullptr) return;
   runStep(
       tr("Updating the model"),
-      [job, recording](const TaskContext&) -> Result<commissioning::NewArtefact> {
+      [recording](commissioning::Job& job, const TaskContext&) -> Result<commissioning::NewArtefact> {
         ZD_TRY(const auto run, recording::read_recording(recording));
-        return flow::update_model(*job, run);
+        return flow::update_model(job, run);
       },
       std::move(done));
 }
@@ -236,17 +254,25 @@ void FitPresenter::fill(ui::FitState& state) {
 
 void FitPresenter::refresh() {
   ui::FitState state;
-  if (!bench().has("sensors")) {
+  const auto job = bench().job();
+  if (job == nullptr || !bench().has("sensors")) {
     state.blocked = tr("Choose the sensors first: the model is fitted to them.");
   } else {
+    const auto status = flow::status_of(*job, "fit");
+    if (status.state == flow::StepState::current) state.standing = ui::FitStanding::current;
+    if (status.state == flow::StepState::stale) {
+      state.standing = ui::FitStanding::stale;
+      state.changed = stepName(status.reason);
+    }
     fill(state);
+    offerUntried(state);
   }
   m_page->setState(state);
 }
 
 void FitPresenter::tour(std::function<void(bool good)> done) {
   whenIdle([this, done = std::move(done)] {
-    if (bench().has("model")) {
+    if (m_page->state().standing == ui::FitStanding::current) {
       done(true);
     } else {
       run("auto", done);

@@ -16,6 +16,7 @@ class FitPresenter : public Presenter {
  public:
   FitPresenter(Workbench& bench, ui::FitPage* page);
   void refresh() override;
+  void forget() override { m_undo.clear(); }
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
@@ -25,10 +26,11 @@ class FitPresenter : public Presenter {
  private:
   void run(const std::string& method, std::function<void(bool good)> done);
   void fill(ui::FitState& state);
+  /// The method that the job's model was asked for; "auto" without one.
+  std::string asked();
 
   ui::FitPage* m_page;
-  std::string m_method = "auto";  // as asked for
-  std::vector<std::string> m_undo;
+  std::vector<std::string> m_undo;  // methods asked for before
 };
 
 }  // namespace zerodrift::desktop

@@ -11,7 +11,7 @@
 namespace zerodrift::desktop {
 
 void MachinePresenter::fillKept(ui::MachineState& state) const {
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (job == nullptr) return;
   const auto artefact = job->latest("machine");
   if (!artefact || !*artefact) return;

@@ -98,12 +98,9 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   connect(page, &ui::Page::primaryTriggered, this, &MachinePresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
     if (action == QStringLiteral("import")) importProfile();
-    if (action == QStringLiteral("job")) {
-      this->bench().closeJob();
-      refresh();
-    }
+    if (action == QStringLiteral("job")) unlessBusy(this->bench().closeJob());
     if (action == QStringLiteral("test")) this->bench().connectMachine();
-    if (action == QStringLiteral("disconnect")) this->bench().disconnectMachine();
+    if (action == QStringLiteral("disconnect")) unlessBusy(this->bench().disconnectMachine());
     if (action == QStringLiteral("virtual")) startVirtual();
     if (action == QStringLiteral("connect")) connectNow();
     if (action == QStringLiteral("start")) commissionAnew();
@@ -126,18 +123,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
     refresh();
   });
   connect(&bench, &Workbench::profileChanged, this, &MachinePresenter::refresh);
-  connect(&m_demo, &DemoMachine::ready, this, [this] {
-    if (const Status loaded = this->bench().loadProfile(m_demo.profilePath().toStdString()); !loaded) {
-      m_connecting = false;
-      refresh();
-      show(loaded.error());
-      if (m_whenReady) std::exchange(m_whenReady, nullptr)(false);
-      return;
-    }
-    m_connecting = true;
-    this->bench().connectMachine();
-    refresh();
-  });
+  connect(&m_demo, &DemoMachine::ready, this, [this] { whenIdle([this] { useReadyMachine(); }); });
   connect(&m_demo, &DemoMachine::failed, this, [this](const QString& why) {
     m_connecting = false;
     tell([why] {
@@ -149,6 +135,23 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   });
 }
 
+void MachinePresenter::unlessBusy(const Status& done) {
+  if (!done) show(done.error());
+}
+
+void MachinePresenter::useReadyMachine() {
+  if (const Status loaded = bench().loadProfile(m_demo.profilePath().toStdString()); !loaded) {
+    m_connecting = false;
+    refresh();
+    show(loaded.error());
+    if (m_whenReady) std::exchange(m_whenReady, nullptr)(false);
+    return;
+  }
+  m_connecting = true;
+  bench().connectMachine();
+  refresh();
+}
+
 QString MachinePresenter::jobsFolder() {
   const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
   QString folder = (documents.isEmpty() ? QDir::homePath() : documents) + QStringLiteral("/Zerodrift");
@@ -157,6 +160,7 @@ QString MachinePresenter::jobsFolder() {
 }
 
 void MachinePresenter::useVirtualMachine(const DemoOptions& options) {
+  if (const Status idle = bench().idle(); !idle) return show(idle.error());  // it may be using the one that runs
   if (bench().job() == nullptr) {
     newJob(jobsFolder() + QStringLiteral("/virtual-") +
            QDateTime::currentDateTime().toString(QStringLiteral("yyyyMMdd-HHmmss")) + QStringLiteral(".zdj"));
@@ -167,7 +171,6 @@ void MachinePresenter::useVirtualMachine(const DemoOptions& options) {
 }
 
 void MachinePresenter::newJob(const QString& path) {
-  if (bench().tasks().running()) return show(busy());  // it works in the job that is open
   if (const Status made = bench().createJob(path.toStdString()); !made) {
     show(made.error());
     return;
@@ -177,7 +180,6 @@ void MachinePresenter::newJob(const QString& path) {
 }
 
 void MachinePresenter::openJob(const QString& path) {
-  if (bench().tasks().running()) return show(busy());
   if (const Status opened = bench().openJob(path.toStdString()); !opened) {
     show(opened.error());
     return;
@@ -259,7 +261,8 @@ void MachinePresenter::startCommissioning(std::function<void(bool good)> done) {
   const auto document = bench().profileDocument();
   runStep(
       tr("Checking the machine"),
-      [profile = *profile, document](const TaskContext& context) -> Result<commissioning::NewArtefact> {
+      [profile = *profile, document](commissioning::Job&,
+                                     const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, false));
         return flow::check_machine(devices, document, context);
       },

@@ -25,6 +25,7 @@ class MachinePresenter : public Presenter {
  public:
   MachinePresenter(Workbench& bench, ui::MachinePage* page, DemoMachine& demo);
   void refresh() override;
+  void forget() override {}  // what it shows is the machine's, or read from the job each time
   void tour(std::function<void(bool good)> done) override;
 
   /// The virtual machine beside the application, with a new job in the user's folder.
@@ -42,6 +43,10 @@ class MachinePresenter : public Presenter {
 
  private:
   void importProfile();
+  /// Says why something was refused.
+  void unlessBusy(const Status& done);
+  /// Connects to the virtual machine that was started.
+  void useReadyMachine();
   void primary();
   void commissionAnew();
   void connectNow();

@@ -76,7 +76,6 @@ QString without_letters(QString text) {
 
 PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Presenter(bench, page), m_page(page) {
   m_watching.setInterval(watch_tick_ms);
-  connect(&bench, &Workbench::jobChanged, this, [this] { m_comparedOf = {}; });
   connect(&m_watching, &QTimer::timeout, this, &PhysicsPresenter::watchTrial);
   connect(page, &ui::PhysicsPage::componentChosen, this, [this](int index) {
     m_component = index;
@@ -104,13 +103,26 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
   });
 }
 
+void PhysicsPresenter::forget() {
+  m_component = 0;
+  m_regionAsked = false;
+  m_undo.clear();
+  m_compared = {};
+  m_comparedOf = {};
+  m_watching.stop();
+  m_trial = {};
+  m_trialAnswer = {};
+  m_shownTrial = {};
+  m_finishedTrials.clear();
+}
+
 void PhysicsPresenter::find(std::function<void(bool good)> done) {
-  const auto* job = bench().job();
-  if (job == nullptr) return;
+  if (bench().job() == nullptr) return;
   m_undo.clear();  // judgements of explanations that are made anew
   runStep(
       tr("Looking for what the simulation lacks"),
-      [job](const TaskContext& context) { return flow::find_missing(*job, context); }, std::move(done));
+      [](commissioning::Job& job, const TaskContext& context) { return flow::find_missing(job, context); },
+      std::move(done));
 }
 
 /// The region is computed with the simulation; here it is brought before the eyes, on its component and in words.
@@ -173,9 +185,8 @@ void PhysicsPresenter::judge(const QString& effect, bool adopt, bool reject) {
 }
 
 void PhysicsPresenter::keepJudgements(const Judgements& judgements) {
-  if (bench().job() == nullptr) return;
-  const auto made = judged(*bench().job(), judgements);
-  const Status kept = made ? bench().keep(*made) : Status(fail(made.error()));
+  const auto kept = bench().takeIn(
+      "physics", [&judgements](commissioning::Job& job, const TaskContext&) { return judged(job, judgements); });
   if (!kept) show(kept.error());
 }
 
@@ -210,7 +221,9 @@ void PhysicsPresenter::watchTrial() {
   m_shownTrial.shown = std::min(1.0, m_shownTrial.shown + static_cast<double>(watch_tick_ms) / watch_ms);
   if (m_shownTrial.shown >= 1.0) {
     m_watching.stop();
-    whenIdle([this] { searchTrial(); });
+    whenIdle([this] {
+      if (m_shownTrial.stage == ui::TrialStage::sealed) searchTrial();  // it may be forgotten by then
+    });
   }
   refresh();
 }
@@ -247,8 +260,9 @@ void PhysicsPresenter::openTrial() {
 }
 
 void PhysicsPresenter::proposePlan() {
-  const json experiment =
-      bench().body("physics").value("diagnosis", json::object()).value("suggested_experiment", json());
+  const json& body = bench().body("physics");
+  if (!body.is_object()) return;
+  const json experiment = body.value("diagnosis", json::object()).value("suggested_experiment", json());
   if (!experiment.is_object()) return;
   const auto plan = acquisition::plan_from_json(experiment.at("plan"), "the proposed run");
   if (!plan) {
@@ -272,14 +286,19 @@ const Compared& PhysicsPresenter::compared() {
 
 void PhysicsPresenter::refresh() {
   ui::PhysicsState state;
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (job == nullptr || !bench().has("warmup")) {
     state.blocked = tr("Record a warm-up run first: it is what the simulation is compared with.");
     m_page->setState(state);
     return;
   }
-  const json document = bench().body("machine").value("profile", json());
-  const auto profile = controller::profile_from_job(document);
+  const json& kept = bench().body("machine");
+  if (!kept.is_object()) {
+    state.blocked = tr("The job holds no machine yet: connect it and start the commissioning on the Machine page.");
+    m_page->setState(state);
+    return;
+  }
+  const auto profile = controller::profile_from_job(kept.value("profile", json()));
   if (!profile || profile->machine == nullptr) {
     state.blocked = tr("The profile holds no machine description, so there is nothing to simulate.");
     m_page->setState(state);

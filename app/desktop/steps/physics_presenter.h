@@ -17,6 +17,7 @@ class PhysicsPresenter : public Presenter {
  public:
   PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page);
   void refresh() override;
+  void forget() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
 

@@ -104,6 +104,21 @@ ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Prese
   });
 }
 
+void ReportPresenter::forget() {
+  m_redraw.stop();
+  m_building.cancel();
+  m_again = m_building.running();  // what it builds is not shown any more
+  m_drawing.drop();
+  m_whenDrawn = nullptr;
+  m_left.clear();
+  m_signature = {};
+  m_report = {};
+  m_pages.clear();
+  m_savedTo.clear();
+  m_of.clear();
+  m_page->clearSignature();
+}
+
 void ReportPresenter::enter() {
   refresh();
   m_redraw.start();
@@ -204,7 +219,7 @@ void ReportPresenter::setHead(const ui::ReportHead& head) {
 }
 
 QString ReportPresenter::defaultPath(const QString& ending) const {
-  const auto* job = bench().job();
+  const auto job = bench().job();
   const QFileInfo file(QString::fromStdString(job->path().string()));
   return file.absoluteDir().filePath(file.completeBaseName() + QLatin1Char('.') + ending);
 }
@@ -221,6 +236,7 @@ void ReportPresenter::saveAs(const QString& ending) {
 }
 
 struct ReportPresenter::Saving {
+  std::shared_ptr<const QString> work;  // the job stays open until it is done
   report::Report report;
   QStringList paths;
   qsizetype written = 0;
@@ -237,7 +253,8 @@ void ReportPresenter::save(const QStringList& paths, std::function<void(bool goo
           if (done) done(false);
           return;
         }
-        writeNext(std::make_shared<Saving>(Saving{chosen(std::move(*made)), paths, 0, done}));
+        writeNext(std::make_shared<Saving>(
+            Saving{bench().beginWork(tr("Saving the report")), chosen(std::move(*made)), paths, 0, done}));
       });
 }
 
@@ -265,12 +282,15 @@ void ReportPresenter::saved(const Saving& saving) {
   m_page->clearProgress();
   json files = json::array();
   for (const QString& path : saving.paths) files.push_back(path.toStdString());
-  std::vector<commissioning::ArtefactId> inputs;
-  for (const char* kind : {"verification", "physics", "axis_table"}) {
-    const auto latest = bench().job()->latest(kind);
-    if (latest && *latest) inputs.push_back((*latest)->id);
-  }
-  const Status kept = bench().keep(NewArtefact::of("report", {{"files", files}}, inputs));
+  const auto kept =
+      bench().takeIn("report", [&files](commissioning::Job& job, const TaskContext&) -> Result<NewArtefact> {
+        std::vector<commissioning::ArtefactId> inputs;  // of whatever there is
+        for (const char* kind : {"verification", "physics", "axis_table"}) {
+          ZD_TRY(const auto latest, job.latest(kind));
+          if (latest) inputs.push_back(latest->id);
+        }
+        return NewArtefact::of("report", {{"files", files}}, inputs);
+      });
   if (!kept) return failed(saving, kept.error());
   m_savedTo = QDir::toNativeSeparators(saving.paths.front());
   refresh();
@@ -331,7 +351,7 @@ void ReportPresenter::fillSections(ui::ReportState& state) const {
 
 void ReportPresenter::refresh() {
   ui::ReportState state;
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (job == nullptr || !bench().has("warmup")) {
     m_pages.clear();
     m_report = {};

@@ -24,6 +24,7 @@ class ReportPresenter : public Presenter {
  public:
   ReportPresenter(Workbench& bench, ui::ReportPage* page);
   void refresh() override;
+  void forget() override;
   void enter() override;
   void leave() override;
   void languageChanged() override;

@@ -5,7 +5,6 @@
 
 #include "app/text/core_text.h"
 #include "core/flow/steps/inputs.h"
-#include "core/flow/steps/sensors_step.h"
 #include "core/report/limits.h"
 #include "ui/pages/sensors_page.h"
 
@@ -47,14 +46,9 @@ QVector<double> standardised(const std::vector<double>& values, std::size_t stri
 }  // namespace
 
 SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Presenter(bench, page), m_page(page) {
-  connect(&bench, &Workbench::jobChanged, this, [this] {
-    m_undo.clear();
-    m_absolute.reset();
-  });
   connect(page, &ui::SensorsPage::clustersChosen, this, [this](int clusters) {
     rememberChoice();
-    m_clusters = clusters;
-    run(clusters, {}, {});
+    run({clusters, {}}, {});
   });
   connect(page, &ui::SensorsPage::absoluteChosen, this, [this](bool absolute) {
     m_absolute = absolute;
@@ -70,50 +64,53 @@ SensorsPresenter::SensorsPresenter(Workbench& bench, ui::SensorsPage* page) : Pr
       return;
     }
     rememberChoice();
-    run(m_clusters, chosen, {});
+    run({asked().clusters, chosen}, {});
   });
   connect(page, &ui::Page::primaryTriggered, this, [this] {
     if (this->bench().has("sensors")) {
       Q_EMIT nextRequested();
     } else {
-      run(m_clusters, {}, {});
+      run(asked(), {});
     }
   });
-  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) { run(m_clusters, {}, {}); });
+  connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) { run({asked().clusters, {}}, {}); });
+}
+
+void SensorsPresenter::forget() {
+  m_undo.clear();
+  m_absolute.reset();
+}
+
+flow::SensorsOptions SensorsPresenter::asked() {
+  const auto job = bench().job();
+  return job == nullptr ? flow::SensorsOptions{} : flow::sensors_asked_for(*job).value_or(flow::SensorsOptions{});
 }
 
 void SensorsPresenter::enter() {
   refresh();
   // The clustering asks nothing of the user: it is there when the page opens.
-  if (bench().has("warmup") && !bench().has("sensors") && !bench().tasks().running()) run(m_clusters, {}, {});
+  if (bench().has("warmup") && !bench().has("sensors") && !bench().tasks().running()) run(asked(), {});
 }
 
 void SensorsPresenter::undo() {
   if (m_undo.empty() || bench().tasks().running()) return;
-  const Choice before = m_undo.back();
+  const flow::SensorsOptions before = m_undo.back();
   m_undo.pop_back();
-  m_clusters = before.clusters;
-  run(before.clusters, before.chosen, {});
+  run(before, {});
 }
 
 void SensorsPresenter::rememberChoice() {
-  const json& body = bench().body("sensors");
-  if (!body.is_object()) return;
-  Choice choice{m_clusters, {}};
   // What was proposed is proposed again; only a choice by hand is put back sensor by sensor.
-  if (body.value("chosen_by", "") == "hand") choice.chosen = body.value("chosen", std::vector<std::string>{});
-  m_undo.push_back(std::move(choice));
+  if (bench().has("sensors")) m_undo.push_back(asked());
 }
 
-void SensorsPresenter::run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done) {
-  const auto* job = bench().job();
-  if (job == nullptr) return;
-  flow::SensorsOptions options;
-  options.clusters = clusters;
-  options.chosen = chosen;
+void SensorsPresenter::run(const flow::SensorsOptions& options, std::function<void(bool good)> done) {
+  if (bench().job() == nullptr) return;
   runStep(
       tr("Clustering the sensors"),
-      [job, options](const TaskContext& context) { return flow::choose_sensors(*job, options, context); },
+      [options](commissioning::Job& job, const TaskContext& context) {
+        return flow::choose_sensors(job, options, context);
+      },
       std::move(done));
 }
 
@@ -164,7 +161,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   state.clusters = static_cast<int>(body.value("clusters", json::array()).size());
   const json suggested = body.value("suggested_clusters", json::object());
   state.suggestedClusters = suggested.value("silhouette", state.clusters);
-  state.automatic = m_clusters == 0;
+  state.automatic = body.value("clusters_asked", 1) == 0;
   const json explained = body.value("explained_variance", json::array());
   if (explained.size() >= 2) {
     state.explained1_percent = 100.0 * explained[0].get<double>();
@@ -212,7 +209,7 @@ void SensorsPresenter::tour(std::function<void(bool good)> done) {
     if (bench().has("sensors")) {
       done(true);
     } else {
-      run(m_clusters, {}, done);
+      run(asked(), done);
     }
   });
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/desktop/presenter.h"
+#include "core/flow/steps/sensors_step.h"
 
 namespace zerodrift::ui {
 class SensorsPage;
@@ -18,25 +19,23 @@ class SensorsPresenter : public Presenter {
  public:
   SensorsPresenter(Workbench& bench, ui::SensorsPage* page);
   void refresh() override;
+  void forget() override;
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
 
  private:
-  struct Choice {
-    int clusters = 5;
-    std::vector<std::string> chosen;  // by hand; empty: as proposed
-  };
+  /// What the job's choice was asked for; the defaults without one.
+  flow::SensorsOptions asked();
   /// For Ctrl+Z: what is chosen now, before it is changed.
   void rememberChoice();
-  void run(int clusters, const std::vector<std::string>& chosen, std::function<void(bool good)> done);
+  void run(const flow::SensorsOptions& options, std::function<void(bool good)> done);
   void fill(ui::SensorsState& state, const nlohmann::json& body) const;
   void fillSeries(ui::SensorsState& state) const;
 
   ui::SensorsPage* m_page;
-  int m_clusters = 5;
   std::optional<bool> m_absolute;  // which sum is shown; none: the one that the clusters were judged by
-  std::vector<Choice> m_undo;
+  std::vector<flow::SensorsOptions> m_undo;
 };
 
 }  // namespace zerodrift::desktop

@@ -116,7 +116,7 @@ void UploadPresenter::fillHistory(ui::UploadState& state) const {
 
 void UploadPresenter::refresh() {
   ui::UploadState state;
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (job == nullptr || !bench().has("model")) {
     state.blocked = tr("Fit the model first: the table is made from it.");
     m_page->setState(state);

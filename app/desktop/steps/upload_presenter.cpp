@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "app/desktop/ask.h"
-#include "app/desktop/machine_writes.h"
 #include "app/desktop/pin_dialog.h"
 #include "app/desktop/table_export.h"
 #include "app/desktop/upload_view.h"
@@ -14,6 +13,7 @@
 #include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
 #include "core/flow/flow.h"
+#include "core/flow/rollback_and_switch.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 #include "ui/pages/upload_page.h"
@@ -31,7 +31,6 @@ constexpr int sign_stands_min = 60;  // so long a sign check on the same machine
 
 UploadPresenter::UploadPresenter(Workbench& bench, ui::UploadPage* page) : Presenter(bench, page), m_page(page) {
   connect(page, &ui::UploadPage::rollbackRequested, this, &UploadPresenter::rollBack);
-  connect(&bench, &Workbench::jobChanged, this, &UploadPresenter::forget);
   connect(page, &ui::Page::primaryTriggered, this, [this] {
     if (m_page->state().written) {
       Q_EMIT nextRequested();
@@ -57,6 +56,9 @@ void UploadPresenter::forget() {
   m_dryRunAt = {};
   m_steps.clear();
   m_failed = false;
+  m_previewOf = 0;
+  m_log = {};
+  m_afterPreview = nullptr;
 }
 
 long long UploadPresenter::latestModel(const commissioning::Job& job) {
@@ -82,7 +84,7 @@ void UploadPresenter::preview(Done done) {
     return;
   }
   const auto profile = bench().profile();
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (!profile || job == nullptr) {
     show(Error{ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "a connected machine"}}});
     if (done) done(false);
@@ -174,8 +176,7 @@ void UploadPresenter::follow(const controller::UploadStep& step) {
 
 void UploadPresenter::write(Done done) {
   const auto profile = bench().profile();
-  auto* job = bench().job();
-  if (!profile || job == nullptr || !m_preview) return;
+  if (!profile || bench().job() == nullptr || !m_preview) return;
   const auto permit = permit_for(bench(), m_page, tr("Writing the table"));
   if (!permit) {
     if (done) done(false);
@@ -201,15 +202,16 @@ void UploadPresenter::write(Done done) {
         Qt::QueuedConnection);
   };
   // What a person agreed to is what is written: the same table over the same old one.
-  options.confirm = [agreed = compensation::crc32_text(m_preview->table),
-                     over = m_preview->record.old_words](const flow::UploadPreview& now) {
-    return compensation::crc32_text(now.table) == agreed && now.record.old_words == over;
-  };
+  options.consent = flow::Consent::by_asking([agreed = compensation::crc32_text(m_preview->table),
+                                              over = m_preview->record.old_words](const flow::WriteQuestion& now) {
+    return compensation::crc32_text(now.table->table) == agreed && now.table->record.old_words == over;
+  });
   runStep(
       tr("Writing the table"),
-      [profile = *profile, job, options, permit = *permit](const TaskContext& context) -> Result<NewArtefact> {
+      [profile = *profile, options, permit = *permit](commissioning::Job& job,
+                                                      const TaskContext& context) -> Result<NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
-        return flow::upload(*job, devices, options, context);
+        return flow::upload(job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {
         m_writing = false;
@@ -235,14 +237,14 @@ void UploadPresenter::writeCorrection(const compensation::Table& table, Done don
 
 void UploadPresenter::rollBack(const QString& id) {
   const auto profile = bench().profile();
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (!profile || job == nullptr || m_writing) return;
-  runTask<RollbackPreview>(
+  runTask<flow::RollbackPreview>(
       tr("Reading the table in the machine"),
       [profile = *profile, job, id = id.toStdString()](const TaskContext& context) {
-        return preview_roll_back(*job, profile, id, context);
+        return flow::preview_roll_back(*job, profile, id, context);
       },
-      [this, model = latestModel(*job)](Result<RollbackPreview> seen) {
+      [this, model = latestModel(*job)](Result<flow::RollbackPreview> seen) {
         if (!seen) return;
         m_preview = std::move(seen->difference);
         m_previewOf = model;
@@ -258,7 +260,7 @@ void UploadPresenter::proposeRollback(int version) {
 
 void UploadPresenter::askAndRollBack() {
   const auto profile = bench().profile();
-  auto* job = bench().job();
+  const auto job = bench().job();
   const int version = m_goingBack->table.version;
   const auto& record = m_preview->record;
   const QString change = m_preview->largest_change_axis.empty()
@@ -292,20 +294,23 @@ void UploadPresenter::askAndRollBack() {
   refresh();
   runStep(
       tr("Going back to version %1").arg(version),
-      [profile = *profile, job, permit = *permit, target = *m_goingBack, watch = observer()](
-          const TaskContext& context) { return roll_back(*job, profile, permit, target, watch, context); },
+      [profile = *profile, permit = *permit, target = *m_goingBack, watch = observer()](commissioning::Job& in,
+                                                                                        const TaskContext& context) {
+        return flow::roll_back(in, profile, permit, flow::Consent::given(), target, watch, context);
+      },
       [this](bool good) {
         m_writing = false;
         m_failed = !good;
         m_preview.reset();
         m_goingBack.reset();
         enter();
-      });
+      },
+      From::elsewhere);
 }
 
 /// The log of the machine's tables as it is on this computer, with what the job knows beside it.
 void UploadPresenter::readLog() {
-  const auto* job = bench().job();
+  const auto job = bench().job();
   const json& machine = bench().body("machine");
   m_log = {};
   if (job == nullptr || !machine.is_object()) return;
@@ -319,7 +324,7 @@ void UploadPresenter::readLog() {
 
 void UploadPresenter::checkSign() {
   const auto profile = bench().profile();
-  auto* job = bench().job();
+  const auto job = bench().job();
   if (!profile || job == nullptr || m_writing) return;
   if (!confirmed(tr("Move the axes of %1 by 10 µm?").arg(QString::fromStdString(profile->name)),
                  tr("A test offset is written for X, Y and Z, one after the other, watched by the camera and taken "
@@ -332,7 +337,7 @@ void UploadPresenter::checkSign() {
   runTask<controller::SignCheckRecord>(
       tr("Checking the sign"),
       [profile = *profile, job, permit = *permit](const TaskContext& context) {
-        return try_signs(*job, profile, permit, context);
+        return flow::try_signs(*job, profile, permit, flow::Consent::given(), context);
       },
       [this](Result<controller::SignCheckRecord> record) {
         if (record) {

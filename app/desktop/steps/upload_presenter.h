@@ -24,6 +24,7 @@ class UploadPresenter : public Presenter {
  public:
   UploadPresenter(Workbench& bench, ui::UploadPage* page);
   void refresh() override;
+  void forget() override;
   void enter() override;
   Standing standing() const override { return tableStanding(); }
   void tour(std::function<void(bool good)> done) override;
@@ -44,7 +45,6 @@ class UploadPresenter : public Presenter {
   bool confirmed(const QString& heading, const QString& text, const QString& deed) const;
   void write(Done done);
   void rollBack(const QString& id);
-  void forget();
   void askAndRollBack();
   /// The page shows what would be written, not what was.
   bool showsPreview(bool written) const { return m_preview && (!written || m_correction || m_goingBack); }

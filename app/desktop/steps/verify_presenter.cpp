@@ -50,14 +50,14 @@ void measured_until(const recording::Recording& run, const std::string& channel,
   }
 }
 
+double keptThreshold_um() {
+  return QSettings().value(QStringLiteral("verification/threshold_um"), flow::VerifyOptions().threshold_um).toDouble();
+}
+
 }  // namespace
 
 VerifyPresenter::VerifyPresenter(Workbench& bench, ui::VerifyPage* page)
-    : RunPresenter(bench, page, page->run()),
-      m_page(page),
-      m_threshold_um(QSettings()
-                         .value(QStringLiteral("verification/threshold_um"), flow::VerifyOptions().threshold_um)
-                         .toDouble()) {
+    : RunPresenter(bench, page, page->run()), m_page(page), m_threshold_um(keptThreshold_um()) {
   feed().setCompensated(true);
   m_judging.setSingleShot(true);
   m_judging.setInterval(threshold_rest_ms);
@@ -72,6 +72,20 @@ VerifyPresenter::VerifyPresenter(Workbench& bench, ui::VerifyPage* page)
   connect(page, &ui::Page::secondaryTriggered, this, &VerifyPresenter::secondary);
   connect(&feed(), &RunFeed::updated, this, [this] { refresh(); });
   connect(&bench, &Workbench::heldTableChanged, this, [this] { refresh(); });
+}
+
+void VerifyPresenter::forget() {
+  RunPresenter::forget();
+  m_judging.stop();
+  m_skipped = false;
+  m_computed = 0;
+  m_residuals = {};
+  m_corrected.reset();
+  m_axes.clear();
+  m_axesOf = 0;
+  m_compared_s = 0.0;
+  m_sameRun = false;
+  m_threshold_um = keptThreshold_um();
 }
 
 void VerifyPresenter::primary() {
@@ -126,12 +140,13 @@ void VerifyPresenter::start(std::function<void(bool good)> done) {
 }
 
 void VerifyPresenter::judgeAgain() {
-  const auto* job = bench().job();
-  if (job == nullptr || running() || !bench().has("verification")) return;
+  if (running() || !bench().has("verification")) return;
   if (bench().tasks().running()) return m_judging.start();
   const double threshold_um = m_threshold_um;
-  runStep(tr("Judging the residual"),
-          [job, threshold_um](const TaskContext&) { return flow::judge_again(*job, threshold_um); });
+  runStep(
+      tr("Judging the residual"),
+      [threshold_um](commissioning::Job& job, const TaskContext&) { return flow::judge_again(job, threshold_um); }, {},
+      From::elsewhere);
 }
 
 void VerifyPresenter::applyCorrection(std::function<void(bool good)> done) {
@@ -303,7 +318,7 @@ Presenter::Standing VerifyPresenter::standing() const {
 
 void VerifyPresenter::refresh() {
   ui::VerifyState state;
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (job == nullptr || !bench().has("upload")) {
     state.blocked = tr("Write the table to the machine first; then the run shows what is left.");
     m_page->setState(state);

@@ -15,6 +15,7 @@ class VerifyPresenter : public RunPresenter {
  public:
   VerifyPresenter(Workbench& bench, ui::VerifyPage* page);
   void refresh() override;
+  void forget() override;
   /// A run that failed is no step that is done; one that left more than was promised is done, with a mark.
   Standing standing() const override;
   void tour(std::function<void(bool good)> done) override;

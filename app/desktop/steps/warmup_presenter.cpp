@@ -59,6 +59,14 @@ WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
   connect(&feed(), &RunFeed::updated, this, &WarmupPresenter::refresh);
 }
 
+void WarmupPresenter::forget() {
+  RunPresenter::forget();
+  m_preset = 0;
+  m_plan = m_presets.empty() ? acquisition::Plan{} : m_presets.front();
+  m_undo.clear();
+  m_interrupted.reset();
+}
+
 void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
   m_undo.push_back(m_plan);
   if (m_undo.size() > undo_depth) m_undo.erase(m_undo.begin());
@@ -113,9 +121,8 @@ void WarmupPresenter::finishInterrupted() {
     return;
   }
   if (!there) {
-    auto* job = bench().job();
     runStep(tr("Finishing the interrupted run"),
-            [job](const TaskContext&) { return flow::end_interrupted_warmup(*job); });
+            [](commissioning::Job& job, const TaskContext&) { return flow::end_interrupted_warmup(job); });
     return;
   }
   connect(
@@ -175,6 +182,7 @@ void WarmupPresenter::start(std::function<void(bool good)> done) {
 void WarmupPresenter::fillRun(ui::WarmupState& state) {
   const auto& now = feed().now();
   state.phase = feed().paused() ? ui::RunPhase::paused : ui::RunPhase::running;
+  m_interrupted.reset();
   state.elapsed_s = now.time_s;
   if (feed().receiving()) {
     state.timeLeft_s = now.seconds_left;
@@ -190,9 +198,37 @@ void WarmupPresenter::fillRun(ui::WarmupState& state) {
   state.longestHole_s = feed().longestHole_s();
 }
 
+void WarmupPresenter::fillKept(ui::WarmupState& state, const json& body) {
+  state.phase = ui::RunPhase::finished;
+  showKept(body);
+  state.elapsed_s = body.value("duration_s", 0.0);
+  state.timeLeft_s = 0.0;
+  state.largestError_um = feed().largestError_um();
+  state.largestErrorAxis = feed().largestErrorAxis();
+  state.samplesLost = body.value("lost_samples", 0LL);
+  state.samples = body.value("rows", 0LL);
+  state.longestHole_s = feed().longestHole_s();
+}
+
+/// What was recorded until then is there to be looked at before it is gone on with or finished.
+void WarmupPresenter::fillInterrupted(ui::WarmupState& state) {
+  state.phase = ui::RunPhase::interrupted;
+  if (showSeries(m_interrupted->series)) {
+    feed().showHappened(m_interrupted->happened, m_interrupted->summary.measurements, m_interrupted->summary.refused);
+  }
+  state.plan = rows_of(m_interrupted->plan);
+  state.elapsed_s = m_interrupted->summary.duration_s;
+  state.timeLeft_s = std::max(0.0, m_interrupted->plan.duration_s() - state.elapsed_s);
+  state.largestError_um = feed().largestError_um();
+  state.largestErrorAxis = feed().largestErrorAxis();
+  state.samplesLost = m_interrupted->summary.lost_samples;
+  state.samples = m_interrupted->summary.rows;
+  state.longestHole_s = feed().longestHole_s();
+}
+
 void WarmupPresenter::refresh() {
   ui::WarmupState state;
-  const auto* job = bench().job();
+  const auto job = bench().job();
   if (job == nullptr || (!bench().has("calibration") && !bench().has("warmup"))) {
     state.blocked = tr("Calibrate the camera first: without it no error can be measured.");
     m_page->setState(state);
@@ -215,18 +251,10 @@ void WarmupPresenter::refresh() {
   if (running()) {
     fillRun(state);
   } else if (body.is_object() && !m_again) {
-    state.phase = ui::RunPhase::finished;
-    showKept(body);
-    state.elapsed_s = body.value("duration_s", 0.0);
-    state.timeLeft_s = 0.0;
-    state.largestError_um = feed().largestError_um();
-    state.largestErrorAxis = feed().largestErrorAxis();
-    state.samplesLost = body.value("lost_samples", 0LL);
-    state.samples = body.value("rows", 0LL);
-    state.longestHole_s = feed().longestHole_s();
-  } else if (const auto interrupted = acquisition::interrupted_run(*job, "warm-up"); interrupted && *interrupted) {
-    state.phase = ui::RunPhase::interrupted;
-    state.elapsed_s = (*interrupted)->run.last_time_s;
+    fillKept(state, body);
+  } else if (!m_again) {
+    if (!m_interrupted) m_interrupted = flow::interrupted_warmup(*job).value_or(std::nullopt);
+    if (m_interrupted) fillInterrupted(state);
   }
   m_page->setState(state);
 }

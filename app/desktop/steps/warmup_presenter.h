@@ -19,6 +19,7 @@ class WarmupPresenter : public RunPresenter {
  public:
   WarmupPresenter(Workbench& bench, ui::WarmupPage* page);
   void refresh() override;
+  void forget() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
   void setPlan(const acquisition::Plan& plan);
@@ -30,6 +31,8 @@ class WarmupPresenter : public RunPresenter {
   void secondary(const QString& action);
   void start(std::function<void(bool good)> done);
   void fillRun(ui::WarmupState& state);
+  void fillKept(ui::WarmupState& state, const nlohmann::json& body);
+  void fillInterrupted(ui::WarmupState& state);
   void finishInterrupted();
   void loadPlan();
   void savePlan();
@@ -40,6 +43,7 @@ class WarmupPresenter : public RunPresenter {
   acquisition::Plan m_plan;
   std::vector<acquisition::Plan> m_undo;
   int m_preset = 0;
+  std::optional<flow::RecordedRun> m_interrupted;  // as it was drawn last
 };
 
 }  // namespace zerodrift::desktop

@@ -112,6 +112,13 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
                      machine.has_value(), {warmup.id, sensors.id});
 }
 
+Result<FitStepOptions> fit_asked_for(const commissioning::Job& job) {
+  ZD_TRY(const auto latest, job.latest("model"));
+  if (!latest) return FitStepOptions{};
+  ZD_TRY(const auto model, model_of(*latest));
+  return FitStepOptions{std::string(analysis::name_of(model.asked))};
+}
+
 Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run) {
   ZD_TRY(const Input warmup, need(job, "fit", "warmup"));
   ZD_TRY(const Input sensors, need(job, "fit", "sensors"));

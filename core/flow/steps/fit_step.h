@@ -21,6 +21,9 @@ struct FitStepOptions {
 Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, const FitStepOptions& options,
                                              const TaskContext& context);
 
+/// What the latest model was asked for, so that it can be fitted again; without one the defaults.
+Result<FitStepOptions> fit_asked_for(const commissioning::Job& job);
+
 /// The latest model corrected by a short newer run of the machine instead of fitted anew (core/analysis/ageing.h): what
 /// the run does not excite stays as it was.
 Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run);

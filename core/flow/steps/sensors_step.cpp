@@ -132,6 +132,7 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   ZD_TRY(body["budget"], budget_of(training, context));
   ZD_TRY(body["condition_number"]["chosen"], analysis::fitted_condition(training, chosen));
   body["condition_number"]["chosen_temperatures"] = condition_of(training, chosen);
+  body["clusters_asked"] = options.clusters;
   body["chosen"] = chosen;
   body["chosen_by"] = options.chosen.empty() ? std::string(analysis::name_of(best.kind)) : "hand";
   const auto label_of = [&](const std::string& channel) -> std::string {
@@ -158,6 +159,18 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
                                 {"reason", fmt::format("{} in the warm-up run, so it is not proposed", fault)}});
   }
   return commissioning::NewArtefact::of("sensors", body, {warmup.id});
+}
+
+Result<SensorsOptions> sensors_asked_for(const commissioning::Job& job) {
+  SensorsOptions options;
+  ZD_TRY(const auto latest, job.latest("sensors"));
+  if (!latest) return options;
+  ZD_TRY(const json body, latest->document());
+  if (!body.is_object()) return options;  // a job may come from elsewhere
+  const auto found = static_cast<int>(body.value("clusters", json::array()).size());
+  options.clusters = body.value("clusters_asked", found > 0 ? found : options.clusters);
+  if (body.value("chosen_by", "") == "hand") options.chosen = body.value("chosen", std::vector<std::string>{});
+  return options;
 }
 
 }  // namespace zerodrift::flow

@@ -2,12 +2,12 @@
 // Step "sensors" (S1, S2): clusters the temperature series of the warm-up run and compares the sensitive points with
 // other sets of sensors; the one with the least error to expect is kept. Makes the artefact "sensors": the clustering's
 // own JSON (core/analysis/clustering.h) and
-//   "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets} (core/analysis/sensor_choice.h),
-//   "price": {held_out_rms_um, held_out_peak_um (of the chosen), all_rms_um, change_um {sensor: change of the rms when
-//   a kept one is dropped or a left one is added}}, "budget": [{sensors, added, held_out_rms_um, held_out_peak_um}],
-//   "condition_number": {..., chosen (of the fit, its penalty included), chosen_temperatures},
-//   "table": [{channel, label, note, cluster, correlation_sum, kept}],
-//   "left_out": [{channel, label, reason}]: sensors whose fault the run named; taken only by hand
+//   "clusters_asked": 0 as suggested, "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets}
+//   (core/analysis/sensor_choice.h), "price": {held_out_rms_um, held_out_peak_um (of the chosen), all_rms_um, change_um
+//   {sensor: change of the rms when a kept one is dropped or a left one is added}}, "budget": [{sensors, added,
+//   held_out_rms_um, held_out_peak_um}], "condition_number": {..., chosen (of the fit, its penalty included),
+//   chosen_temperatures}, "table": [{channel, label, note, cluster, correlation_sum, kept}], "left_out": [{channel,
+//   label, reason}]: sensors whose fault the run named; taken only by hand
 
 #include <string>
 #include <vector>
@@ -24,5 +24,9 @@ struct SensorsOptions {
 
 Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job, const SensorsOptions& options,
                                                   const TaskContext& context);
+
+/// What the latest choice was asked for, so that it can be made again from another run: sensors chosen by hand stay
+/// chosen. Without one the defaults.
+Result<SensorsOptions> sensors_asked_for(const commissioning::Job& job);
 
 }  // namespace zerodrift::flow

@@ -10,7 +10,6 @@
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
 #include "core/flow/flow.h"
-#include "core/flow/steps/audited.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 
@@ -50,8 +49,8 @@ json body_of(const UploadPreview& preview, const controller::UploadRecord& recor
   return body;
 }
 
-Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
-                  const UploadPreview& preview, const TaskContext& context, json& out) {
+Status sign_check(commissioning::Job& job, Devices& devices, const MachineWrite& write,
+                  const UploadStepOptions& options, const TaskContext& context, json& out) {
   ZD_TRY(const auto identity, devices.machine->identify());
   if (!options.sign_check || !identity.accepts_host_offset) {
     // A correction goes out on the sign that was seen before the first table.
@@ -68,21 +67,10 @@ Status sign_check(commissioning::Job& job, Devices& devices, const UploadStepOpt
     return {};
   }
   context.progress(0.1, "checking the sign");
-  ZD_TRY(const auto source, open_error_source(job, devices));
-  ZD_TRY(const auto stand, come_to_measuring_position(devices));
-  commissioning::AuditEntry entry;
-  entry.machine = machine_text(preview.record.machine, preview.record.serial);
-  entry.action = "test offset";
-  entry.subject = "host offset of X, Y, Z, one after the other";
-  entry.old_value = "0 um";
-  entry.new_value = "10 um, then 0 um";
-  return audited(job, entry, [&]() -> Status {
-    ZD_CHECK(source->take_zero(stand, context));
-    const auto record = controller::check_signs(*devices.machine, *source, {}, context);
-    out = controller::to_json(record);
-    if (options.sign_observer) options.sign_observer(record);
-    return record.result;
-  });
+  ZD_TRY(const auto record, watch_signs(job, devices, write, context));
+  out = controller::to_json(record);
+  if (options.sign_observer) options.sign_observer(record);
+  return record.result;
 }
 
 /// What was made anew since the model was fitted from it; empty when the model is of today.
@@ -191,29 +179,49 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
   return preview;
 }
 
+Result<controller::SignCheckRecord> watch_signs(const commissioning::Job& job, Devices& devices,
+                                                const MachineWrite& write, const TaskContext& context) {
+  ZD_TRY(const auto source, open_error_source(job, devices));
+  ZD_TRY(const auto stand, come_to_measuring_position(devices));
+  commissioning::AuditEntry entry;
+  entry.action = "test offset";
+  entry.subject = "host offset of X, Y, Z, one after the other";
+  entry.old_value = "0 um";
+  entry.new_value = "10 um, then 0 um";
+  controller::SignCheckRecord record;
+  const Status done = write.write(entry, [&]() -> Status {
+    ZD_CHECK(source->take_zero(stand, context));
+    record = controller::check_signs(*devices.machine, *source, {}, context);
+    return record.result;
+  });
+  // What was seen is worth showing just when it is wrong; without it there is only the error.
+  if (!done && record.axes.empty()) return fail(done.error());
+  if (!done) record.result = done;
+  return record;
+}
+
 Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
                                           const TaskContext& context) {
   ZD_TRY(const Input machine, need(job, "upload", "machine"));
   ZD_TRY(const Input model, need(job, "upload", "model"));
   ZD_TRY(const auto preview, preview_upload(job, devices, options.table, context));
-  if (options.confirm && !options.confirm(preview)) {
-    return fail(ErrorCode::not_confirmed, {{"operation", "Writing the table"}});
-  }
+  const std::string name = machine_text(preview.record.machine, preview.record.serial);
+  ZD_TRY(const auto write,
+         MachineWrite::begin(&job, devices.permit, options.consent, {"Writing the table", name, &preview}));
   const auto origin = options.table ? controller::TableOrigin::correction : controller::TableOrigin::upload;
   json signs;
-  ZD_CHECK(sign_check(job, devices, options, preview, context, signs));
+  ZD_CHECK(sign_check(job, devices, write, options, context, signs));
   controller::UploadRecord record;
   controller::UploadOptions upload_options;
   upload_options.observer = options.observer;
   commissioning::AuditEntry entry;
-  entry.machine = machine_text(preview.record.machine, preview.record.serial);
   entry.action = "upload table";
   entry.subject = "compensation table";
   entry.old_value =
       fmt::format("version {}, {} registers", preview.record.old_sequence, preview.record.old_words.size());
   entry.new_value = json_text(compensation::to_json(preview.table));
   context.progress(0.4, "uploading");
-  ZD_CHECK(audited(job, entry, [&]() -> Status {
+  ZD_CHECK(write.write(entry, [&]() -> Status {
     record = controller::push_table(*devices.machine, preview.table, origin, upload_options, context);
     return record.result;
   }));

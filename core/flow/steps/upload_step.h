@@ -14,6 +14,7 @@
 #include "core/controller/table_log.h"
 #include "core/controller/upload.h"
 #include "core/flow/devices.h"
+#include "core/flow/machine_write.h"
 
 namespace zerodrift::flow {
 
@@ -29,8 +30,7 @@ struct UploadPreview {
 };
 
 struct UploadStepOptions {
-  /// Asked with the difference before anything is written; false ends with not_confirmed.
-  std::function<bool(const UploadPreview&)> confirm;
+  Consent consent;  // asked with the difference before anything is written
   std::function<void(const controller::UploadStep&)> observer;
   std::function<void(const controller::SignCheckRecord&)> sign_observer;
   bool sign_check = true;
@@ -53,6 +53,10 @@ std::vector<controller::TableEntry> tables_of(const commissioning::Job& job, std
 /// What would be written, against what is there; writes nothing. data_does_not_fit when another machine is connected.
 Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& devices,
                                      const std::optional<compensation::Table>& table, const TaskContext& context);
+
+/// Moves each axis by a small offset and watches it, as a part of `write`.
+Result<controller::SignCheckRecord> watch_signs(const commissioning::Job& job, Devices& devices,
+                                                const MachineWrite& write, const TaskContext& context);
 
 Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devices, const UploadStepOptions& options,
                                           const TaskContext& context);

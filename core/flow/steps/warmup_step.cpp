@@ -47,7 +47,11 @@ Result<acquisition::RunSummary> run_or_resume(commissioning::Job& job, acquisiti
                                               acquisition::ErrorSource& source, Clock& clock, const RunOptions& options,
                                               const acquisition::RecorderOptions& recorder_options,
                                               const TaskContext& context, RecordedRun& out) {
-  ZD_TRY(const auto interrupted, acquisition::interrupted_run(job, recorder_options.name));
+  ZD_TRY(auto interrupted, acquisition::interrupted_run(job, recorder_options.name));
+  if (interrupted && options.anew) {
+    ZD_CHECK(job.finish_series(interrupted->series, commissioning::SeriesState::aborted));
+    interrupted.reset();
+  }
   acquisition::JobSink sink = interrupted ? acquisition::JobSink(job, interrupted->series) : acquisition::JobSink(job);
   acquisition::Recorder recorder(machine, source, clock, sink, recorder_options);
   if (options.control) options.control(&recorder.control());
@@ -182,19 +186,27 @@ Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Device
   return warmup_artefact(job, run, machine, calibration);
 }
 
-Result<commissioning::NewArtefact> end_interrupted_warmup(commissioning::Job& job) {
-  ZD_TRY(const Input machine, need(job, "warm-up", "machine"));
-  ZD_TRY(const Input calibration, need(job, "warm-up", "calibration"));
+Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job) {
   ZD_TRY(const auto interrupted, acquisition::interrupted_run(job, "warm-up"));
-  if (!interrupted) return fail(ErrorCode::step_blocked, {{"step", "warmup"}, {"needs", "an interrupted run"}});
+  if (!interrupted) return std::nullopt;
   RecordedRun run;
   run.series = interrupted->series;
   run.plan = interrupted->run.start.plan;
   run.zero_um = interrupted->run.start.zero_um;
-  run.source = calibration.body.value("source", "");
   ZD_TRY(const auto recording, job.read_series(run.series));
-  if (recording.rows() == 0) return fail(ErrorCode::step_blocked, {{"step", "warmup"}, {"needs", "recorded samples"}});
   run.summary = summary_of(recording, run.plan);
+  ZD_TRY(run.happened, happened_in(job, run.series));
+  return run;
+}
+
+Result<commissioning::NewArtefact> end_interrupted_warmup(commissioning::Job& job) {
+  ZD_TRY(const Input machine, need(job, "warm-up", "machine"));
+  ZD_TRY(const Input calibration, need(job, "warm-up", "calibration"));
+  ZD_TRY(auto interrupted, interrupted_warmup(job));
+  if (!interrupted) return fail(ErrorCode::step_blocked, {{"step", "warmup"}, {"needs", "an interrupted run"}});
+  RecordedRun run = std::move(*interrupted);
+  run.source = calibration.body.value("source", "");
+  if (run.summary.rows == 0) return fail(ErrorCode::step_blocked, {{"step", "warmup"}, {"needs", "recorded samples"}});
   acquisition::JobSink sink(job, run.series);
   ZD_CHECK(sink.event({run.summary.duration_s, "end", "finished", R"({"machine": "away"})"}));
   ZD_CHECK(sink.end(acquisition::RunEnd::finished));

@@ -17,6 +17,7 @@ namespace zerodrift::flow {
 struct RunOptions {
   acquisition::Plan plan;       // without a measuring position the profile's counts
   bool refuse_too_few = false;  // a run that will end with too few measurements ends in its first tenth
+  bool anew = false;  // a run that was broken off is closed as aborted instead of gone on with
   std::function<void(const acquisition::RunUpdate&)> observer;
   /// Told the control of the run when it starts, and null when it has ended.
   std::function<void(acquisition::RunControl*)> control;
@@ -41,6 +42,9 @@ struct RecordedRun {
   acquisition::Plan plan;
   std::vector<acquisition::Happening> happened;
 };
+/// The warm-up run that was broken off, as far as it is on the disk; nothing when the last one was ended.
+Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job);
+
 Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& options,
                                acquisition::RecorderOptions recorder_options, const TaskContext& context);
 

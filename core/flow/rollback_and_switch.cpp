@@ -1,4 +1,4 @@
-#include "app/desktop/machine_writes.h"
+#include "core/flow/rollback_and_switch.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,9 @@
 
 #include "core/base/json.h"
 #include "core/controller/table_words.h"
-#include "core/flow/steps/audited.h"
 #include "core/flow/steps/inputs.h"
 
-namespace zerodrift::desktop {
+namespace zerodrift::flow {
 
 using commissioning::NewArtefact;
 using controller::UploadRecord;
@@ -17,9 +16,9 @@ using nlohmann::json;
 
 Result<RollbackPreview> preview_roll_back(const commissioning::Job& job, const controller::Profile& profile,
                                           const std::string& id, const TaskContext& context) {
-  ZD_TRY(auto devices, flow::Devices::open(profile, false));
+  ZD_TRY(auto devices, Devices::open(profile, false));
   ZD_TRY(const auto identity, devices.machine->identify());
-  ZD_CHECK(controller::TableHistory().adopt(identity.serial, flow::tables_of(job, identity.serial)));
+  ZD_CHECK(controller::TableHistory().adopt(identity.serial, tables_of(job, identity.serial)));
   RollbackPreview preview;
   ZD_TRY(preview.target, controller::rollback_target(*devices.machine, {std::nullopt, id}));
   controller::UploadOptions options;
@@ -51,82 +50,66 @@ auto valid_range_of(const commissioning::Job& job, const std::vector<std::uint16
 }  // namespace
 
 Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile& profile, access::Permit permit,
-                              const controller::RollbackTarget& target,
+                              const Consent& consent, const controller::RollbackTarget& target,
                               const std::function<void(const controller::UploadStep&)>& observer,
                               const TaskContext& context) {
-  ZD_TRY(const auto machine_artefact, flow::need(job, "upload", "machine"));
-  ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
+  ZD_TRY(const auto machine_artefact, need(job, "upload", "machine"));
+  ZD_TRY(auto devices, Devices::open(profile, false, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
-  ZD_CHECK(flow::same_machine(job, "upload", identity.serial));
+  ZD_CHECK(same_machine(job, "upload", identity.serial));
   ZD_TRY(auto table, controller::decode_table(target.table.words.value_or(std::vector<std::uint16_t>{}), profile));
-  commissioning::AuditEntry entry;
-  entry.machine = flow::machine_text(identity.name, identity.serial);
-  entry.action = "roll back table";
-  entry.subject = "compensation table";
+  ZD_TRY(const auto write, MachineWrite::begin(&job, permit, consent,
+                                               {fmt::format("Going back to version {}", target.table.version),
+                                                machine_text(identity.name, identity.serial)}));
   table.version = target.table.version;  // which one was brought back
   table.valid = valid_range_of(job, target.table.words.value_or(std::vector<std::uint16_t>{}));
+  commissioning::AuditEntry entry;
+  entry.action = "roll back table";
+  entry.subject = "compensation table";
   entry.old_value = fmt::format("version {}, {} registers", target.active.sequence, target.active.words.size());
   entry.new_value = json_text(compensation::to_json(table));
   controller::UploadOptions options;
   options.observer = observer;
   UploadRecord record;
-  ZD_CHECK(flow::audited(job, entry, [&]() -> Status {
+  ZD_CHECK(write.write(entry, [&]() -> Status {
     record = controller::roll_back(*devices.machine, target, options, context);
     return record.result;
   }));
   table.version = record.sequence;
-  json body = flow::upload_body(record, table, controller::TableOrigin::rollback);
+  json body = upload_body(record, table, controller::TableOrigin::rollback);
   body["rolled_back_to"] = target.table.version;
   return NewArtefact::of("upload", body, {machine_artefact.id});
 }
 
 Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const controller::Profile& profile,
-                                              access::Permit permit, const TaskContext& context) {
-  ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
+                                              access::Permit permit, const Consent& consent,
+                                              const TaskContext& context) {
+  ZD_TRY(auto devices, Devices::open(profile, true, permit));
   ZD_TRY(const auto identity, devices.machine->identify());
-  ZD_CHECK(flow::same_machine(job, "upload", identity.serial));
+  ZD_CHECK(same_machine(job, "upload", identity.serial));
   if (!identity.accepts_host_offset) {
     return fail(ErrorCode::machine_unsupported,
                 {{"what", "the host offset"}, {"found", "none"}, {"expected", "one, for the test move"}});
   }
-  ZD_TRY(const auto source, flow::open_error_source(job, devices));
-  ZD_TRY(const auto stand, flow::come_to_measuring_position(devices));
-  commissioning::AuditEntry entry;
-  entry.machine = flow::machine_text(identity.name, identity.serial);
-  entry.action = "test offset";
-  entry.subject = "host offset of X, Y, Z, one after the other";
-  entry.old_value = "0 um";
-  entry.new_value = "10 um, then 0 um";
-  controller::SignCheckRecord record;
-  const auto check = [&]() -> Status {
-    ZD_CHECK(source->take_zero(stand, context));
-    record = controller::check_signs(*devices.machine, *source, {}, context);
-    return record.result;
-  };
-  const Status done = flow::audited(job, entry, check);
-  // What was seen is worth showing just when it is wrong; without it there is only the error.
-  if (!done && record.axes.empty()) return fail(done.error());
-  if (!done) record.result = done;
-  return record;
+  ZD_TRY(const auto write,
+         MachineWrite::begin(&job, permit, consent, {"A test move", machine_text(identity.name, identity.serial)}));
+  return watch_signs(job, devices, write, context);
 }
 
-Result<bool> switch_compensation(commissioning::Job* job, const controller::Profile& profile, access::Permit permit,
-                                 bool on) {
-  ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
+Result<bool> switch_compensation(commissioning::Job* job, Devices& devices, const Consent& consent, bool on) {
   ZD_TRY(const auto identity, devices.machine->identify());
-  const auto work = [&]() -> Status { return devices.machine->switch_compensation(on); };
-  if (job == nullptr) {
-    ZD_CHECK(work());
-  } else {
-    commissioning::AuditEntry entry;
-    entry.machine = flow::machine_text(identity.name, identity.serial);
-    entry.action = "switch compensation";
-    entry.subject = "compensation switch";
-    entry.old_value = on ? "off" : "on";
-    entry.new_value = on ? "on" : "off";
-    ZD_CHECK(flow::audited(*job, entry, work));
-  }
+  ZD_TRY(const bool is_on, devices.machine->compensation_on());
+  if (is_on == on) return on;
+  ZD_TRY(const auto write, MachineWrite::begin(job, devices.permit, consent,
+                                               {on ? "Switching the compensation on" : "Switching the compensation off",
+                                                machine_text(identity.name, identity.serial)}));
+  commissioning::AuditEntry entry;
+  entry.action = "switch compensation";
+  entry.subject = "compensation switch";
+  entry.old_value = is_on ? "on" : "off";
+  entry.new_value = on ? "on" : "off";
+  ZD_CHECK(write.write(entry, [&] { return devices.machine->switch_compensation(on); }));
   return devices.machine->compensation_on();
 }
 
-}  // namespace zerodrift::desktop
+}  // namespace zerodrift::flow

@@ -1,0 +1,51 @@
+// One way to do a step and one way to write to a machine: artefacts are put into a job by Flow alone, and the audit
+// trail is written by MachineWrite alone (and by the lock of the window, which writes who locked and unlocked).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace zerodrift::architecture {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "file:line" of every line of app and core that matches, but for these files and core/commissioning itself.
+std::vector<std::string> found(const std::string& pattern, const std::vector<std::string>& allowed) {
+  const std::regex wanted(pattern);
+  std::vector<std::string> places;
+  for (const char* folder : {"app", "core"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ZERODRIFT_SOURCE_DIR) / folder)) {
+      const std::string file = fs::relative(entry.path(), ZERODRIFT_SOURCE_DIR).generic_string();
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      if (file.starts_with("core/commissioning/")) continue;
+      if (std::find(allowed.begin(), allowed.end(), file) != allowed.end()) continue;
+      std::ifstream lines(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(lines, line);) {
+        ++number;
+        if (std::regex_search(line, wanted)) places.push_back(file + ":" + std::to_string(number));
+      }
+    }
+  }
+  return places;
+}
+
+TEST(OneWay, ArtefactsArePutIntoAJobByFlow) {
+  EXPECT_EQ(found(R"((\.|->)put\()", {"core/flow/flow.cpp"}), std::vector<std::string>{});
+  EXPECT_FALSE(found(R"((\.|->)put\()", {}).empty()) << "the pattern finds nothing at all";
+}
+
+TEST(OneWay, TheTrailIsWrittenByMachineWrite) {
+  const std::string pattern = R"((\.|->)audit\([^)])";
+  EXPECT_EQ(found(pattern, {"core/flow/machine_write.cpp", "app/desktop/pin_dialog.cpp"}), std::vector<std::string>{});
+  EXPECT_FALSE(found(pattern, {}).empty()) << "the pattern finds nothing at all";
+}
+
+}  // namespace
+}  // namespace zerodrift::architecture
