@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 159> diagnosis = {{
+constexpr std::array<const char*, 136> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
                       "{channel} is {after} {unit} (rms) off, not {before}."),
@@ -141,6 +141,8 @@ constexpr std::array<const char*, 159> diagnosis = {{
     QT_TRANSLATE_NOOP("core", "a heat that is there at rest as well"),
     QT_TRANSLATE_NOOP("core", "heat as a curve over speed"),
     QT_TRANSLATE_NOOP("core", "a displacement that follows another part"),
+    QT_TRANSLATE_NOOP("core", "heat that something unlogged switches"),
+    QT_TRANSLATE_NOOP("core", "a film that a logged input drives"),
     QT_TRANSLATE_NOOP("core", "a structure that follows late"),
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: {channel} is off the best simulation by "

@@ -321,6 +321,12 @@ void Diagnoser::end_within_the_run(FoundEffect& found) const {
   found.sigma.erase("to_s");
 }
 
+std::string_view name_of(ChannelVerdict verdict) {
+  return verdict == ChannelVerdict::consistent    ? "consistent"
+         : verdict == ChannelVerdict::unexplained ? "unexplained"
+                                                  : "explained";
+}
+
 std::string_view name_of(Verdict verdict) {
   return verdict == Verdict::consistent    ? "consistent"
          : verdict == Verdict::unexplained ? "unexplained"

@@ -43,8 +43,10 @@ struct FoundEffect {
   std::string channel;
   std::map<std::string, double> parameters;
   std::map<std::string, double> sigma;
-  std::map<std::string, double> at_rpm;      // the speed at which a figure holds that grows with it
-  std::map<std::string, std::string> words;  // law, region, driver ...
+  std::map<std::string, double> at_rpm;                // the speed at which a figure holds that grows with it
+  std::map<std::string, std::string> words;            // law, region, driver ...
+  std::vector<std::pair<double, double>> intervals_s;  // in which it acts; empty: all the time
+  std::string recording;                               // of an effect that happened once: in which
   double confidence = 0.0;
   double log_evidence_gain = 0.0;
   std::vector<std::string> bounds_reached;
@@ -62,6 +64,9 @@ struct Rival {
   Sentence why;
 };
 
+enum class ChannelVerdict { consistent, explained, unexplained };
+std::string_view name_of(ChannelVerdict verdict);
+
 /// Everything about one channel that is drawn or told.
 struct ChannelReport {
   std::string channel;
@@ -70,6 +75,9 @@ struct ChannelReport {
   double rms_nominal = 0.0, rms_refitted = 0.0, rms_explained = 0.0, noise = 0.0;
   double excess_refitted = 0.0, excess_explained = 0.0;  // block excess, about 1 when nothing is missing
   double score = 0.0;                                    // for naming the channel with the largest mismatch
+  ChannelVerdict verdict = ChannelVerdict::consistent;
+  std::vector<std::pair<double, double>> time_s;  // where it is off most, if it is
+  double missing_heat_W = 0.0;                    // of its part, where one has heat
 };
 
 /// Heat that the nominal simulation lacks, W per column, for the eye.

@@ -29,6 +29,11 @@ json json_of(const FoundEffect& effect) {
   for (const auto& [key, value] : effect.words) {
     if (key != "component" && key != "channel") out["parameters"][key] = value;
   }
+  if (!effect.intervals_s.empty()) {
+    out["intervals_s"] = json::array();
+    for (const auto& [from_s, to_s] : effect.intervals_s) out["intervals_s"].push_back({from_s, to_s});
+  }
+  if (!effect.recording.empty()) out["recording"] = effect.recording;
   if (effect.heat) out["heat_W"] = {{"mean", effect.heat->mean_W}, {"sigma", effect.heat->sigma_W}};
   if (effect.between_mm) out["between_mm"] = {effect.between_mm->first, effect.between_mm->second};
   if (!effect.bounds_reached.empty()) out["bounds_reached"] = effect.bounds_reached;
@@ -50,7 +55,8 @@ json json_of(const Mismatch& m) {
 }  // namespace
 
 json to_json(const Diagnosis& diagnosis) {
-  json out = {{"verdict", std::string(name_of(diagnosis.verdict))},
+  json out = {{"format", "zerodrift-diagnosis/2"},
+              {"verdict", std::string(name_of(diagnosis.verdict))},
               {"mismatch", json_of(diagnosis.mismatch)},
               {"effects", json::array()},
               {"ambiguous_with", json::array()},
@@ -103,6 +109,18 @@ json to_json(const Diagnosis& diagnosis) {
   rmse["held_out_refitted"] = pooled(&HeldOut::refitted);
   rmse["held_out_after"] = pooled(&HeldOut::explained);
   out["rmse"] = rmse;
+  out["channels"] = json::array();
+  for (const auto& channel : diagnosis.channels) {
+    json one = {{"channel", channel.channel},
+                {"verdict", std::string(name_of(channel.verdict))},
+                {"rms_before", channel.rms_nominal},
+                {"rms_after", channel.rms_explained},
+                {"noise", channel.noise},
+                {"missing_heat_W", channel.missing_heat_W},
+                {"time_s", json::array()}};
+    for (const auto& [from_s, to_s] : channel.time_s) one["time_s"].push_back({from_s, to_s});
+    out["channels"].push_back(std::move(one));
+  }
   for (const auto& other : diagnosis.held_out) {
     out["held_out"].push_back({{"recording", other.recording},
                                {"before", other.nominal},

@@ -273,6 +273,8 @@ constexpr std::array catalogue{
     Entry{"speed_heat_curve", "heat as a curve over speed"},
     Entry{"structure_driver", "a displacement that follows another part"},
     Entry{"structure_lag", "a structure that follows late"},
+    Entry{"switched_heat", "heat that something unlogged switches"},
+    Entry{"film_driver", "a film that a logged input drives"},
 };
 
 std::string_view english_of(std::string_view id) {

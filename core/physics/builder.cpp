@@ -102,6 +102,25 @@ int NetworkBuilder::effect_parameter(const EffectSpec& spec, int index, std::str
   return add_parameter(p);
 }
 
+std::vector<int> NetworkBuilder::interval_parameters(const EffectSpec& spec, int index) {
+  std::vector<int> list;
+  const auto edge = [&](const char* key, std::size_t i, double at_s) {
+    Parameter p;
+    p.key = std::string(key) + ":" + std::to_string(i);
+    p.component = spec.word_or("component", "");
+    p.channel = spec.word_or("channel", "");
+    p.effect = index;
+    p.mean = p.start = at_s;
+    p.sigma = spec.candidate ? spec.number_or("edge_prior_sigma", 0.0) : 0.0;
+    list.push_back(add_parameter(p));
+  };
+  for (std::size_t i = 0; i < spec.intervals_s.size(); ++i) {
+    edge("from_s", i, spec.intervals_s[i].first);
+    edge("to_s", i, spec.intervals_s[i].second);
+  }
+  return list;
+}
+
 int NetworkBuilder::place_parameter(const EffectSpec& spec, int index, const Component& rod) {
   const int place = effect_parameter(spec, index, "position_mm", 0.5 * rod.length_mm);
   Parameter& p = m_network.parameters[place];

@@ -44,6 +44,9 @@ class NetworkBuilder {
   /// A parameter of an effect: for a candidate with the effect's own prior, for a described effect around its value
   /// with the film tolerance; `value` is the default when the spec has no such number.
   int effect_parameter(const EffectSpec& spec, int index, std::string_view key, double value = 0.0);
+  /// From and to of each of the effect's intervals, one after the other. A candidate's edges may move: each by its own
+  /// "edge_prior_sigma".
+  std::vector<int> interval_parameters(const EffectSpec& spec, int index);
   /// "position_mm" of an effect that may stand anywhere along a rod but at its very ends; in the middle unless `spec`
   /// says.
   int place_parameter(const EffectSpec& spec, int index, const Component& rod);

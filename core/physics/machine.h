@@ -147,8 +147,9 @@ struct EffectSpec {
   std::string id;
   bool candidate = false;  // a hypothesis of the diagnosis: its strength may be 0; else part of the description
   std::map<std::string, double> numbers;
-  std::map<std::string, std::string> words;  // component, channel, region, law ...
-  double log_prior = 0.0;                    // of this form among all forms of the effect, natural logarithm
+  std::map<std::string, std::string> words;                 // component, channel, region, law ...
+  std::vector<std::pair<double, double>> intervals_s = {};  // in which it acts, of recording time; empty: always
+  double log_prior = 0.0;  // of this form among all forms of the effect, natural logarithm
 
   double number_or(const std::string& key, double fallback) const;
   std::string word_or(const std::string& key, const std::string& fallback) const;

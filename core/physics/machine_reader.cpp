@@ -236,6 +236,12 @@ EffectSpec spec_from(const std::string& id, const json& parameters) {
   for (const auto& [key, value] : parameters.items()) {
     if (value.is_number()) spec.numbers[key] = value.get<double>();
     if (value.is_string()) spec.words[key] = value.get<std::string>();
+    if (key == "intervals_s" && value.is_array()) {
+      for (const json& interval : value) {
+        if (interval.is_array() && interval.size() == 2 && interval[0].is_number() && interval[1].is_number())
+          spec.intervals_s.emplace_back(interval[0].get<double>(), interval[1].get<double>());
+      }
+    }
   }
   return spec;
 }
@@ -280,6 +286,13 @@ void read_effects(JsonObject& root, Machine& machine) {
     }
     if (!own.is_object()) root.reject("effect_parameters", id, "an object of numbers");
     EffectSpec spec = spec_from(id, own);
+    if (own.contains("intervals_s")) {
+      const json& given = own["intervals_s"];
+      const bool right = given.is_array() && spec.intervals_s.size() == given.size() &&
+                         std::all_of(spec.intervals_s.begin(), spec.intervals_s.end(),
+                                     [](const auto& one) { return one.first < one.second; });
+      if (!right) root.reject(where + ".intervals_s", given.dump(), "a list of [from, to] in s, from before to");
+    }
     const auto& required = find_effect(id)->required_numbers;
     const auto given = [&](std::string_view key) { return spec.numbers.count(std::string(key)) != 0; };
     if (!required.empty() && std::none_of(required.begin(), required.end(), given)) {

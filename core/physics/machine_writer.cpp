@@ -62,6 +62,7 @@ void write_effects(json& document, const Machine& machine) {
     json own = json::object();
     for (const auto& [key, value] : spec.numbers) own[key] = value;
     for (const auto& [key, value] : spec.words) own[key] = value;
+    for (const auto& [from_s, to_s] : spec.intervals_s) own["intervals_s"].push_back({from_s, to_s});
     sets[spec.id].push_back(own);
   }
   for (const auto& [id, list] : sets) parameters[id] = list.size() == 1 ? list[0] : list;

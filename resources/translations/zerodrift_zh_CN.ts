@@ -3518,6 +3518,14 @@
         <translation>跟随另一部件的位移</translation>
     </message>
     <message>
+        <source>heat that something unlogged switches</source>
+        <translation>由未记录的开关控制的热量</translation>
+    </message>
+    <message>
+        <source>a film that a logged input drives</source>
+        <translation>由已记录输入驱动的换热</translation>
+    </message>
+    <message>
         <source>a structure that follows late</source>
         <translation>响应滞后的结构件</translation>
     </message>
@@ -5136,14 +5144,6 @@
     <message>
         <source>%1 %2 mm, where the cameras were calibrated</source>
         <translation>%1 %2 mm，即标定相机的位置</translation>
-    </message>
-    <message>
-        <source>heat that something unlogged switches</source>
-        <translation>由未记录的开关控制的热量</translation>
-    </message>
-    <message>
-        <source>a film that a logged input drives</source>
-        <translation>由已记录输入驱动的换热</translation>
     </message>
 </context>
 <context>

@@ -50,6 +50,8 @@ Setting setting_on(bool rod, const Effect& effect, RunFacts& facts) {
   facts.typical_heat_W = 600;
   for (const auto& sensor : s.machine.sensors) facts.channels.push_back(sensor.channel);
   facts.jump_times_s["dZ_um"] = {3600.0};
+  facts.unused_inputs["heater_on"] = 1.0;
+  facts.stretches_s = {{1800.0, 3600.0}, {5400.0, 7200.0}};
   return s;
 }
 

@@ -37,6 +37,8 @@ const Effect bearing_run_in_effect = {
     {{"excess_share", 0.6, 0.0, 6.0, true}, {"ln_decay_s", 0.7, 6.0, 11.0, false, 8.2}},
     {"excess_share"},
     bearing_run_in::add,
-    bearing_run_in::candidates};
+    bearing_run_in::candidates,
+    {},
+    {.log_rarity = -3.0, .once = true}};
 
 }  // namespace zerodrift::physics

@@ -38,6 +38,8 @@ const Effect bracket_slip_effect = {
     {{"step_um", 5.0, -500.0, 500.0, true}},
     {"step_um"},
     bracket_slip::add,
-    bracket_slip::candidates};
+    bracket_slip::candidates,
+    {},
+    {.log_rarity = -3.0, .once = true}};
 
 }  // namespace zerodrift::physics

@@ -48,6 +48,8 @@ const Effect casting_core_effect = {
     {{"conductance_W_K", 0.5, 0.0, 200.0, true}, {"heat_capacity_J_K", 0.8, 1.0, 1e7, false, 0.0, true}},
     {"conductance_W_K"},
     casting_core::add,
-    casting_core::candidates};
+    casting_core::candidates,
+    {},
+    {.log_rarity = -3.0, .requires_id = "convection"}};
 
 }  // namespace zerodrift::physics

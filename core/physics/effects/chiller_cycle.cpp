@@ -74,6 +74,8 @@ const Effect chiller_cycle_effect = {"chiller_cycle",
                                       {"mean_W", 20.0, 0.0, 5000.0, true}},
                                      {"sine_W"},
                                      chiller_cycle::add,
-                                     chiller_cycle::candidates};
+                                     chiller_cycle::candidates,
+                                     {},
+                                     {.log_rarity = -3.0}};
 
 }  // namespace zerodrift::physics

@@ -56,6 +56,8 @@ const Effect conductivity_temperature_effect = {
     {{"slope_1_K", 0.0015, -0.006, 0.006, true}},
     {"slope_1_K"},
     conductivity_temperature::add,
-    conductivity_temperature::candidates};
+    conductivity_temperature::candidates,
+    {},
+    {.log_rarity = -3.0}};
 
 }  // namespace zerodrift::physics

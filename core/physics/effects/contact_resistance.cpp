@@ -195,6 +195,8 @@ const Effect contact_resistance_effect = {
      {"half_width_mm", 1.0, 0.0, 30000.0, false, 0.0, true}},
     {"resistance_m2K_W"},
     contact_resistance::add,
-    contact_resistance::candidates};
+    contact_resistance::candidates,
+    {},
+    {.apart_share = 0.25}};
 
 }  // namespace zerodrift::physics

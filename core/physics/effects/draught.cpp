@@ -5,19 +5,7 @@
 namespace zerodrift::physics {
 namespace draught {
 
-/// Between the moments, with edges of two minutes so that they can be fitted.
-Strength law(const LawPoint& at) {
-  constexpr double edge_s = 120.0;
-  const double rise = 0.5 * (1.0 + std::tanh((at.time_s - at.values[1]) / edge_s));
-  const double fall = 0.5 * (1.0 + std::tanh((at.time_s - at.values[2]) / edge_s));
-  const auto slope = [](double u) { return 2.0 * u * (1.0 - u) / edge_s; };
-  Strength s;
-  s.by_parameter[0] = rise - fall;
-  s.value = at.values[0] * s.by_parameter[0];
-  s.by_parameter[1] = -at.values[0] * slope(rise);
-  s.by_parameter[2] = at.values[0] * slope(fall);
-  return s;
-}
+constexpr double two_minutes_s = 120.0;  // edges of a draught of one interval
 
 /// Along a rod the film is h (1 + t (x / L - 1/2)).
 void tilt_film(Term& film, int tilt) {
@@ -33,24 +21,26 @@ void tilt_film(Term& film, int tilt) {
 }
 
 void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
-  const int strength = builder.effect_parameter(spec, index, "h_W_m2K");
-  const int from = builder.effect_parameter(spec, index, "from_s");
-  const int to = builder.effect_parameter(spec, index, "to_s");
+  const bool by_conductance = spec.numbers.count("conductance_W_K") != 0;
+  const int strength = builder.effect_parameter(spec, index, by_conductance ? "conductance_W_K" : "h_W_m2K");
+  const bool listed = !spec.intervals_s.empty();
+  const std::vector<int> edges = listed ? builder.interval_parameters(spec, index)
+                                        : std::vector<int>{builder.effect_parameter(spec, index, "from_s"),
+                                                           builder.effect_parameter(spec, index, "to_s")};
   Environment air = builder.network().environments[builder.room()];
   air.name = "draught";
   if (spec.numbers.count("colder_K") != 0) air.parts.push_back({builder.effect_parameter(spec, index, "colder_K"), -1});
   const int environment = builder.environment(std::move(air));
   const int tilt = spec.numbers.count("film_tilt") != 0 ? builder.effect_parameter(spec, index, "film_tilt") : -1;
   for_components(builder, spec, [&](const Component& component) {
-    if (!has_surface(component)) return;
+    if (!by_conductance && !has_surface(component)) return;
     Term film = builder.film_over(component.id, 0.0, component.length_mm);
+    if (by_conductance)
+      for (double& weight : film.weights) weight = 1.0 / static_cast<double>(film.weights.size());
     film.label = component.id + "/draught";
-    film.law_kind = LawKind::time;
     film.environment = environment;
-    film.parameters = {strength, from, to};
-    film.law = law;
     if (tilt >= 0 && !component.lump) tilt_film(film, tilt);
-    builder.add(std::move(film));
+    add_in_intervals(builder, film, strength, edges, listed ? edge_of(spec) : two_minutes_s);
   });
 }
 
@@ -92,12 +82,15 @@ const Effect draught_effect = {"draught",
                                "Coolant or compressed air that is not logged looks the same",
                                "room_sensor_fault coolant",
                                {{"h_W_m2K", 15.0, 0.0, 200.0, true},
+                                {"conductance_W_K", 1.0, 0.0, 200.0, true},
                                 {"from_s", 1800.0, 0.0, 1e6},
                                 {"to_s", 1800.0, 0.0, 1e6},
                                 {"colder_K", 3.0, -20.0, 20.0},
                                 {"film_tilt", 1.0, -2.0, 2.0}},
-                               {"h_W_m2K"},
+                               {"h_W_m2K", "conductance_W_K"},
                                draught::add,
-                               draught::candidates};
+                               draught::candidates,
+                               {},
+                               {.log_rarity = -3.0, .once = true, .requires_id = "convection"}};
 
 }  // namespace zerodrift::physics

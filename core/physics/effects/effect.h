@@ -27,6 +27,20 @@ struct EffectParameter {
   bool logarithmic = false;
 };
 
+/// What a search for missing effects has to know of an effect, beside its equation.
+struct EffectTraits {
+  /// Natural logarithm of how much rarer it is, beforehand, than the common ones (engineering judgement: what service
+  /// reports name often is common; twenty to one what a machine has now and then).
+  double log_rarity = 0.0;
+  bool once = false;                  // an event of one recording - a slip, an open door - that the next need not show
+  std::string_view requires_id = {};  // an effect without which it cannot be there
+  bool alone = false;                 // replaces a part of the network: two forms cannot stand in one simulation
+  double apart_share = 0.0;  // of a part's length, within which a second of the kind only mends the first's shape
+  /// The derivative at 0 says little of the effect's usual size (a lag's stands for the moments of switching alone):
+  /// the score takes the chord to this share of the recording's duration.
+  double chord_share_of_run = 0.0;
+};
+
 struct Effect {
   std::string_view id;
   std::string_view equation;
@@ -40,6 +54,7 @@ struct Effect {
   /// The forms in which the effect could be missing from this machine in this run; parameters at their start values.
   std::vector<EffectSpec> (*candidates)(const Machine& machine, const RunFacts& facts);
   std::string_view driven_by = {};  // the input that switches it, where it acts in no other time
+  EffectTraits traits = {};
 
   const EffectParameter& parameter(std::string_view key) const;
 };
@@ -57,6 +72,9 @@ struct RunFacts {
   double displacement_range_um = 0.0;
   std::map<std::string, std::vector<double>> jump_times_s;  // displacement channel -> where it jumps most
   std::vector<std::string> channels;                        // of the machine that the recording has
+  std::map<std::string, double> unused_inputs;  // logged inputs that the description has no use for -> full value
+  /// In which something that nobody logged may have acted, s; proposed from what the recording leaves.
+  std::vector<std::pair<double, double>> stretches_s;
 };
 
 const std::vector<const Effect*>& all_effects();

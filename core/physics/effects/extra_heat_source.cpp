@@ -69,6 +69,8 @@ const Effect extra_heat_source_effect = {
     {{"power_W", 50.0, 0.0, 1e5, true}, {"position_mm", 20.0, 0.0, 30000.0}},
     {"power_W"},
     extra_heat_source::add,
-    extra_heat_source::candidates};
+    extra_heat_source::candidates,
+    {},
+    {.apart_share = 0.07}};
 
 }  // namespace zerodrift::physics

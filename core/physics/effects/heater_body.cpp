@@ -55,6 +55,8 @@ const Effect heater_body_effect = {
     {{"heat_capacity_J_K", 15.0, 0.0, 20000.0, true}, {"contact_W_K", 1.0, 0.005, 100.0, false, 0.0, true}},
     {"heat_capacity_J_K"},
     heater_body::add,
-    heater_body::candidates};
+    heater_body::candidates,
+    {},
+    {.alone = true}};
 
 }  // namespace zerodrift::physics

@@ -33,6 +33,8 @@ extern const Effect standing_heat_effect;
 extern const Effect speed_heat_curve_effect;
 extern const Effect structure_driver_effect;
 extern const Effect structure_lag_effect;
+extern const Effect switched_heat_effect;
+extern const Effect film_driver_effect;
 
 const std::vector<const Effect*>& all_effects() {
   static const std::vector<const Effect*> effects = {
@@ -63,6 +65,8 @@ const std::vector<const Effect*>& all_effects() {
       &speed_heat_curve_effect,
       &structure_driver_effect,
       &structure_lag_effect,
+      &switched_heat_effect,
+      &film_driver_effect,
   };
   return effects;
 }
@@ -75,15 +79,11 @@ const Effect* find_effect(std::string_view id) {
 }
 
 double log_prior_of(std::string_view id) {
-  // What service reports name often, against what a machine has now and then.
-  static constexpr std::string_view rarer[] = {"draught",           "chiller_cycle",    "bearing_run_in",
-                                               "room_sensor_fault", "bracket_slip",     "conductivity_temperature",
-                                               "sensor_gain",       "speed_heat_curve", "casting_core"};
-  return std::find(std::begin(rarer), std::end(rarer), id) == std::end(rarer) ? 0.0 : -3.0;
+  return find_effect(id)->traits.log_rarity;
 }
 
 bool happens_once(std::string_view id) {
-  return id == "bracket_slip" || id == "draught" || id == "bearing_run_in";
+  return find_effect(id)->traits.once;
 }
 
 std::string effect_ids() {

@@ -60,6 +60,8 @@ const Effect radiation_effect = {"radiation",
                                  {{"emissivity", 0.6, 0.0, 1.0, true}},
                                  {"emissivity"},
                                  radiation::add,
-                                 radiation::candidates};
+                                 radiation::candidates,
+                                 {},
+                                 {.requires_id = "convection"}};
 
 }  // namespace zerodrift::physics

@@ -35,6 +35,8 @@ const Effect room_sensor_fault_effect = {
     {{"offset_K", 1.5, -15.0, 15.0, true}, {"drift_K_per_h", 0.5, -5.0, 5.0, true}},
     {"offset_K", "drift_K_per_h"},
     room_sensor_fault::add,
-    room_sensor_fault::candidates};
+    room_sensor_fault::candidates,
+    {},
+    {.log_rarity = -3.0}};
 
 }  // namespace zerodrift::physics

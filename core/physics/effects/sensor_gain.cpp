@@ -25,6 +25,8 @@ const Effect sensor_gain_effect = {"sensor_gain",
                                    {{"gain_error", 0.08, -0.3, 0.3, true}},
                                    {"gain_error"},
                                    sensor_gain::add,
-                                   sensor_gain::candidates};
+                                   sensor_gain::candidates,
+                                   {},
+                                   {.log_rarity = -3.0}};
 
 }  // namespace zerodrift::physics

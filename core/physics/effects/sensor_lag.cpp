@@ -23,6 +23,8 @@ const Effect sensor_lag_effect = {"sensor_lag",
                                   {{"lag_s", 200.0, 0.0, 3000.0, true}},
                                   {"lag_s"},
                                   sensor_lag::add,
-                                  sensor_lag::candidates};
+                                  sensor_lag::candidates,
+                                  {},
+                                  {.chord_share_of_run = 0.02}};
 
 }  // namespace zerodrift::physics

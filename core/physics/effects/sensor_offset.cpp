@@ -9,7 +9,15 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   if (seen == nullptr) return;
   StructureTerm constant;
   constant.gain = builder.effect_parameter(spec, index, "offset_K");
-  constant.signal = builder.signal({"one", [](const double*, const double*, double) { return 1.0; }});
+  constant.signal =
+      builder.signal({"one", [intervals = spec.intervals_s](const double*, const double*, double time_s) {
+                        return intervals.empty() || std::any_of(intervals.begin(), intervals.end(),
+                                                                [&](const auto& one) {
+                                                                  return one.first <= time_s && time_s < one.second;
+                                                                })
+                                   ? 1.0
+                                   : 0.0;
+                      }});
   seen->structure.push_back(constant);
 }
 

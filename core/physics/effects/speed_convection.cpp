@@ -52,6 +52,8 @@ const Effect speed_convection_effect = {
     {{"a_W_m2K", 30.0, 0.0, 400.0, true}, {"exponent", 0.15, 0.4, 1.1, false, 0.7}},
     {"a_W_m2K"},
     speed_convection::add,
-    speed_convection::candidates};
+    speed_convection::candidates,
+    {},
+    {.requires_id = "convection"}};
 
 }  // namespace zerodrift::physics

@@ -82,6 +82,8 @@ const Effect speed_heat_curve_effect = {
      {"watts_at_100", 10.0, 0.0, 1e4, true}},
     {"watts_to_25", "watts_25_to_50", "watts_50_to_75", "watts_75_to_100"},
     speed_heat_curve::add,
-    speed_heat_curve::candidates};
+    speed_heat_curve::candidates,
+    {},
+    {.log_rarity = -3.0}};
 
 }  // namespace zerodrift::physics

@@ -317,6 +317,8 @@ std::vector<TextEntry> texts_of_physics() {
       {"a heat that is there at rest as well", "静止时也存在的热源"},
       {"heat as a curve over speed", "发热量随转速的曲线"},
       {"a displacement that follows another part", "位移跟随其他部件"},
+      {"heat that something unlogged switches", "由未记录的开关控制的热量"},
+      {"a film that a logged input drives", "由已记录输入驱动的换热"},
       {"a structure that follows late", "结构响应滞后"},
       {"in step with the spindle speed", "与主轴转速同步"},
       {"with the square of the spindle speed", "与主轴转速平方成比例"},
