@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 340> machines = {{
+constexpr std::array<const char*, 345> machines = {{
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 255> models = {{
+constexpr std::array<const char*, 262> models = {{
     QT_TRANSLATE_NOOP("core", "the same run as %1"),
     QT_TRANSLATE_NOOP("core", "another run, or each run once"),
     QT_TRANSLATE_NOOP("core", "from %1 min on"),

@@ -38,7 +38,7 @@ Result<RunSummary> Run::record(const std::optional<Stand>& at_rest) {
   Result<RunEnd> end = loop(at_rest);
   if (!end && m_control.abort_requested()) end = RunEnd::aborted;
   // Asked to finish while the machine is away: what was recorded until then is the run.
-  const bool away = !end && is_link_failure(end.error());
+  const bool away = !end && may_pass(end.error());
   if (away && m_control.finish_requested() && m_log.rows() > 0) end = RunEnd::finished;
   m_summary.machine_stopped = stop_machine();
   if (!m_summary.machine_stopped) event("problem", "machine_not_stopped");

@@ -5773,10 +5773,6 @@
         <translation>请改写其中之一，或在列名映射中写明 &quot;decimal&quot;。</translation>
     </message>
     <message>
-        <source>{file} holds two tables: one ends about line {line}, one begins at line {other_line}.</source>
-        <translation>{file} 含有两个表：一个约在第 {line} 行结束，另一个从第 {other_line} 行开始。</translation>
-    </message>
-    <message>
         <source>Save each in a file of its own.</source>
         <translation>请将每个表单独存为一个文件。</translation>
     </message>
@@ -6007,6 +6003,10 @@
     <message>
         <source>The measurements hold. Check the camera&apos;s network, or calibrate anew.</source>
         <translation>测量有效。请检查相机的网络，或重新标定。</translation>
+    </message>
+    <message>
+        <source>{file} holds two tables: one at line {line}, one at line {other_line}.</source>
+        <translation>{file} 含有两个表：一个在第 {line} 行，另一个在第 {other_line} 行。</translation>
     </message>
 </context>
 <context>

@@ -98,6 +98,11 @@ Result<NamedChannel> channel_from(const std::string& header, const std::string& 
   const bool by_underscore = !split.unit.empty() && header == split.name + "_" + header.substr(split.name.size() + 1) &&
                              header.size() > split.name.size() && header[split.name.size()] == '_';
   std::string unit_text = split.unit;
+  std::string name = split.name;
+  if (const auto whole = unit_from(header); header.size() > 1 && whole && whole->quantity == Quantity::temperature) {
+    unit_text = header;  // "°C" and no name
+    name.clear();
+  }
   if (!stated.unit.empty()) {
     const auto own = unit_from(split.unit);
     const auto other = unit_from(stated.unit);
@@ -109,7 +114,7 @@ Result<NamedChannel> channel_from(const std::string& header, const std::string& 
   if (!unit || unit->quantity == Quantity::other || unit->quantity == Quantity::time) return as_it_is;
   if (unit->quantity == Quantity::length && unit->scale != 1.0 && !is_displacement(split.name, label)) return as_it_is;
   if (unit->quantity == Quantity::temperature && is_difference(split.name)) return as_it_is;
-  std::string base = tidy(split.name);
+  std::string base = tidy(name);
   if (base.empty()) base = "column_" + std::to_string(place);
   const ChannelKind kind = kind_of(base);
   if (kind != ChannelKind::input && kind != ChannelKind::coolant) {  // "T1_C (degC)"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "core/base/file.h"
 #include "core/recording/import/cell_words.h"
@@ -48,7 +49,8 @@ struct ColumnCounts {
   std::size_t measured = 0;
 };
 
-std::vector<std::size_t> rows_with_numbers(const Cells& cells) {
+/// Rows with a number or a time, and so large a share of values, from the end of the file upwards.
+std::vector<std::size_t> rows_with_values(const Cells& cells, double share) {
   std::vector<std::size_t> rows;
   for (std::size_t row = cells.rows(); row-- > 0 && rows.size() < sample_rows;) {
     if (cells.is_comment(row)) continue;
@@ -61,13 +63,14 @@ std::vector<std::size_t> rows_with_numbers(const Cells& cells) {
       values += is_value(cell);
       measured = measured || is_measured(cell);
     }
-    if (measured && 2 * values >= filled) rows.push_back(row);
+    if (measured && static_cast<double>(values) >= share * static_cast<double>(filled)) rows.push_back(row);
   }
   return rows;
 }
 
 std::optional<Shape> shape_of(const Cells& cells) {
-  std::vector<std::size_t> rows = rows_with_numbers(cells);
+  std::vector<std::size_t> rows = rows_with_values(cells, 0.6);  // a setting and its number, as in a block, have 0.5
+  if (rows.empty()) rows = rows_with_values(cells, 0.3);
   if (rows.size() > 1 && rows.size() < sample_rows) rows.pop_back();  // the uppermost may be a header of numbers
   std::map<std::size_t, std::size_t> widths;
   for (const std::size_t row : rows) ++widths[cells.columns(row)];
@@ -112,7 +115,7 @@ bool is_header_like(const Cells& cells, std::size_t row, const Shape& shape) {
     filled += !cell.empty();
     words += !cell.empty() && !is_value(cell);
   }
-  return words > 0 && 5 * filled >= 3 * shape.width && 2 * words >= filled;
+  return 5 * filled >= 3 * shape.width && 2 * words > filled;
 }
 
 std::size_t unit_words(const Cells& cells, std::size_t row) {
@@ -262,8 +265,14 @@ Status check_width(const SourceTable& table, std::size_t row, std::size_t named)
                                           {"expected", std::to_string(named)}});
 }
 
-/// Three rows of numbers before the header: the file holds a table before this one.
-Status check_single(const SourceTable& table, std::size_t header_row) {
+tl::unexpected<Error> two_tables(const SourceTable& table, std::size_t one, std::size_t other) {
+  return fail(ErrorCode::two_tables, {{"file", table.form.file},
+                                      {"line", std::to_string(table.cells.line(one))},
+                                      {"other_line", std::to_string(table.cells.line(other))}});
+}
+
+/// A row as wide as the table, or three, of numbers before the header: the file holds a table before this one.
+Status check_single(const SourceTable& table, std::size_t header_row, std::size_t width) {
   std::size_t in_a_row = 0;
   for (std::size_t row = 0; row < header_row; ++row) {
     if (table.cells.is_comment(row) || table.cells.is_blank(row)) continue;
@@ -274,10 +283,7 @@ Status check_single(const SourceTable& table, std::size_t header_row) {
       values += is_value(table.cells.at(row, column));
     }
     in_a_row = filled > 1 && values == filled ? in_a_row + 1 : 0;
-    if (in_a_row < 3) continue;
-    return fail(ErrorCode::two_tables, {{"file", table.form.file},
-                                        {"line", std::to_string(table.cells.line(row))},
-                                        {"other_line", std::to_string(table.cells.line(header_row))}});
+    if (in_a_row == 3 || (in_a_row > 0 && filled == width)) return two_tables(table, row, header_row);
   }
   return {};
 }
@@ -291,7 +297,8 @@ Error remark(ErrorCode code, const SourceTable& table, std::size_t row) {
 
 Status collect_body(SourceTable& table, const Header& header, const Shape& shape) {
   const std::size_t named = table.names.size();
-  const auto names_row = header.names ? table.cells.row(*header.names) : std::vector<std::string>{};
+  std::set<std::vector<std::string>> before;  // rows that may come again with the header
+  for (std::size_t row = 0; row < header.body; ++row) before.insert(table.cells.row(row));
   bool started = header.names.has_value();
   for (std::size_t row = header.body; row < table.cells.rows(); ++row) {
     if (table.cells.is_comment(row) || table.cells.is_blank(row)) continue;
@@ -302,7 +309,7 @@ Status collect_body(SourceTable& table, const Header& header, const Shape& shape
     }
     started = true;
     if (header.names && !measured) {
-      const bool repeated = table.cells.row(row) == names_row;
+      const bool repeated = before.contains(table.cells.row(row));
       std::size_t filled = 0;
       std::string_view only;
       for (std::size_t column = 0; column < table.cells.columns(row); ++column) {
@@ -310,7 +317,11 @@ Status collect_body(SourceTable& table, const Header& header, const Shape& shape
         ++filled;
         only = table.cells.at(row, column);
       }
-      if (repeated || (filled == 1 && !is_value(only) && named > 1) || is_header_like(table.cells, row, shape)) {
+      const bool remark_alone = filled == 1 && !is_value(only) && named > 1;
+      if (!repeated && !remark_alone && is_header_like(table.cells, row, shape)) {
+        return two_tables(table, *header.names, row);
+      }
+      if (repeated || remark_alone) {
         table.remarks.push_back(
             remark(repeated ? ErrorCode::header_repeated : ErrorCode::line_passed_over, table, row));
         continue;
@@ -416,7 +427,7 @@ Result<SourceTable> find_table(SourceCells source, const TableOptions& options) 
     table.names = table.cells.row(*header.names);
     while (!table.names.empty() && table.names.back().empty()) table.names.pop_back();
     table.block_end = std::min(*header.names, header.units.value_or(*header.names));
-    ZD_CHECK(check_single(table, table.block_end));
+    ZD_CHECK(check_single(table, table.block_end, shape->width));
   } else if (table.form.separator.size() > 0) {
     table.names = names_in_remark(table.cells, *shape, separator_from(table.form.separator));
     table.has_header = !table.names.empty();

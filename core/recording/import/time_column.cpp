@@ -64,6 +64,7 @@ bool is_time_name(std::string_view header) {
                                                  "date",     "datum",   "uhrzeit", "x_value", "seconds",  "epoch",
                                                  "unix",     "zeit",    "hours",   "minutes", "laufzeit", "时间",
                                                  "日期",     "时刻",    "sec",     "x",       "runtime"};
+  if (header == "T" || header == "X") return false;  // a temperature, an axis
   if (std::find(words.begin(), words.end(), name) != words.end()) return true;
   return name.starts_with("time") || name.starts_with("elapsed") || name.starts_with("zeit") ||
          name.starts_with("date") || name.starts_with("unix") || name.starts_with("epoch") || name.ends_with(" time") ||
@@ -159,13 +160,17 @@ Result<std::vector<double>> numbers_in(const SourceTable& table, std::size_t col
   return values;
 }
 
+bool is_labview(const SourceTable& table) {
+  return table.block_end > 0 && table.cells.at(0, 0).starts_with("LabVIEW");
+}
+
 /// Numbers: elapsed time in a unit that is known, or time since 1970.
 Result<TimeReading> read_numbers(const SourceTable& table, std::size_t column, std::string unit, double scale) {
   TimeReading out;
   out.columns = {column};
   ZD_TRY(std::vector<double> values, numbers_in(table, column));
   const double first = values.front();
-  const bool labview = !table.rows.empty() && table.block_end > 0 && table.cells.at(0, 0).starts_with("LabVIEW");
+  const bool labview = is_labview(table);
   const std::string size = labview ? std::string() : epoch_unit(first);
   const bool named = !unit.empty();
   if (!size.empty() && (!named || unit_from(unit)->scale == 1.0 || unit_from(size)->scale == unit_from(unit)->scale)) {
@@ -380,6 +385,8 @@ std::optional<TimeReading> read_interval(const SourceTable& table) {
       const std::string_view cell = table.cells.at(row, column);
       if (!cell.empty() && table.form.numbers.number(cell) != step) return std::nullopt;
     }
+    const int x_values = table.column("X_Value");
+    if (x_values >= 0 && contents_of(table, static_cast<std::size_t>(x_values)).numbers > 0) return std::nullopt;
     TimeReading out;
     out.rule = "interval";
     out.unit = "s";
@@ -413,13 +420,30 @@ Result<std::vector<std::size_t>> columns_in_map(const SourceTable& table, const 
   return out;
 }
 
-/// The date of the start from a clock beside elapsed time, where its date has one meaning.
-std::string start_beside(const SourceTable& table, std::size_t row, std::size_t column) {
-  const auto clock = read_clock_text(table.cell(row, column));
-  if (!clock || clock->orders.size() != 1) return {};
-  const auto day = day_of(*clock, clock->orders.front());
-  if (!day) return {};
-  return iso_text(day->time_since_epoch().count() * day_ns + clock->of_day_ns, clock->zone_minutes);
+/// A clock beside elapsed time gives the date of the start, where its date has one meaning, and must pass as fast: what
+/// calls itself ms may be something else.
+Status agrees_with_clock(const SourceTable& table, std::size_t column, TimeReading& out) {
+  const auto first = read_clock_text(table.cell(out.rows.front(), column));
+  const auto last = read_clock_text(table.cell(out.rows.back(), column));
+  if (!first || !last || first->orders.size() != 1 || last->orders != first->orders) return {};
+  const auto first_day = day_of(*first, first->orders.front());
+  const auto last_day = day_of(*last, first->orders.front());
+  if (!first_day || !last_day) return {};
+  const std::int64_t start_ns = first_day->time_since_epoch().count() * day_ns + first->of_day_ns;
+  if (out.start.empty()) out.start = iso_text(start_ns, first->zone_minutes);
+  const double clock_s = static_cast<double>((*last_day - *first_day).count()) * 86400.0 +
+                         static_cast<double>(last->of_day_ns - first->of_day_ns) / 1e9;
+  const double elapsed_s = out.time_s.back() - out.time_s.front();
+  // The clock may show minutes only, and summer time may end.
+  const bool shows_seconds = (first->of_day_ns % (60 * ns_per_s)) != 0 || (last->of_day_ns % (60 * ns_per_s)) != 0;
+  const double resolution_s = shows_seconds ? 2.0 : 61.0;
+  const double difference_s = std::abs(clock_s - elapsed_s);
+  const bool summer_time = std::abs(difference_s - 3600.0) < resolution_s;
+  if (difference_s < resolution_s + 0.01 * clock_s || summer_time) return {};
+  return fail(ErrorCode::unit_conflict, {{"file", table.form.file},
+                                         {"column", table.name_of(out.columns.front())},
+                                         {"found", fmt::format("{} ({:g} s)", out.unit, elapsed_s)},
+                                         {"expected", fmt::format("{} ({:g} s)", table.name_of(column), clock_s)}});
 }
 
 /// A column "ms" right after a clock without fractions.
@@ -474,11 +498,11 @@ Result<TimeReading> read_time(const SourceTable& table, const HeaderMap& map, co
       }
     } else if (const auto of_day = first_where([&](std::size_t c) { return contents[c].is_time_of_day(); })) {
       chosen = {*of_day};
-    } else if (auto even = read_interval(table)) {
-      return *even;
     } else if (const auto number = first_where(
                    [&](std::size_t c) { return contents[c].is_number() && is_time_name(table.names[c]); })) {
       chosen = {*number};
+    } else if (auto even = read_interval(table)) {
+      return *even;
     }
   }
   if (chosen.empty()) {
@@ -489,9 +513,10 @@ Result<TimeReading> read_time(const SourceTable& table, const HeaderMap& map, co
   const std::size_t first = chosen.front();
   if (chosen.size() == 1 && map.time.format.empty() && contents[first].dates == 0 && contents[first].times == 0) {
     if (unit.empty() && scale == 0.0) unit = time_unit_of(table, first);
+    if (unit.empty() && scale == 0.0 && is_labview(table) && table.names[first] == "X_Value") unit = "s";
     ZD_TRY(TimeReading out, read_numbers(table, first, unit, scale));
     const auto beside = first_where([&](std::size_t c) { return contents[c].is_date_and_time(); });
-    if (beside && out.start.empty()) out.start = start_beside(table, out.rows.front(), *beside);
+    if (beside) ZD_CHECK(agrees_with_clock(table, *beside, out));
     return out;
   }
   clock.first = first;

@@ -248,6 +248,24 @@ TEST(Importer, SwitchesAndWords) {
   EXPECT_TRUE(warns(read_as("time_s,T1_C\n0,20\n10,-9999\n"), ErrorCode::sentinel_suspected));
 }
 
+TEST(Importer, ElapsedTimeAndAClockBesideItMustAgree) {
+  // WinCC calls a millionth of a day Time_ms.
+  const char* text =
+      "TimeString;a;Time_ms\n03.11.2025 07:12:40;1,5;45964300462,963\n03.11.2025 07:42:40;2;45964321296,296\n";
+  const Error fault = refusal_of(text);
+  EXPECT_EQ(fault.code, ErrorCode::unit_conflict);
+  EXPECT_EQ(fault.context.at("column"), "Time_ms");
+  EXPECT_EQ(read_as(text, map_from_text(R"({"time": {"column": "TimeString"}, "columns": {"Time_ms": null}})"))
+                .recording.time_s.back(),
+            1800.0);
+}
+
+TEST(Importer, LabviewSegmentsThatStartAgainAreRefused) {
+  const std::string once = logger_files::labview();
+  const auto second = once.find("Channels\t3");
+  EXPECT_EQ(refusal_of(once + once.substr(second)).code, ErrorCode::csv_time_order);
+}
+
 TEST(Importer, NamesThatLookAlikeAreProposedOnly) {
   const Imported read = read_as("time_s,Room temp (degC),Temp 2,Coolant,RPM\n0,20,21,1,3000\n10,20,22,0,3000\n");
   EXPECT_EQ(fate_of(read, "Room temp (degC)").channel, "Room_temp_C");

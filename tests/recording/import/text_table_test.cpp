@@ -173,6 +173,7 @@ TEST(TextTable, LinesThatAreNoRowsAreNamed) {
   EXPECT_EQ(wide.code, ErrorCode::csv_cell_count);
   EXPECT_EQ(wide.context.at("line"), "3");
   EXPECT_EQ(error_of("t,a,b\n0,1,2\n1,2\n").code, ErrorCode::csv_cell_count);
+  EXPECT_EQ(error_of("t,a\n0,1\n1,2\nx,b\n0,1\n").code, ErrorCode::two_tables);
   EXPECT_EQ(error_of("t,a\n0,1\n1,2\n2,3\nx,b\n0,1\n1,2\n2,3\n").code, ErrorCode::two_tables);
   // Separators too many at the end of each line, or of some.
   EXPECT_EQ(table_of("t,a,,\n0,1,,\n1,2,\n").rows.size(), 2U);
