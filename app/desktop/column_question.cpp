@@ -30,8 +30,8 @@ constexpr std::array<double, 6> error_units_um = {1.0, 1000.0, 25400.0, 0.0254, 
 template <std::size_t N>
 int unit_of(const std::array<double, N>& units, double value) {
   constexpr double rounding = 1e-9;
-  const auto at = std::find_if(units.begin(), units.end(),
-                               [&](double unit) { return std::abs(value - unit) < rounding * unit; });
+  const auto at =
+      std::find_if(units.begin(), units.end(), [&](double unit) { return std::abs(value - unit) < rounding * unit; });
   return at == units.end() ? -1 : static_cast<int>(at - units.begin());
 }
 

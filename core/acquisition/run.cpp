@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/acquisition/machine_fault.h"
+#include "core/acquisition/machine_fault.h"
 #include "core/base/json.h"
 
 namespace zerodrift::acquisition {

@@ -50,9 +50,9 @@ double bridge_gaps(const std::vector<double>& time_s, std::vector<double>& value
 /// Missing samples of an input: held from the sample before; before the first one its value.
 void hold_gaps(std::vector<double>& values);
 
-/// Names series that may be in K or in Fahrenheit. Nothing is converted: units come from names, headers or the user, and
-/// a motor may well start at 55 C. A cold machine stands between about 0 and 45 C, so a whole set that starts above 50
-/// is suspected of Fahrenheit, and anything that stays above 200 of kelvin.
+/// Names series that may be in K or in Fahrenheit. Nothing is converted: units come from names, headers or the user,
+/// and a motor may well start at 55 C. A cold machine stands between about 0 and 45 C, so a whole set that starts above
+/// 50 is suspected of Fahrenheit, and anything that stays above 200 of kelvin.
 void suspect_units(const std::vector<std::string>& channels, const std::vector<std::vector<double>>& values,
                    std::vector<Finding>& findings);
 

@@ -147,7 +147,8 @@ Status check_unknown_columns(const List& list, std::vector<std::string>* warning
                    {"found", std::string(list.cells.at(*filled, k))},
                    {"expected", "a column of a known name (scale, type, count, sign ...), or none"}});
     }
-    if (warnings != nullptr) warnings->push_back(fmt::format("{}: column {}: {}", list.file, heading, "not used: words"));
+    if (warnings != nullptr)
+      warnings->push_back(fmt::format("{}: column {}: {}", list.file, heading, "not used: words"));
   }
   return {};
 }

@@ -160,9 +160,7 @@ recording::Recording inputs_of(const Run& run, int minutes, const Model& model) 
 }
 
 nlohmann::json plan_of(const Run& run, int minutes, double full_rpm) {
-  nlohmann::json plan = {{"name", run.id},
-                         {"sample_period_s", 10},
-                         {"measure_period_s", 60}};
+  nlohmann::json plan = {{"name", run.id}, {"sample_period_s", 10}, {"measure_period_s", 60}};
   const std::vector<int> ends = ends_of(run, minutes);
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
     const Step& step = run.steps[i];

@@ -218,8 +218,12 @@ constexpr std::array catalogue{
         "run_gauge_never_changes",
         "Recording {recording}: {channel} never changes (it is always {value}) although {um} µm are simulated: is the "
         "gauge connected? It was not used."},
-    Entry{"run_fahrenheit", "Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; give their unit in the column map."},
-    Entry{"run_kelvin", "Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit in the column map."},
+    Entry{"run_fahrenheit",
+          "Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; "
+          "give their unit in the column map."},
+    Entry{"run_kelvin",
+          "Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit "
+          "in the column map."},
     Entry{"no_excitation", "Nothing drives the machine in this recording: little can be learned from it."},
     Entry{"sign_turned", "With its sign turned, {channel} is as described: check which way it counts as positive."},
     Entry{"experiment_show", "To see whether there is {@rival}, {minutes} min in all: {@run}."},

@@ -36,8 +36,9 @@ Result<CommandOutput> make_map(const MapOptions& options) {
 Result<CommandOutput> list_registers(const MapOptions& options) {
   CommandOutput output;
   ZD_TRY(const controller::Profile profile, controller::read_profile(options.profile, &output.warnings));
-  ZD_TRY(const RegisterMap map, options.list.empty() ? controller::map_of(profile, &output.warnings)
-                                                     : controller::read_register_list(options.list, options.base, &output.warnings));
+  ZD_TRY(const RegisterMap map, options.list.empty()
+                                    ? controller::map_of(profile, &output.warnings)
+                                    : controller::read_register_list(options.list, options.base, &output.warnings));
   controller::ControllerSettings settings = profile.controller;
   if (map.unit) settings.unit = *map.unit;
   controller::Link link(settings);

@@ -17,7 +17,7 @@ namespace zerodrift::flow {
 struct RunOptions {
   acquisition::Plan plan;       // without a measuring position the profile's counts
   bool refuse_too_few = false;  // a run that will end with too few measurements ends in its first tenth
-  bool anew = false;  // a run that was broken off is closed as aborted instead of gone on with
+  bool anew = false;            // a run that was broken off is closed as aborted instead of gone on with
   std::function<void(const acquisition::RunUpdate&)> observer;
   /// Told the control of the run when it starts, and null when it has ended.
   std::function<void(acquisition::RunControl*)> control;

@@ -209,9 +209,11 @@ std::vector<TextEntry> texts_of_physics() {
        "gauge connected? It was not used.",
        "记录 {recording}：{channel} 始终不变（始终为 {value}），而仿真值变化了 {um} µm：测头是否已连接？未予使用。"},
       {"Recording {recording}: {@what}.", "记录 {recording}：{@what}。"},
-      {"Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; give their unit in the column map.",
+      {"Recording {recording}: the temperatures may be in degrees Fahrenheit but were taken as degrees Celsius; give "
+       "their unit in the column map.",
        "记录 {recording}：温度可能为华氏度，但已按摄氏度处理；请在列映射中给出单位。"},
-      {"Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit in the column map.",
+      {"Recording {recording}: the temperatures may be in kelvin but were taken as degrees Celsius; give their unit in "
+       "the column map.",
        "记录 {recording}：温度可能为开尔文，但已按摄氏度处理；请在列映射中给出单位。"},
       {"{}: {} of {} samples were used, from {} to {} min, for nothing was measured for {} min before or after them",
        "{0}：{2} 个采样中使用了 {1} 个（{3} 至 {4} min），因为其前或其后有 {5} min 未进行测量"},
