@@ -8,6 +8,7 @@
 #include "core/analysis/clustering.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/sensors_step.h"
 
 namespace zerodrift::cli {
@@ -58,11 +59,10 @@ std::string text_of(const analysis::ClusterAnalysis& result) {
 /// Keeps the choice of sensors in the job, with the same number of clusters.
 Status keep_in_job(const Options& options, int clusters, const TaskContext& context) {
   ZD_TRY(auto job, commissioning::Job::open(options.job));
-  flow::SensorsOptions sensors;
-  sensors.clusters = clusters;
-  ZD_TRY(const auto made, flow::choose_sensors(job, sensors, context));
-  ZD_CHECK(job.put(made).map([](auto) {}));
-  return {};
+  const auto choose = [clusters](commissioning::Job& in, const TaskContext& inner) {
+    return flow::choose_sensors(in, {clusters, {}}, inner);
+  };
+  return flow::Flow().perform(job, "sensors", choose, context).map([](const auto&) {});
 }
 
 Result<recording::Recording> recording_of(const Options& options, std::vector<std::string>& warnings) {

@@ -12,6 +12,7 @@
 #include "core/commissioning/job.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/proof_html.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/diagnose_step.h"
 
 namespace zerodrift::cli {
@@ -76,9 +77,11 @@ Status keep_diagnosis(const DiagnoseArguments& arguments, const diagnosis::Diagn
                       const TaskContext& context) {
   ZD_TRY(const nlohmann::json machine, read_json_file(arguments.machine));
   ZD_TRY(auto job, commissioning::Job::open(arguments.job));
-  ZD_TRY(const auto made, flow::with_diagnosis(job, machine, result, context));
-  ZD_CHECK(job.put(made).map([](auto) {}));
-  return {};
+  // The machine is a file here, no artefact of the job.
+  const auto keep = [&](commissioning::Job& in, const TaskContext& inner) {
+    return flow::with_diagnosis(in, machine, result, inner);
+  };
+  return flow::Flow().take_in(job, "physics", keep, context).map([](const auto&) {});
 }
 
 Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const TaskContext& context) {

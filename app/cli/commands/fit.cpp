@@ -9,6 +9,7 @@
 #include "core/analysis/training.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/physics/simulate.h"
@@ -111,20 +112,22 @@ Result<analysis::Model> fitted_in_job(const Options& options, const TaskContext&
   ZD_TRY(auto job, commissioning::Job::open(options.job));
   ZD_TRY(const auto before, job.latest("sensors"));
   if (!before || options.sensors != "auto") {
-    flow::SensorsOptions sensors;
-    if (options.sensors != "auto") sensors.chosen = names_from(options.sensors);
-    auto chosen = flow::choose_sensors(job, sensors, context);
-    if (!chosen && chosen.error().code == ErrorCode::bad_argument && options.sensors == "auto") {
-      sensors.clusters = 0;  // fewer sensors than the usual number of clusters
-      chosen = flow::choose_sensors(job, sensors, context);
-    }
-    if (!chosen) return fail(std::move(chosen).error());
-    ZD_CHECK(job.put(*chosen).map([](auto) {}));
+    const auto choose = [&](commissioning::Job& in, const TaskContext& inner) {
+      flow::SensorsOptions sensors;
+      if (options.sensors != "auto") sensors.chosen = names_from(options.sensors);
+      auto chosen = flow::choose_sensors(in, sensors, inner);
+      if (!chosen && chosen.error().code == ErrorCode::bad_argument && options.sensors == "auto") {
+        sensors.clusters = 0;  // fewer sensors than the usual number of clusters
+        chosen = flow::choose_sensors(in, sensors, inner);
+      }
+      return chosen;
+    };
+    ZD_CHECK(flow::Flow().perform(job, "sensors", choose, context).map([](const auto&) {}));
   }
-  flow::FitStepOptions how;
-  how.method = options.method;
-  ZD_TRY(const auto made, flow::fit_model(job, how, context));
-  ZD_TRY(const auto kept, job.put(made));
+  const auto fit = [&](commissioning::Job& in, const TaskContext& inner) {
+    return flow::fit_model(in, {options.method}, inner);
+  };
+  ZD_TRY(const auto kept, flow::Flow().perform(job, "fit", fit, context));
   return flow::model_of(kept);
 }
 

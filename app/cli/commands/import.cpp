@@ -9,6 +9,7 @@
 #include "core/base/error_json.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/import_step.h"
 #include "core/recording/csv.h"
 
@@ -52,9 +53,10 @@ std::string text_of(const recording::Imported& imported, const std::string& targ
 Status into_job(const Options& options, const recording::Imported& imported, const nlohmann::json& how) {
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
   const std::string name = std::filesystem::path(options.file).filename().string();
-  ZD_TRY(const auto made, flow::import_warmup(job, imported.recording, name, how));
-  ZD_CHECK(job.put(made).map([](auto) {}));
-  return {};
+  const auto take = [&](commissioning::Job& in, const TaskContext&) {
+    return flow::import_warmup(in, imported.recording, name, how);
+  };
+  return flow::Flow().take_in(job, "warmup", take, {}).map([](const auto&) {});
 }
 
 Status run(const Options& options, CommandOutput& output) {
