@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/machine_fault.h"
-#include "core/acquisition/machine_fault.h"
 #include "core/base/json.h"
 
 namespace zerodrift::acquisition {
