@@ -23,6 +23,7 @@ Outcome of a case
     honest  "unexplained" and no wrong effect of 0.8 or more
     missed  "consistent" although something is hidden
     wrong   anything else; sure and wrong: a wrong effect of 0.9 or more
+    failed  no answer: refused, or out of time
 """
 
 import argparse
@@ -40,6 +41,7 @@ import sys
 import time
 
 SURE = 0.9
+ALARM = 0.5  # from here an effect of a machine with nothing hidden is a false alarm, whatever the verdict
 COUNTS = 0.8  # a wrong effect below this does not spoil an "unexplained"
 OVERLAP = 0.3  # of intervals, intersection over union
 SCORE = {"right": 1.0, "first": 1.0, "half": 0.5, "honest": 0.5}
@@ -245,9 +247,8 @@ def judge(expected, diagnosis):
     unexplained = honest(expected, diagnosis)
     spoiled = any(c >= COUNTS for c in wrong)
     if not hidden and not expected.get("unlisted"):
-        outcome = "right" if verdict == "consistent" and not effects else "honest" if not spoiled and not named else "wrong"
-        if not effects and verdict == "missing_effect":
-            outcome = "wrong"
+        alarm = verdict == "missing_effect" or any(c >= ALARM for c in wrong)
+        outcome = "wrong" if alarm else "right" if verdict == "consistent" else "honest"
     elif expected.get("unlisted") or verdict in expected.get("right_verdicts", []):
         good = unexplained and not spoiled
         outcome = "right" if good else "half" if "half" in named or "right" in named else "wrong"
@@ -292,7 +293,7 @@ def judge_folder(arguments, folder, result):
         diagnose(arguments.cli, folder, out, arguments.limit_s)
     facts = json.loads((out / "run.json").read_text())
     if facts["exit"] != 0 or not (out / "diagnosis.json").exists():
-        said = {"outcome": "wrong", "verdict": f"failed ({facts['exit']})", "answer": [facts["said"][:100]], "confidence": []}
+        said = {"outcome": "failed", "verdict": f"failed ({facts['exit']})", "answer": [facts["said"][:100]], "confidence": []}
         said.update(sure_and_wrong=False, wrong_confidence=0.0, found=[], place_mm=[], overlap=[])
     else:
         diagnosis = json.loads((out / "diagnosis.json").read_text())
@@ -362,6 +363,7 @@ def figures(judged):
         "single, honest": share(single, ("honest",)),
         "single, missed": share(single, ("missed",)),
         "single, wrong": share(single, ("wrong",)),
+        "failed": share(judged, ("failed",)),
         "pairs, both": share(pairs, ("right",)),
         "pairs, one at least": share(pairs, ("right", "first", "half")),
         "nothing hidden, consistent": share(sound, ("right",)),
@@ -398,7 +400,7 @@ def print_figures(title, figure):
 
 def table_by_kind(judged):
     kinds = sorted({j["hidden"] for j in judged if "+" not in j["hidden"]})
-    order = ("right", "first", "half", "honest", "missed", "wrong")
+    order = ("right", "first", "half", "honest", "missed", "wrong", "failed")
     print(f"\n  {'hidden':34}" + "".join(f"{o:>8}" for o in order))
     for kind in kinds + ["two effects"]:
         these = [j for j in judged if j["hidden"] == kind or (kind == "two effects" and "+" in j["hidden"])]

@@ -80,7 +80,8 @@ class Outcomes(unittest.TestCase):
         self.assertEqual(self.outcome([], answer("consistent")), "right")
         self.assertEqual(self.outcome([], answer("unexplained")), "honest")
         self.assertEqual(self.outcome([], answer("missing_effect", ("convection", 0.5))), "wrong")
-        self.assertEqual(self.outcome([], answer("unexplained", ("convection", 0.4))), "wrong")
+        self.assertEqual(self.outcome([], answer("unexplained", ("convection", 0.4))), "honest")
+        self.assertEqual(self.outcome([], answer("unexplained", ("convection", 0.6))), "wrong")
 
     def test_unlisted_is_right_when_unexplained(self):
         one = [{"name": "unlisted:creep", "right": [], "half": ["bracket_slip"]}]

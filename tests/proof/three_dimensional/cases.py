@@ -17,7 +17,7 @@ import sys
 import numpy as np
 
 from machines import MACHINES
-from solid_run import REFERENCE_C, Reduced, SolidRun
+from solid_run import REFERENCE_C, Reduced, Scaled, SolidRun, lagged
 from structures import STRUCTURES
 
 MATERIALS = {
@@ -44,6 +44,7 @@ SINGLE = (
     "logged_heat",
 )
 UNLISTED = ("unlisted:creep", "unlisted:slip", "unlisted:wander")
+SIZES = (0.6, 1.5)  # of the whole structure, against the mesh
 # In standard deviations of noise and of what a description in rods and lumps cannot say of a solid, together.
 STRENGTH_SIGMA = (3.0, 30.0)
 FORM_ERROR = {"C": (0.1, 0.005), "um": (1.0, 0.01)}  # absolute and of the channel's range
@@ -104,9 +105,16 @@ def draw_truth(d, structure, machine, tolerance):
                 nominal = structure.contacts[pair]
                 contacts[f"{pair[0]}|{pair[1]}"] = nominal if nominal >= 1e5 else nominal * math.exp(d.gauss(0, 0.25))
     truth["contacts"] = contacts
-    truth["bridges"] = {name: nominal * math.exp(d.gauss(0, 0.2)) for name, (_, _, nominal) in machine.bridges.items()}
+    truth["bridges"] = {name: nominal * machine.size**2 * math.exp(d.gauss(0, 0.2)) for name, (_, _, nominal) in machine.bridges.items()}
     described = machine.sources(d)
     for source in described:
+        # Heat grows with the surface that carries it away.
+        for key in ("rated_power_W", "friction_N", "load_N"):
+            if key in source:
+                source[key] = round_to(source[key] * machine.size**2, 2)
+        for key in ("from_mm", "to_mm", "mean_diameter_mm"):
+            if key in source:
+                source[key] = machine.mm(source[key])
         if source.get("load"):
             truth["sources"].append(dict(source, scale=d.scale(tolerance["heat_source_power"])))
     return truth, described
@@ -134,7 +142,7 @@ def conductance_W_K(model, machine, truth, coupling):
         A = A + film * model("F", surface)
 
     lump = model("mean", machine.lumps[coupling.lump][0])
-    other = model("average", coupling.name())
+    other = model("average", coupling.name)
     theta = np.linalg.solve(A, lump)
     if coupling.across in machine.bridges:
         a, b, _ = machine.bridges[coupling.across]
@@ -151,7 +159,7 @@ def describe(d, model, structure, machine, truth, described, tolerance, with_con
     parts = {part.name: part for part in structure.parts}
     components = []
     for name, rod in machine.rods().items():
-        geometry = {key: rod[key] for key in ("length_mm", "outer_diameter_mm", "bore_diameter_mm")}
+        geometry = {key: machine.mm(rod[key]) for key in ("length_mm", "outer_diameter_mm", "bore_diameter_mm")}
         components.append({"id": name, **geometry, "material": MATERIALS[rod["material"]], "heat_sources": []})
     for lump, members in machine.lumps.items():
         capacity = sum(float(model("volume_m3", p)) * parts[p].material["rho"] * parts[p].material["c"] for p in members)
@@ -180,7 +188,7 @@ def describe(d, model, structure, machine, truth, described, tolerance, with_con
         by_id[source["component"]]["heat_sources"].append(entry)
     couplings = []
     for coupling in machine.couplings():
-        other = {"component": coupling.other, "position_mm": coupling.place_mm}
+        other = {"component": coupling.other, "position_mm": machine.mm(coupling.place_mm)}
         # An engineer's estimate of the joint and the ways to it; some do not dare one.
         estimate = conductance_W_K(model, machine, truth, coupling) * math.exp(d.gauss(0, 0.7 * tolerance["conductance"]))
         known = d.random() < 0.85
@@ -222,12 +230,13 @@ def draw_sensors(d, model, machine, document):
     for i in range(on_rod):
         wanted = (i + 0.5 + d.uniform(-0.3, 0.3)) / on_rod * (grid[-1] - grid[0]) + grid[0]
         chosen.add(min(grid, key=lambda x: abs(x - wanted)))
+    usual = d.choice(sorted(places[grid[0]]))
     for i, x in enumerate(sorted(chosen)):
         sides = places[x]
-        side = "side" if d.random() < 0.75 else d.choice(sorted(sides))
+        side = usual if d.random() < 0.75 else d.choice(sorted(sides))
         channel = f"T{i + 1}_C"
         rows[channel] = model("reading", sides[side])
-        document["sensors"].append({"channel": channel, "component": machine.rod, "position_mm": x, "accuracy_C": accuracy})
+        document["sensors"].append({"channel": channel, "component": machine.rod, "position_mm": machine.mm(x), "accuracy_C": accuracy})
     for lump in lumps:
         channel = f"{lump}_C"
         rows[channel] = model("reading", lump)
@@ -235,7 +244,7 @@ def draw_sensors(d, model, machine, document):
     for key, (rod, place) in machine.further_sensors.items():
         if d.random() < 0.8:
             rows[f"{key}_C"] = model("reading", key)
-            document["sensors"].append({"channel": f"{key}_C", "component": rod, "position_mm": place, "accuracy_C": accuracy})
+            document["sensors"].append({"channel": f"{key}_C", "component": rod, "position_mm": machine.mm(place), "accuracy_C": accuracy})
     readings.update(rows)
     return readings, accuracy
 
@@ -298,7 +307,7 @@ def event_intervals(d, duration, period, many):
 
 
 def tolerance_mm(machine):
-    return max(0.1 * machine.length, 25.0)
+    return max(0.1 * machine.length * machine.size, 25.0)
 
 
 class Hidden:
@@ -310,7 +319,7 @@ class Hidden:
 
 
 def draw_hidden(kind, d, machine, structure, truth, document, duration, period, model):
-    L = machine.length
+    L = machine.length * machine.size
 
     def effect(right, half=(), **facts):
         return {"name": kind, "right": list(right), "half": list(half), **facts}
@@ -319,11 +328,12 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
         load, (component, place) = d.choice(sorted(machine.heat_places.items(), key=str))
         facts = {"component": component}
         if place is not None:
-            facts.update(position_mm=place, tolerance_mm=tolerance_mm(machine))
+            facts.update(position_mm=machine.mm(place), tolerance_mm=tolerance_mm(machine))
         extra = {"load": load, "law": "constant"}
         if kind == "extra_heat_source":
             extra["law"] = d.choice(["on", "n", "n2"])
-            near = [s for s in truth["sources"] if place is not None and "from_mm" in s and s["from_mm"] - 0.1 * L < place < s["to_mm"] + 0.1 * L]
+            at = machine.mm(place)
+            near = [s for s in truth["sources"] if at is not None and "from_mm" in s and s["from_mm"] - 0.1 * L < at < s["to_mm"] + 0.1 * L]
             half = ["speed_heat_curve", "standing_heat", "switched_heat", "neighbour_heat"]
             if any(s["kind"] == "bearing" for s in near):
                 half.append("bearing_preload")
@@ -365,7 +375,7 @@ def draw_hidden(kind, d, machine, structure, truth, document, duration, period, 
             name = joint if joint in t["contacts"] else "|".join(reversed(machine.joint))
             t["contacts"][name] = 1.0 / (1e-5 + size)
 
-        facts = effect(["contact_resistance"], component=machine.rod, position_mm=machine.joint_mm, tolerance_mm=tolerance_mm(machine))
+        facts = effect(["contact_resistance"], component=machine.rod, position_mm=machine.mm(machine.joint_mm), tolerance_mm=tolerance_mm(machine))
         return Hidden(kind, 2e-4, LIMITS["contact_R"], apply, facts, SMALLEST["contact_R"])
     if kind in ("bearing_preload", "bearing_viscosity"):
         key = {"bearing_preload": "preload_1_K", "bearing_viscosity": "viscosity_1_K"}[kind]
@@ -466,9 +476,10 @@ class Case:
         self.name = f"case-{index + 1:03d}"
         mixture = d.random()
         structure_name = structure_name or d.choice(sorted(STRUCTURES))
-        self.machine = machine = MACHINES[structure_name]
-        self.structure = structure = STRUCTURES[structure_name]()
-        self.model = models[structure_name]
+        size = d.log_uniform(*SIZES)
+        self.machine = machine = MACHINES[structure_name].scaled(size)
+        self.structure = STRUCTURES[structure_name]()
+        self.model = Scaled(models[structure_name], size)
         self.kinds = self._kinds(d, kind, mixture, machine)
         for _ in range(60):
             if self._attempt():
@@ -566,8 +577,6 @@ class Case:
         for channel, fault in truth.get("sensor", {}).items():
             values = temperatures[channel]
             if "lag_s" in fault:
-                from solid_run import lagged
-
                 temperatures[channel] = lagged(values, inputs["time_s"], fault["lag_s"])
             elif "offset_K" in fault:
                 temperatures[channel] = values + fault["offset_K"]
@@ -663,6 +672,7 @@ class Case:
             "case": self.name,
             "world": "three_dimensional",
             "structure": self.machine.name,
+            "size": round(self.machine.size, 3),
             "hidden": effects,
             "unlisted": unlisted,
             "recordings": len(self.runs),

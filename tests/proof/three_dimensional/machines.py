@@ -4,6 +4,7 @@ The description is the one that an engineer would write from drawings: the long 
 surface, what hangs on it as lumps joined by estimated conductances.
 """
 
+import copy
 import math
 
 from structures import STRUCTURES
@@ -26,13 +27,13 @@ class Coupling:
 
     def __init__(self, lump, other, place_mm, across):
         self.lump, self.other, self.place_mm, self.across = lump, other, place_mm, across
-
-    def name(self):
-        return f"{self.other} at {self.place_mm:g}"
+        self.name = f"{self.other} at {self.place_mm:g}"
 
 
 class Machine:
-    """Of each structure; lengths in mm, heats in W."""
+    """Of each structure; lengths in mm, heats in W. Lengths are those of the mesh times `size`."""
+
+    size = 1.0
 
     name = ""
     rod = ""  # the component that is long
@@ -65,6 +66,16 @@ class Machine:
     def loads(self, solid):
         return self.solid_loads(solid)
 
+    def scaled(self, size):
+        """The machine that a structure of another size carries."""
+        other = copy.copy(self)
+        other.size = size
+        return other
+
+    def mm(self, length):
+        """A length of the mesh in that of this machine, as a drawing would state it."""
+        return None if length is None else round(length * self.size, 1)
+
     def averages(self, solid):
         """Means over a rod's section where a lump is joined to it."""
         rows = {}
@@ -73,7 +84,7 @@ class Machine:
             weight = near(coupling.place_mm + rod["starts_at_mm"], 0.03 * rod["length_mm"])
             masses = [solid.M[solid.names.index(part)] @ [weight(*p) for p in solid.points] for part in rod["parts"]]
             total = sum(masses)
-            rows[coupling.name()] = total / total.sum()
+            rows[coupling.name] = total / total.sum()
         return rows
 
     def rods(self):
@@ -132,7 +143,8 @@ class Column(Machine):
     def readings(self, solid):
         rows = {}
         for x in range(30, 900, 30):
-            for key, point in (("side", (x, -10, 200)), ("back", (x, -150, 15)), ("other", (x, 10, -200))):
+            sides = {"front": (x, 150, 12), "side": (x, -10, 200), "back": (x, -150, 15), "other": (x, 10, -200)}
+            for key, point in sides.items():
                 rows[f"column {x} {key}"] = solid.reading(point, ("lower", "upper"))
         rows["bed"] = solid.reading((-60, 300, 80))
         rows["carriage"] = solid.reading((470, 245, 20), ("carriage",))

@@ -24,6 +24,18 @@ class Reduced:
         return self.data[f"{kind} {name}"]
 
 
+# How the stored matrices grow with the size of the whole structure.
+POWER_OF_SIZE = {"K": 1, "M": 3, "F": 2, "f": 2, "C": 2, "J": 2, "g": 1, "area_m2": 2, "volume_m3": 3}
+
+
+class Scaled(Reduced):
+    """The same structure, all its lengths larger by a factor."""
+
+    def __init__(self, model, factor):
+        self.size, self.uniform = model.size, model.uniform
+        self.data = {key: value * factor ** POWER_OF_SIZE.get(key.split(" ")[0], 0) for key, value in model.data.items()}
+
+
 def palmgren_W(rpm, bearing, viscosity_factor=1.0, load_factor=1.0):
     if rpm <= 0:
         return 0.0

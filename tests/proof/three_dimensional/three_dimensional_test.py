@@ -24,7 +24,7 @@ if missing:
 
 import cases
 import matrices
-from solid_run import Reduced, SolidRun
+from solid_run import Reduced, Scaled, SolidRun
 from structures import STRUCTURES
 
 NAME = "motor_flange"
@@ -57,6 +57,12 @@ class MotorFlange(unittest.TestCase):
     def test_volumes_are_those_of_the_drawing(self):
         self.assertAlmostEqual(float(self.model("volume_m3", "wall")), 0.4 * 0.4 * 0.04, places=6)
         self.assertAlmostEqual(float(self.model("volume_m3", "motor")), np.pi * 0.09**2 * 0.2, delta=1e-4)  # a polygon
+
+    def test_larger_structure_has_the_scaled_volume_and_growth(self):
+        twice = Scaled(self.model, 2.0)
+        self.assertAlmostEqual(float(twice("volume_m3", "wall")), 8 * float(self.model("volume_m3", "wall")))
+        grown = sum(twice("g", key) for key in twice.keys("g") if key.startswith("dZ_um ")) @ twice.uniform
+        self.assertAlmostEqual(1e6 * grown, 2e6 * self.gain("dZ_um") @ self.model.uniform, places=6)
 
     def test_heat_put_in_is_stored_where_nothing_is_lost(self):
         draw = cases.Draw(1)
