@@ -20,7 +20,7 @@ namespace zerodrift::commissioning {
 namespace {
 
 constexpr int orders = 200;
-constexpr int files = 4;
+constexpr int job_files = 4;
 
 enum class Kind { recording, step, audited, checked, headed, last = headed };
 
@@ -41,7 +41,9 @@ void record(Job& job, Acknowledged& kept, const std::stop_token& stop, bool to_t
     const std::scoped_lock lock(kept.mutex);
     kept.rows[{job.path().string(), *series}] = i + 1;
   }
-  if (to_the_end) EXPECT_TRUE(job.finish_series(*series));
+  if (to_the_end) {
+    EXPECT_TRUE(job.finish_series(*series));
+  }
 }
 
 void work(Job& job, Kind kind, int number, Acknowledged& kept, const std::stop_token& stop) {
@@ -97,7 +99,7 @@ TEST_F(JobLifetime, JobsChangeInAnyOrderWhileWorkRunsOnThem) {
       switch (any(4)) {
         case 0:  // New or Open; a job on which work still runs is busy
         case 1: {
-          auto next = Job::open_or_create(file(any(files)));
+          auto next = Job::open_or_create(file(any(job_files)));
           if (next) {
             open = std::make_shared<Job>(std::move(*next));
           } else {
@@ -134,7 +136,7 @@ TEST_F(JobLifetime, JobsChangeInAnyOrderWhileWorkRunsOnThem) {
     ASSERT_TRUE(read) << describe(read.error());
     EXPECT_GE(static_cast<std::int64_t>(read->rows()), rows) << where.first << " series " << where.second;
   }
-  for (int i = 0; i < files; ++i) {
+  for (int i = 0; i < job_files; ++i) {
     const auto job = Job::open(file(i));
     ASSERT_TRUE(job);
     const auto checked = job->check();

@@ -38,10 +38,10 @@ void expect_refused(const std::string& text, const std::string& column, const st
 /// A list with the four addresses as written in some notation.
 std::string list(const std::string& header, const std::string& form, const std::vector<std::string>& addresses) {
   std::string out = header + "\n";
-  const std::vector<std::string> names = {"temperature_C[1]", "temperature_C[2]", "ambient_C", "compensation_state"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    out +=
-        fmt::format(fmt::runtime(form), names[i], addresses[i], i == 3 ? "WORD" : "INT", i == 3 ? "1" : "0.1") + "\n";
+  const std::vector<std::string> elements = {"temperature_C[1]", "temperature_C[2]", "ambient_C", "compensation_state"};
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    out += fmt::format(fmt::runtime(form), elements[i], addresses[i], i == 3 ? "WORD" : "INT", i == 3 ? "1" : "0.1") +
+           "\n";
   }
   return out;
 }

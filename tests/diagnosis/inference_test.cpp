@@ -22,7 +22,7 @@ using inference::Fit;
 using inference::JointModel;
 using inference::RowMatrix;
 
-constexpr double noise_K = 0.03;
+constexpr double white_K = 0.03;
 
 /// A rod with a heater at its fixed end, in a film; `effects` and `parameters` as JSON.
 physics::Machine rod(const std::string& effects, const std::string& parameters) {
@@ -62,7 +62,7 @@ recording::Recording measured(const physics::Machine& truth, recording::Recordin
   const auto shown = physics::simulate(truth, run);
   EXPECT_TRUE(shown.has_value());
   std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0.0, noise_K);
+  std::normal_distribution<double> noise(0.0, white_K);
   for (const char* channel : {"T1_C", "T2_C", "T3_C"}) {
     run.channels.push_back(*shown->prediction.find(channel));
     for (double& v : run.channels.back().values) v += noise(random);
@@ -294,7 +294,8 @@ TEST(FittedDescription, SimulatesToWhatWasReported) {
   ASSERT_TRUE(simulated.has_value());
   for (const auto& one : physics::compare(simulated->prediction, run)) {
     for (const auto& channel : answer->channels) {
-      if (channel.channel == one.channel) EXPECT_NEAR(one.rms, channel.rms_explained, 1e-3) << one.channel;
+      if (channel.channel != one.channel) continue;
+      EXPECT_NEAR(one.rms, channel.rms_explained, 1e-3) << one.channel;
     }
   }
 }
