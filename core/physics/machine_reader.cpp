@@ -291,7 +291,7 @@ void read_effects(JsonObject& root, Machine& machine) {
       const bool right = given.is_array() && spec.intervals_s.size() == given.size() &&
                          std::all_of(spec.intervals_s.begin(), spec.intervals_s.end(),
                                      [](const auto& one) { return one.first < one.second; });
-      if (!right) root.reject(where + ".intervals_s", given.dump(), "a list of [from, to] in s, from before to");
+      if (!right) root.reject(where + ".intervals_s", json_text(given), "a list of [from, to] in s, from before to");
     }
     const auto& required = find_effect(id)->required_numbers;
     const auto given = [&](std::string_view key) { return spec.numbers.count(std::string(key)) != 0; };
