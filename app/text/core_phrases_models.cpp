@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 262> models = {{
+constexpr std::array<const char*, 265> models = {{
     QT_TRANSLATE_NOOP("core", "the same run as %1"),
     QT_TRANSLATE_NOOP("core", "another run, or each run once"),
     QT_TRANSLATE_NOOP("core", "from %1 min on"),
@@ -104,6 +104,9 @@ constexpr std::array<const char*, 262> models = {{
     QT_TRANSLATE_NOOP("core",
                       "All surfaces cool together during one stretch of time that no logged input explains. Coolant or "
                       "compressed air that is not logged looks the same"),
+    QT_TRANSLATE_NOOP("core", "One part warms and cools in stretches of time that no logged input explains"),
+    QT_TRANSLATE_NOOP("core", "The part cools faster while a logged input is on that the description does not use"),
+    QT_TRANSLATE_NOOP("core", "a list of [from, to] in s, from before to"),
     QT_TRANSLATE_NOOP("core", "One place is simulated too cold; the error is largest there and spreads both ways"),
     QT_TRANSLATE_NOOP("core", "The heated end starts late and goes on warming after the heater is off"),
     QT_TRANSLATE_NOOP("core", "A part without a source of its own warms after its neighbour does"),

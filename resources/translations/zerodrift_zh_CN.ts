@@ -2770,14 +2770,6 @@
         <translation>有缺失</translation>
     </message>
     <message>
-        <source>looks like degrees Fahrenheit and was converted</source>
-        <translation>疑似华氏温度，已换算</translation>
-    </message>
-    <message>
-        <source>looks like kelvin and was converted</source>
-        <translation>疑似开尔文温度，已换算</translation>
-    </message>
-    <message>
         <source>has values no machine tool reaches</source>
         <translation>含有机床不可能达到的值</translation>
     </message>
@@ -3092,22 +3084,6 @@
     <message>
         <source>%1 has gaps (%2)</source>
         <translation>%1 有缺失（%2）</translation>
-    </message>
-    <message>
-        <source>%1 looks like degrees Fahrenheit and was converted</source>
-        <translation>%1 疑似华氏温度，已换算</translation>
-    </message>
-    <message>
-        <source>%1 looks like degrees Fahrenheit and was converted (%2)</source>
-        <translation>%1 疑似华氏温度，已换算（%2）</translation>
-    </message>
-    <message>
-        <source>%1 looks like kelvin and was converted</source>
-        <translation>%1 疑似开尔文温度，已换算</translation>
-    </message>
-    <message>
-        <source>%1 looks like kelvin and was converted (%2)</source>
-        <translation>%1 疑似开尔文温度，已换算（%2）</translation>
     </message>
     <message>
         <source>%1 has values no machine tool reaches</source>
@@ -4386,14 +4362,6 @@
         <translation>记录 {recording}：{@what}。</translation>
     </message>
     <message>
-        <source>Recording {recording}: the temperatures look like degrees Fahrenheit and were converted.</source>
-        <translation>记录 {recording}：温度似为华氏度，已换算。</translation>
-    </message>
-    <message>
-        <source>Recording {recording}: the temperatures look like kelvin and were converted.</source>
-        <translation>记录 {recording}：温度似为开尔文，已换算。</translation>
-    </message>
-    <message>
         <source>may not be in seconds: no machine tool warms so fast</source>
         <translation>可能不是以秒为单位：没有机床升温如此之快</translation>
     </message>
@@ -5144,6 +5112,22 @@
     <message>
         <source>%1 %2 mm, where the cameras were calibrated</source>
         <translation>%1 %2 mm，即标定相机的位置</translation>
+    </message>
+    <message>
+        <source>One part warms and cools in stretches of time that no logged input explains</source>
+        <translation>某一部件在若干时段内升温、降温，记录的输入均不能解释</translation>
+    </message>
+    <message>
+        <source>The part cools faster while a logged input is on that the description does not use</source>
+        <translation>当某个描述中未使用的已记录输入开启时，该部件冷却更快</translation>
+    </message>
+    <message>
+        <source>a list of [from, to] in s, from before to</source>
+        <translation>[起, 止] 列表，单位 s，起先于止</translation>
+    </message>
+    <message>
+        <source>a report of a rotary axis</source>
+        <translation>旋转轴报告</translation>
     </message>
 </context>
 <context>
@@ -5945,14 +5929,6 @@
         <translation>每行都必须有时间且递增：请更正行的次序，或删除该行。</translation>
     </message>
     <message>
-        <source>Use a decimal point; leave the cell empty if the sample is missing.</source>
-        <translation>请使用小数点；缺少采样时单元格留空。</translation>
-    </message>
-    <message>
-        <source>time_s must be there in every line and increase.</source>
-        <translation>每行都必须有 time_s，且递增。</translation>
-    </message>
-    <message>
         <source>Correct it there, or say with a column map (--map) what the column holds.</source>
         <translation>请在该处更正，或用列映射（--map）说明该列的内容。</translation>
     </message>
@@ -6007,6 +5983,10 @@
     <message>
         <source>{file} holds two tables: one at line {line}, one at line {other_line}.</source>
         <translation>{file} 含有两个表：一个在第 {line} 行，另一个在第 {other_line} 行。</translation>
+    </message>
+    <message>
+        <source>{file}, line {line}, column {column}: found {found}; expected {expected}.</source>
+        <translation>{file} 第 {line} 行 {column} 列：内容为 {found}；应为 {expected}。</translation>
     </message>
 </context>
 <context>
@@ -6990,10 +6970,6 @@
 </context>
 <context>
     <name>zerodrift::desktop::Presenter</name>
-    <message>
-        <source>%1 is still running</source>
-        <translation>“%1”仍在进行</translation>
-    </message>
     <message>
         <source>No machine is connected: connect it on the Machine page.</source>
         <translation>未连接机床：请在“机床”页连接。</translation>
@@ -8488,10 +8464,6 @@
     <message>
         <source>Use this model</source>
         <translation>使用此模型</translation>
-    </message>
-    <message>
-        <source>Choose a method.</source>
-        <translation>请选择一种方法。</translation>
     </message>
     <message>
         <source>Attainable peak error</source>

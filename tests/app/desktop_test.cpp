@@ -99,7 +99,7 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(!page->state().mapChanged);
     auto* editor = page->findChild<desktop::MapEditor*>();
     QVERIFY(editor != nullptr);
-    const QString list = file("plc.csv", "name,address,type,scale\ntemperature_C[1],40011,INT,0.1\nM7,3,WORD,\n");
+    const QString list = file("plc.csv", "name,address,type,scale\ntemperature_C[1],40011,INT,0.1\nM7,40004,WORD,\n");
     QVERIFY(editor->import(list).has_value());
     QCOMPARE(page->state().registers.size(), 2);
     QVERIFY(page->state().mapChanged);

@@ -160,6 +160,7 @@ TEST_F(ConsentTest, ACommissioningKeepsWhatWasChosenByHand) {
   const auto model = (*job->latest("model"))->id;
   const auto document = profile_document();
   CommissionOptions options;
+  options.plan.measure_position_mm = {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}};
   options.permit = *access.permit("x");
   options.consent = Consent::given();
   const auto profile = controller::profile_from_json(document, "profile.json");

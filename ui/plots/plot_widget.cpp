@@ -66,6 +66,7 @@ PlotWidget::PlotWidget(QWidget* parent) : QWidget(parent) {
     placeMarkTexts();
   });
   m_placeholder = new QCPItemText(m_plot);
+  m_placeholder->setText({});  // QCustomPlot writes "text" into a new one
   m_placeholder->position->setType(QCPItemPosition::ptAxisRectRatio);
   m_placeholder->position->setCoords(0.5, 0.45);
   m_placeholder->setVisible(false);

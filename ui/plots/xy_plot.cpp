@@ -122,6 +122,8 @@ void XyPlot::clear() {
   setLimits({});
   setMarks({});
   setAxisLabels({}, {});
+  xAxis()->setRange(0.0, 5.0);  // as QCustomPlot begins: ranges too are of what is gone
+  yAxis()->setRange(0.0, 5.0);
   showPlaceholder(true);
   replot();
 }

@@ -160,7 +160,7 @@ void add_temperatures(Collector& to, const physics::Machine& machine, const std:
       }
       ++count;
     }
-    if (count > 0) to.add({"neighbours of " + part.id, false, part.id, std::move(sum)});
+    if (count > 0) to.add({"neighbours:" + part.id, false, part.id, std::move(sum)});
   }
 }
 

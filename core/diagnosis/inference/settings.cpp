@@ -9,18 +9,17 @@ Status DiagnosisSettings::check() const {
     return fail(ErrorCode::bad_argument,
                 {{"what", what}, {"found", fmt::format("{:g}", found)}, {"expected", expected}});
   };
-  if (most_rows < 100)
-    return wrong("most_rows", static_cast<double>(most_rows), "at least 100: switching needs its rows");
-  if (slow_times_s.empty() || slow_times_s.front() <= 0.0) return wrong("slow_times_s", 0.0, "times above 0 s");
-  if (slow_sizes.empty()) return wrong("slow_sizes", 0.0, "at least one size");
-  if (repeatable_sizes.empty()) return wrong("repeatable_sizes", 0.0, "at least one size");
+  if (most_rows < 100) return wrong("most_rows", static_cast<double>(most_rows), ">= 100");
+  if (slow_times_s.empty() || slow_times_s.front() <= 0.0) return wrong("slow_times_s", 0.0, "> 0");
+  if (slow_sizes.empty()) return wrong("slow_sizes", 0.0, ">= 1");
+  if (repeatable_sizes.empty()) return wrong("repeatable_sizes", 0.0, ">= 1");
   for (std::size_t i = 1; i < slow_sizes.size(); ++i) {
-    if (slow_sizes[i] <= slow_sizes[i - 1]) return wrong("slow_sizes", slow_sizes[i], "sizes that grow");
+    if (slow_sizes[i] <= slow_sizes[i - 1]) return wrong("slow_sizes", slow_sizes[i], "increasing");
   }
   const double shares = common_share + part_share + near_share;
   if (shares > 1.0 || common_share < 0.0 || part_share < 0.0 || near_share < 0.0)
-    return wrong("shares of a gain's variance", shares, "each at least 0, together at most 1");
-  if (decisive <= 0.0 || margin <= decisive) return wrong("margin", margin, "more than the decisive odds");
+    return wrong("shares", shares, "0..1");
+  if (decisive <= 0.0 || margin <= decisive) return wrong("margin", margin, "> decisive");
   return {};
 }
 

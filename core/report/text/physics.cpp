@@ -368,6 +368,10 @@ std::vector<TextEntry> texts_of_physics() {
       {"All surfaces cool together during one stretch of time that no logged input explains. Coolant or compressed air "
        "that is not logged looks the same",
        "在某一时段所有表面同时变冷，记录的输入均不能解释。未记录的冷却液或压缩空气看起来也是如此"},
+      {"One part warms and cools in stretches of time that no logged input explains",
+       "某一部件在若干时段内升温、降温，记录的输入均不能解释"},
+      {"The part cools faster while a logged input is on that the description does not use",
+       "当某个描述中未使用的已记录输入开启时，该部件冷却更快"},
       {"One place is simulated too cold; the error is largest there and spreads both ways",
        "某处仿真温度偏低；误差在该处最大并向两侧扩散"},
       {"The heated end starts late and goes on warming after the heater is off",
