@@ -28,7 +28,16 @@ inline void expect_simulated_as_reported(const Diagnosis& d, const recording::Re
   constexpr double of_the_range = 0.03;
   const auto refined = physics::machine_from_json(physics::to_json(d.refined), "refined.json");
   ASSERT_TRUE(refined.has_value()) << describe(refined.error());
-  const auto simulation = physics::simulate(*refined, run);
+  // What the diagnosis left out of the recording, the command refuses to simulate beside.
+  recording::Recording used = run;
+  std::erase_if(used.channels, [&](const recording::Channel& channel) {
+    return d.refined.sensor(channel.name) != nullptr &&
+           physics::measured_boundaries(d.refined).count(channel.name) == 0 &&
+           channel.kind() == recording::ChannelKind::temperature &&
+           std::none_of(d.channels.begin(), d.channels.end(),
+                        [&](const ChannelReport& one) { return one.channel == channel.name; });
+  });
+  const auto simulation = physics::simulate(*refined, used);
   ASSERT_TRUE(simulation.has_value()) << describe(simulation.error());
   if (has_a_start_of_its_own(d)) return;
   std::map<double, std::size_t> row_at;
