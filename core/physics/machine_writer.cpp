@@ -29,6 +29,7 @@ void write_source(json& out, const HeatSource& source) {
 void write_component(json& out, const Component& component) {
   if (component.lump) {
     out["kind"] = "lump";
+    if (component.prescribed) out["prescribed"] = true;
     if (component.heat_capacity_J_K && !component.capacity_is_guessed)
       out["heat_capacity_J_K"] = *component.heat_capacity_J_K;
     if (component.area_mm2 && !component.area_is_guessed) out["area_mm2"] = *component.area_mm2;
@@ -51,6 +52,19 @@ void write_component(json& out, const Component& component) {
   }
   if (component.material.expansion_1_K != 0.0) out["material"]["expansion_1_K"] = component.material.expansion_1_K;
   for (const auto& source : component.sources) write_source(entry(out["heat_sources"], source.id), source);
+}
+
+/// Of a description without components the parts were made of the sensors, and are named now.
+void write_sensor(json& list, const Machine& machine, const Sensor& sensor) {
+  if (!list.is_array()) list = json::array();
+  for (auto& one : list) {
+    if (one.value("channel", "") != sensor.channel) continue;
+    one["component"] = sensor.component;
+    return;
+  }
+  list.push_back({{"channel", sensor.channel}, {"component", sensor.component}, {"accuracy_C", sensor.accuracy_C}});
+  const Component* component = machine.find(sensor.component);
+  if (component != nullptr && !component->lump) list.back()["position_mm"] = sensor.position_mm;
 }
 
 void write_effects(json& document, const Machine& machine) {
@@ -80,10 +94,7 @@ json to_json(const Machine& machine) {
   if (machine.reference_temperature_C) document["reference_temperature_C"] = *machine.reference_temperature_C;
   for (const auto& component : machine.components)
     write_component(entry(document["components"], component.id), component);
-  // Of a description without components the parts were made of the sensors, and are named now.
-  for (std::size_t i = 0; i < machine.sensors.size() && document.contains("sensors"); ++i) {
-    document["sensors"][i]["component"] = machine.sensors[i].component;
-  }
+  for (const Sensor& sensor : machine.sensors) write_sensor(document["sensors"], machine, sensor);
   for (std::size_t i = 0; i < machine.couplings.size() && document.contains("couplings"); ++i) {
     const auto& g = machine.couplings[i].conductance_W_K;
     if (g) document["couplings"][i]["conductance_W_K"] = *g;
