@@ -33,6 +33,16 @@ struct Quadratic {
   double log_determinant = 0.0;  // of the noise, with the repeatable part
 };
 
+/// `shown` and `columns` of each run: what the series shows, and its derivatives by the unknowns (rows x unknowns).
+SeriesStatistics statistics_of(const Evidence& evidence, std::size_t series, const Sizes& sizes,
+                               const std::vector<std::vector<double>>& shown, const std::vector<RowMatrix>& columns);
+/// Of all series, in their order; those without samples are not looked at.
+Quadratic quadratic_of(const Evidence& evidence, const Sizes& sizes, const Eigen::VectorXd& z,
+                       const std::vector<const SeriesStatistics*>& statistics);
+/// ln evidence in the linear model, the unknowns re-optimised within low to high; without the prior of the sizes.
+double log_evidence_of(const Quadratic& q, const Eigen::VectorXd& z, const Eigen::VectorXd& low,
+                       const Eigen::VectorXd& high);
+
 struct FitOptions {
   int iterations = 12;
   bool finish = true;  // with columns that are fresh, as the evidence needs them
@@ -78,6 +88,8 @@ class Fit {
   std::vector<double> repeatable(std::size_t run, std::size_t series) const;
   /// Innovations of a series: white and of unit variance under this hypothesis; 0 where nothing was measured.
   std::vector<double> innovations(std::size_t run, std::size_t series) const;
+  /// Of a series at this point.
+  const SeriesStatistics& statistics(std::size_t series, const Sizes& sizes) const;
   /// ln evidence of the data at these sizes, the unknowns re-optimised in the linear model.
   double log_evidence_at(const Sizes& sizes) const;
 
@@ -87,7 +99,6 @@ class Fit {
   std::vector<int> all_unknowns() const;
   Predicted simulate(const Eigen::VectorXd& z, const std::vector<int>& unknowns, std::vector<RowMatrix>* columns) const;
   double cost_of(const Predicted& predicted, const Eigen::VectorXd& z) const;
-  const SeriesStatistics& statistics(std::size_t series, const Sizes& sizes) const;
   Quadratic quadratic_at(const Sizes& sizes) const;
   std::vector<double> residual(const Predicted& predicted, std::size_t run, std::size_t series) const;
   Eigen::VectorXd gains(std::size_t group) const;

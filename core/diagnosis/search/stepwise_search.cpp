@@ -5,8 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "core/diagnosis/description/corrected_value.h"
+#include "core/diagnosis/description/description_candidates.h"
 #include "core/diagnosis/inference/adequacy.h"
 #include "core/diagnosis/parallel.h"
 #include "core/diagnosis/search/intervals.h"
@@ -38,6 +41,7 @@ struct Proposal {
   bool from_straight = false;
   Candidate candidate;
   Score score;
+  std::optional<DescriptionError> error = {};  // instead of the candidate
 };
 
 class Search {
@@ -76,7 +80,8 @@ class Search {
     node.adequacy = inference::adequacy(*other);
     other->settle();
     node.settled = other;
-    if (!start->model().hypothesis().effects.empty()) {
+    const Hypothesis& hypothesis = start->model().hypothesis();
+    if (!hypothesis.effects.empty() || !hypothesis.errors.empty()) {
       start->settle();
       if (start->log_posterior() > other->log_posterior()) node.settled = start;
     }
@@ -113,10 +118,21 @@ class Search {
     }
   }
 
+  /// Mistakes in the description, where a hypothesis leaves more than it should or bends the description to suit.
+  void propose_errors(std::size_t at, std::vector<Proposal>& list) const {
+    const Node& node = m_nodes[at];
+    if (node.adequacy >= m_settings.significance && inference::bending(*node.settled) >= m_settings.significance)
+      return;
+    for (auto& [error, log_odds] :
+         description::description_candidates(*node.straight, *node.settled, m_settings.proposals))
+      list.push_back({at, true, {}, {}, std::move(error)});
+  }
+
   std::shared_ptr<Fit> child_of(const Proposal& proposal) const { return child_of(proposal, m_nodes[proposal.parent]); }
 
   std::shared_ptr<Fit> child_of(const Proposal& proposal, const Node& node) const {
     const Fit& parent = proposal.from_straight ? *node.straight : *node.settled;
+    if (proposal.error) return description::fitted_with(parent, *proposal.error);
     Hypothesis hypothesis = parent.model().hypothesis();
     const auto added = static_cast<int>(hypothesis.effects.size());
     hypothesis.effects.push_back(proposal.candidate.effect);
@@ -140,6 +156,7 @@ class Search {
     // The prior of what stays: as when it was proposed.
     hypothesis.log_prior = 0.0;
     for (const HeldEffect& held : hypothesis.effects) hypothesis.log_prior += held.spec.log_prior;
+    for (const DescriptionError& error : hypothesis.errors) hypothesis.log_prior += error.log_prior();
     auto reduced = std::make_shared<Fit>(model_of(std::move(hypothesis)), fit.sizes());
     reduced->start_from(fit, false);
     return reduced;
@@ -153,7 +170,7 @@ class Search {
   static bool alike(const Fit& a, const Fit& b) {
     const auto& one = a.model().hypothesis().effects;
     const auto& two = b.model().hypothesis().effects;
-    if (one.size() != two.size()) return false;
+    if (one.size() != two.size() || !same_errors(a.model().hypothesis(), b.model().hypothesis())) return false;
     std::vector<bool> used(two.size(), false);
     for (std::size_t i = 0; i < one.size(); ++i) {
       bool found = false;
@@ -166,6 +183,15 @@ class Search {
       if (!found) return false;
     }
     return true;
+  }
+
+  static bool same_errors(const Hypothesis& a, const Hypothesis& b) {
+    constexpr double same = 0.1;  // of what a value may be
+    return std::is_permutation(a.errors.begin(), a.errors.end(), b.errors.begin(), b.errors.end(),
+                               [](const DescriptionError& one, const DescriptionError& two) {
+                                 return name_of(one) == name_of(two) && one.other == two.other &&
+                                        (!is_sought(one) || std::abs(one.value - two.value) < same * one.spread);
+                               });
   }
 
   /// Places and moments that were fitted agree.
@@ -197,6 +223,7 @@ class Search {
       for (const char* word : {"component", "channel", "driver"}) name += ":" + held.spec.word_or(word, "");
       names.push_back(std::move(name));
     }
+    for (const DescriptionError& error : hypothesis.errors) names.push_back(diagnosis::name_of(error));
     std::sort(names.begin(), names.end());
     std::string kind;
     for (const std::string& name : names) kind += name + " ";
@@ -235,6 +262,7 @@ class Search {
         continue;
       propose(at, false, proposals);
       propose(at, true, proposals);
+      propose_errors(at, proposals);
     }
     if (proposals.empty()) return false;
     std::vector<std::shared_ptr<Fit>> children(proposals.size());
