@@ -94,6 +94,29 @@ ValueStep value_step(const Fit& fit) {
   return {true, step[n] * error.spread, std::sqrt(variance) * error.spread};
 }
 
+/// A clock is off by rows: simulated at ever smaller steps to either side.
+std::shared_ptr<Fit> with_finer_clock(std::shared_ptr<Fit> fit) {
+  double row_s = 0.0;
+  for (const auto& run : fit->model().evidence().runs()) {
+    const auto& time_s = run.recording.time_s;
+    row_s = std::max(row_s, (time_s.back() - time_s.front()) / static_cast<double>(time_s.size()));
+  }
+  const double from_s = fit->model().hypothesis().errors.back().value;
+  for (double step_s = 0.5 * std::abs(from_s); step_s > 0.4 * row_s; step_s *= 0.5) {
+    const std::shared_ptr<Fit> here = fit;
+    for (const double way : {-1.0, 1.0}) {
+      DescriptionError next = here->model().hypothesis().errors.back();
+      next.value += way * step_s;
+      next.sigma = 0.3 * row_s;
+      if (next.value * from_s <= 0.0) continue;
+      auto moved = started(*here, with_last(*here, next));
+      moved->fit({4, true});
+      if (moved->log_evidence() > fit->log_evidence()) fit = std::move(moved);
+    }
+  }
+  return fit;
+}
+
 }  // namespace
 
 Hypothesis with_error(const physics::Machine& described, Hypothesis hypothesis, DescriptionError error) {
@@ -109,6 +132,7 @@ std::shared_ptr<Fit> fitted_with(const Fit& parent, const DescriptionError& erro
   constexpr double longest = 0.25;  // of the spread: the model is linear near by alone
   auto fit = started(parent, with_error(parent.model().evidence().machine(), parent.model().hypothesis(), error));
   fit->fit({6, true});
+  if (error.kind == ErrorKind::clock) return with_finer_clock(std::move(fit));
   for (int i = 0; i < most_steps; ++i) {
     const ValueStep step = value_step(*fit);
     if (!step.known) break;

@@ -173,6 +173,7 @@ SeriesStatistics statistics_of(const Evidence& evidence, std::size_t series, con
 }
 
 const SeriesStatistics& Fit::statistics(std::size_t series, const Sizes& sizes) const {
+  const std::lock_guard lock(m_guard.mutex);
   const auto [at, is_new] =
       m_statistics.try_emplace({static_cast<int>(series), sizes.slow[series], sizes.time[series]});
   if (!is_new) return at->second;

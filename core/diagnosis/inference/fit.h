@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "core/diagnosis/inference/joint_model.h"
@@ -111,6 +112,14 @@ class Fit {
   bool m_have_columns = false;
   bool m_stale = true;  // some columns are of another point
   double m_cost = 0.0;
+  /// Several threads may ask a fit that none changes.
+  struct Guard {
+    std::mutex mutex;
+    Guard() = default;
+    Guard(const Guard&) {}
+    Guard& operator=(const Guard&) { return *this; }
+  };
+  mutable Guard m_guard;
   mutable std::map<std::array<int, 3>, SeriesStatistics> m_statistics;  // at today's point
 };
 
