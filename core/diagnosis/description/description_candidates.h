@@ -7,9 +7,8 @@
 
 namespace zerodrift::diagnosis::description {
 
-/// `straight`: the description as it is, at the usual sizes of the discrepancy; `settled`: the same fitted. At most
-/// `most`.
-std::vector<PossibleError> description_candidates(const inference::Fit& straight, const inference::Fit& settled,
+/// `usual`: fitted at the usual sizes of the discrepancy; `settled`: at the likeliest. At most `most`.
+std::vector<PossibleError> description_candidates(const inference::Fit& usual, const inference::Fit& settled,
                                                   std::size_t most);
 
 }  // namespace zerodrift::diagnosis::description

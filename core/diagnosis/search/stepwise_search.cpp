@@ -28,6 +28,7 @@ using inference::JointModel;
 struct Node {
   std::shared_ptr<Fit> settled;   // at its own most likely sizes
   std::shared_ptr<Fit> straight;  // its effects beside the description as it is, at the usual sizes: not fitted
+  std::shared_ptr<Fit> usual;     // at the usual sizes, fitted
   double adequacy = 1.0;          // probability of what it leaves at the usual sizes, when nothing is missing
   double log_posterior = 0.0;
   std::size_t parent = 0;  // index among the nodes
@@ -78,6 +79,7 @@ class Search {
     auto other = std::make_shared<Fit>(*node.straight);
     other->fit({m_settings.iterations, true});
     node.adequacy = inference::adequacy(*other);
+    node.usual = std::make_shared<Fit>(*other);
     other->settle();
     node.settled = other;
     const Hypothesis& hypothesis = start->model().hypothesis();
@@ -118,13 +120,18 @@ class Search {
     }
   }
 
-  /// Mistakes in the description, where a hypothesis leaves more than it should or bends the description to suit.
+  /// Mistakes in the description, where a hypothesis leaves more than it should, bends the description to suit, or lets
+  /// an effect promise anything.
   void propose_errors(std::size_t at, std::vector<Proposal>& list) const {
     const Node& node = m_nodes[at];
-    if (node.adequacy >= m_settings.significance && inference::bending(*node.settled) >= m_settings.significance)
+    const bool promised = std::any_of(list.begin(), list.end(), [&](const Proposal& one) {
+      return one.parent == at && one.score.log_odds > m_settings.decisive;
+    });
+    if (!promised && node.adequacy >= m_settings.significance &&
+        inference::bending(*node.settled) >= m_settings.significance)
       return;
     for (auto& [error, log_odds] :
-         description::description_candidates(*node.straight, *node.settled, m_settings.proposals))
+         description::description_candidates(*node.usual, *node.settled, m_settings.proposals))
       list.push_back({at, true, {}, {}, std::move(error)});
   }
 
