@@ -131,7 +131,7 @@ class Search {
         inference::bending(*node.settled) >= m_settings.significance)
       return;
     for (auto& [error, log_odds] :
-         description::description_candidates(*node.usual, *node.settled, m_settings.proposals))
+         description::description_candidates(*node.straight, *node.usual, *node.settled, m_settings.proposals))
       list.push_back({at, true, {}, {}, std::move(error)});
   }
 
