@@ -6,13 +6,13 @@ Usage: examples_test.py SOURCE_FOLDER"""
 
 import json
 import os
-import re
 import subprocess
 import sys
 import tempfile
 
+from transcript import same_line
+
 ROOT = os.path.abspath(sys.argv[1])
-NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
 # Commands of which only the result files are looked at.
 BY_RESULT = ("diagnose", "prove")
 MOST_BYTES = 3_000_000
@@ -29,13 +29,6 @@ def by_command(transcript):
         elif line and not line.startswith("## "):
             outputs[command].append(line)
     return outputs
-
-
-def same_line(seen, expected):
-    if NUMBER.sub("#", seen) != NUMBER.sub("#", expected):
-        return False
-    pairs = zip(NUMBER.findall(seen), NUMBER.findall(expected))
-    return all(abs(float(a) - float(b)) <= max(0.02 * abs(float(b)), 0.02) for a, b in pairs)
 
 
 def differences(seen, expected):
