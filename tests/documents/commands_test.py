@@ -1,4 +1,4 @@
-"""Commands in the documents give what stands below them, and the command line reference is what --help says.
+"""Commands in the documents give what stands below them, and the generated references are up to date.
 
 A fenced block `console run` is run in a copy of examples/: each line "$ zerodrift-cli ..." with the lines it prints; `...`
 stands for any lines. A block with a file name, such as `json names.json`, is written there first.
@@ -77,6 +77,7 @@ def main():
     assert not wrong, "\n".join(wrong)
     assert total >= 20, total
     subprocess.run([sys.executable, os.path.join(ROOT, "scripts/make-cli-reference"), "--check", BIN], check=True)
+    subprocess.run([sys.executable, os.path.join(ROOT, "scripts/make-effects-reference"), "--check"], check=True)
     print(f"{total} commands")
 
 
