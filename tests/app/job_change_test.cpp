@@ -60,6 +60,14 @@ QByteArray other_run() {
 class JobChangeTest : public QObject, private zerodrift::desktop::TestHome {
   Q_OBJECT
 
+ public:
+  /// Before the application is made: many orders take longer than Qt gives a test function.
+  static void initMain() {
+    if (qEnvironmentVariableIsSet("ZERODRIFT_ORDERS") && !qEnvironmentVariableIsSet("QTEST_FUNCTION_TIMEOUT")) {
+      qputenv("QTEST_FUNCTION_TIMEOUT", "7200000");
+    }
+  }
+
  private Q_SLOTS:
   void initTestCase() {
     qputenv("HOME", m_folder.path().toUtf8());
