@@ -26,7 +26,7 @@ struct Node {
   std::shared_ptr<Fit> settled;   // at its own most likely sizes
   std::shared_ptr<Fit> straight;  // its effects beside the description as it is, at the usual sizes: not fitted
   double adequacy = 1.0;          // probability of what it leaves at the usual sizes, when nothing is missing
-  double log_posterior = 0.0;
+  double log_evidence = 0.0;
   std::size_t parent = 0;  // index among the nodes
   bool extended = false;
   bool swapped = false;
@@ -50,7 +50,8 @@ class Search {
   Result<Posterior> run() {
     m_context.progress(0.0, "fitting");
     m_nodes.push_back(
-        fitted_node(std::make_shared<Fit>(model_of({m_evidence->machine(), {}, 0.0}), m_evidence->usual_sizes())));
+        fitted_node(std::make_shared<Fit>(model_of({m_evidence->machine(), {}, 0.0}), m_evidence->usual_sizes()), -1e300));
+    choose_trust();
     for (int round = 0; round < m_settings.most_rounds; ++round) {
       if (m_context.cancelled()) return fail(ErrorCode::cancelled);
       m_context.progress((round + 1.0) / (m_settings.most_rounds + 1.0), "searching");
@@ -65,22 +66,28 @@ class Search {
     return std::make_shared<JointModel>(std::move(hypothesis), m_evidence);
   }
 
-  /// Fitted from where it starts and, lest it stays in a valley that the parent was bent into, from the description.
-  Node fitted_node(std::shared_ptr<Fit> start) {
+  /// Fitted from where it starts and, lest it stays in a valley that the parent was bent into, from the description;
+  /// the latter only where it could become the best.
+  Node fitted_node(std::shared_ptr<Fit> start, double highest) {
     Node node;
     node.straight = std::make_shared<Fit>(*start);
     node.straight->set_sizes(m_evidence->usual_sizes());
     node.straight->reset_description();
-    auto other = std::make_shared<Fit>(*node.straight);
-    other->fit({m_settings.iterations, true});
-    node.adequacy = inference::adequacy(*other);
-    other->settle();
-    node.settled = other;
-    if (!start->model().hypothesis().effects.empty()) {
-      start->settle();
-      if (start->log_posterior() > other->log_posterior()) node.settled = start;
+    node.settled = std::move(start);
+    node.settled->settle();
+    node.log_evidence = node.settled->log_evidence();
+    const bool could_win = rank(node) > highest - m_settings.margin;
+    if (could_win && !node.settled->model().hypothesis().effects.empty()) {
+      auto other = std::make_shared<Fit>(*node.straight);
+      other->settle();
+      if (const double found = other->log_evidence(); found > node.log_evidence) {
+        node.settled = std::move(other);
+        node.log_evidence = found;
+      }
     }
-    node.log_posterior = node.settled->log_posterior();
+    Fit usual(*node.settled);
+    usual.set_sizes(m_evidence->usual_sizes());
+    node.adequacy = inference::adequacy(usual);
     ++m_fitted;
     return node;
   }
@@ -106,11 +113,40 @@ class Search {
     std::map<std::string, std::size_t> of_kind;
     std::size_t taken = 0;
     for (const std::size_t i : order) {
-      if (taken == m_settings.proposals || scores[i].log_odds < -m_settings.decisive) break;
+      const double prior = candidates[i].log_prior;
+      if (taken == m_settings.proposals || m_trust * (scores[i].log_odds - prior) + prior < -m_settings.decisive) break;
       if (of_kind[candidates[i].effect.spec.id]++ >= m_settings.forms_of_a_kind) continue;
       list.push_back({at, straight, candidates[i], scores[i]});
       ++taken;
     }
+  }
+
+  /// What was proposed of a node by both of its fits is fitted from the one that promises more.
+  static void only_once(std::vector<Proposal>& list) {
+    const auto same = [](const Proposal& a, const Proposal& b) {
+      const HeldEffect &one = a.candidate.effect, &two = b.candidate.effect;
+      return a.parent == b.parent && one.run == two.run && one.spec.id == two.spec.id &&
+             one.spec.words == two.spec.words && one.spec.numbers == two.spec.numbers &&
+             one.spec.intervals_s == two.spec.intervals_s;
+    };
+    std::vector<Proposal> kept;
+    for (Proposal& one : list) {
+      const auto had = std::find_if(kept.begin(), kept.end(), [&](const Proposal& other) { return same(one, other); });
+      if (had == kept.end()) {
+        kept.push_back(std::move(one));
+      } else if (one.score.log_odds > had->score.log_odds) {
+        *had = std::move(one);
+      }
+    }
+    list = std::move(kept);
+  }
+
+  /// Far behind the best of a round, an effect can wait for the next, in which that one is there.
+  static void keep_promising(std::vector<Proposal>& list) {
+    constexpr double share = 0.2;  // of the best one's log odds: scores are of one linear step
+    double best = 0.0;
+    for (const Proposal& one : list) best = std::max(best, one.score.log_odds);
+    std::erase_if(list, [&](const Proposal& one) { return one.score.log_odds < share * best; });
   }
 
   std::shared_ptr<Fit> child_of(const Proposal& proposal) const { return child_of(proposal, m_nodes[proposal.parent]); }
@@ -185,8 +221,36 @@ class Search {
 
   double highest() const {
     double best = -1e300;
-    for (const Node& node : m_nodes) best = std::max(best, node.log_posterior);
+    for (const Node& node : m_nodes) best = std::max(best, rank(node));
     return best;
+  }
+
+  /// Evidence counts as far as the best description so far can be trusted.
+  double rank(double log_evidence, const Fit& fit) const {
+    return m_trust * log_evidence + fit.model().hypothesis().log_prior;
+  }
+  double rank(const Node& node) const { return rank(node.log_evidence, *node.settled); }
+
+  const Node& best() const {
+    return *std::max_element(m_nodes.begin(), m_nodes.end(),
+                             [&](const Node& a, const Node& b) { return rank(a) < rank(b); });
+  }
+
+  /// Of a hypothesis over the best so far, trusted as the better description of both can be.
+  double ahead(double log_evidence, const Fit& fit) const {
+    const Node& first = best();
+    return std::max(m_trust, m_evidence->trust(fit.sizes())) * (log_evidence - first.log_evidence) +
+           fit.model().hypothesis().log_prior - first.settled->model().hypothesis().log_prior;
+  }
+
+  void choose_trust() {
+    const Node* best = &m_nodes.front();
+    for (const Node& node : m_nodes) {
+      if (node.log_evidence + node.settled->model().hypothesis().log_prior >
+          best->log_evidence + best->settled->model().hypothesis().log_prior)
+        best = &node;
+    }
+    m_trust = m_evidence->trust(best->settled->sizes());
   }
 
   /// What a hypothesis says, apart from figures: ids with the part or channel that each acts on.
@@ -206,17 +270,17 @@ class Search {
   /// How far behind the best a hypothesis may be and still lead to it. While much is unexplained, differences between
   /// incomplete hypotheses say little: a tenth of what was gained so far.
   double search_margin() const {
-    return std::max(m_settings.margin, 0.1 * (highest() - m_nodes.front().log_posterior));
+    return std::max(m_settings.margin, 0.1 * (highest() - rank(m_nodes.front())));
   }
 
   /// The nodes to extend next: the best of each kind that were not extended.
   std::vector<std::size_t> beam() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-      if (m_nodes[i].log_posterior > highest() - search_margin()) order.push_back(i);
+      if (rank(m_nodes[i]) > highest() - search_margin()) order.push_back(i);
     }
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return m_nodes[a].log_posterior > m_nodes[b].log_posterior; });
+                     [&](std::size_t a, std::size_t b) { return rank(m_nodes[a]) > rank(m_nodes[b]); });
     std::vector<std::size_t> list;
     std::set<std::string> kinds;
     for (const std::size_t i : order) {
@@ -236,6 +300,8 @@ class Search {
       propose(at, false, proposals);
       propose(at, true, proposals);
     }
+    only_once(proposals);
+    keep_promising(proposals);
     if (proposals.empty()) return false;
     std::vector<std::shared_ptr<Fit>> children(proposals.size());
     std::vector<double> promise(proposals.size(), -1e300);
@@ -244,7 +310,7 @@ class Search {
       children[i] = child_of(proposals[i]);
       // What the linear model promises of other sizes has to be reached.
       if (children[i]->choose_sizes()) children[i]->fit({6, false});
-      promise[i] = children[i]->log_evidence_at(children[i]->sizes()) + children[i]->model().hypothesis().log_prior;
+      promise[i] = ahead(children[i]->log_evidence_at(children[i]->sizes()), *children[i]);
     });
     if (m_context.cancelled()) return false;
     std::vector<std::size_t> order(children.size());
@@ -254,7 +320,7 @@ class Search {
     std::vector<std::shared_ptr<Fit>> kept;
     std::map<std::string, std::size_t> of_kind;
     for (const std::size_t i : order) {
-      if (promise[i] < std::max(best, highest()) - search_margin()) break;
+      if (promise[i] < std::max(best, 0.0) - search_margin()) break;
       const bool twice =
           std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return alike(*one, *children[i]); });
       if (twice || known(*children[i])) continue;
@@ -269,30 +335,32 @@ class Search {
   bool take_in(const std::vector<std::shared_ptr<Fit>>& kept) {
     const double before = highest();
     std::vector<Node> fresh(kept.size());
-    in_parallel(kept.size(), [&](std::size_t i) { fresh[i] = fitted_node(kept[i]); });
+    in_parallel(kept.size(), [&, best = highest()](std::size_t i) { fresh[i] = fitted_node(kept[i], best); });
     for (Node& node : fresh) m_nodes.push_back(std::move(node));
     std::vector<std::shared_ptr<Fit>> reduced;
     const std::size_t first = m_nodes.size() - fresh.size();
     for (std::size_t i = first; i < m_nodes.size(); ++i) {
       const auto& effects = m_nodes[i].settled->model().hypothesis().effects;
-      if (effects.size() < 2 || m_nodes[i].log_posterior < highest() - m_settings.decisive) continue;
+      if (effects.size() < 2 || rank(m_nodes[i]) < highest() - m_settings.decisive) continue;
       for (std::size_t e = 0; e + 1 < effects.size(); ++e) {
         auto less = without(*m_nodes[i].settled, e);
         if (!known(*less)) reduced.push_back(std::move(less));
       }
     }
     std::vector<Node> less(reduced.size());
-    in_parallel(reduced.size(), [&](std::size_t i) { less[i] = fitted_node(reduced[i]); });
+    in_parallel(reduced.size(), [&, best = highest()](std::size_t i) { less[i] = fitted_node(reduced[i], best); });
     for (Node& node : less) m_nodes.push_back(std::move(node));
     swap_of_best();
-    return highest() > before;
+    const bool better = highest() > before;
+    choose_trust();
+    return better;
   }
 
   /// Each effect of the best exchanged for what else could be there in its place.
   void swap_of_best() {
     std::size_t best = 0;
     for (std::size_t i = 1; i < m_nodes.size(); ++i) {
-      if (m_nodes[i].log_posterior > m_nodes[best].log_posterior) best = i;
+      if (rank(m_nodes[i]) > rank(m_nodes[best])) best = i;
     }
     const Hypothesis& hypothesis = m_nodes[best].settled->model().hypothesis();
     if (hypothesis.effects.size() < 2 || m_nodes[best].swapped) return;
@@ -311,17 +379,17 @@ class Search {
       if (m_context.cancelled()) return;
       children[i] = child_of(proposals[i], reduced[proposals[i].parent]);
       if (children[i]->choose_sizes()) children[i]->fit({6, false});
-      promise[i] = children[i]->log_evidence_at(children[i]->sizes()) + children[i]->model().hypothesis().log_prior;
+      promise[i] = ahead(children[i]->log_evidence_at(children[i]->sizes()), *children[i]);
     });
     if (m_context.cancelled()) return;
     std::vector<std::shared_ptr<Fit>> kept;
     for (std::size_t i = 0; i < children.size(); ++i) {
       const bool twice =
           std::any_of(kept.begin(), kept.end(), [&](const auto& one) { return alike(*one, *children[i]); });
-      if (promise[i] > highest() - m_settings.margin && !twice && !known(*children[i])) kept.push_back(children[i]);
+      if (promise[i] > -m_settings.margin && !twice && !known(*children[i])) kept.push_back(children[i]);
     }
     std::vector<Node> fresh(kept.size());
-    in_parallel(kept.size(), [&](std::size_t i) { fresh[i] = fitted_node(kept[i]); });
+    in_parallel(kept.size(), [&, best = highest()](std::size_t i) { fresh[i] = fitted_node(kept[i], best); });
     for (Node& node : fresh) m_nodes.push_back(std::move(node));
   }
 
@@ -333,15 +401,15 @@ class Search {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < m_nodes.size(); ++i) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return m_nodes[a].log_posterior > m_nodes[b].log_posterior; });
+                     [&](std::size_t a, std::size_t b) { return rank(m_nodes[a]) > rank(m_nodes[b]); });
     for (const std::size_t i : order) {
       const Node& node = m_nodes[i];
-      if (i != 0 && node.log_posterior < highest() - m_settings.margin) continue;
+      if (i != 0 && rank(node) < highest() - m_settings.margin) continue;
       const bool twice = std::any_of(out.explanations.begin(), out.explanations.end(),
                                      [&](const auto& one) { return alike(*one.fit, *node.settled); });
       if (twice) continue;
       if (i == 0) out.described = out.explanations.size();
-      out.explanations.push_back({node.settled, node.log_posterior});
+      out.explanations.push_back({node.settled, rank(node)});
     }
     return out;
   }
@@ -351,6 +419,7 @@ class Search {
   const TaskContext& m_context;
   std::vector<physics::RunFacts> m_facts;
   std::vector<Node> m_nodes;
+  double m_trust = 1.0;  // of the evidence
   std::atomic<int> m_fitted{0};
 };
 
