@@ -50,7 +50,7 @@ class Search {
   Result<Posterior> run() {
     m_context.progress(0.0, "fitting");
     m_nodes.push_back(
-        fitted_node(std::make_shared<Fit>(model_of({m_evidence->machine(), {}, 0.0}), m_evidence->usual_sizes()), -1e300));
+        fitted_node(std::make_shared<Fit>(model_of({m_evidence->machine(), {}, 0.0}), m_evidence->usual_sizes())));
     choose_trust();
     for (int round = 0; round < m_settings.most_rounds; ++round) {
       if (m_context.cancelled()) return fail(ErrorCode::cancelled);
@@ -68,7 +68,7 @@ class Search {
 
   /// Fitted from where it starts and, lest it stays in a valley that the parent was bent into, from the description;
   /// the latter only where it could become the best.
-  Node fitted_node(std::shared_ptr<Fit> start, double highest) {
+  Node fitted_node(std::shared_ptr<Fit> start) {
     Node node;
     node.straight = std::make_shared<Fit>(*start);
     node.straight->set_sizes(m_evidence->usual_sizes());
@@ -76,8 +76,8 @@ class Search {
     node.settled = std::move(start);
     node.settled->settle();
     node.log_evidence = node.settled->log_evidence();
-    const bool could_win = rank(node) > highest - m_settings.margin;
-    if (could_win && !node.settled->model().hypothesis().effects.empty()) {
+    const bool could_win = !m_nodes.empty() && ahead(node.log_evidence, *node.settled) > -m_settings.margin;
+    if (could_win) {
       auto other = std::make_shared<Fit>(*node.straight);
       other->settle();
       if (const double found = other->log_evidence(); found > node.log_evidence) {
@@ -333,9 +333,9 @@ class Search {
 
   /// Fits what is promising to the end, and what it is without each of its effects. True where the best has improved.
   bool take_in(const std::vector<std::shared_ptr<Fit>>& kept) {
-    const double before = highest();
+    const Fit* before = best().settled.get();
     std::vector<Node> fresh(kept.size());
-    in_parallel(kept.size(), [&, best = highest()](std::size_t i) { fresh[i] = fitted_node(kept[i], best); });
+    in_parallel(kept.size(), [&](std::size_t i) { fresh[i] = fitted_node(kept[i]); });
     for (Node& node : fresh) m_nodes.push_back(std::move(node));
     std::vector<std::shared_ptr<Fit>> reduced;
     const std::size_t first = m_nodes.size() - fresh.size();
@@ -348,12 +348,11 @@ class Search {
       }
     }
     std::vector<Node> less(reduced.size());
-    in_parallel(reduced.size(), [&, best = highest()](std::size_t i) { less[i] = fitted_node(reduced[i], best); });
+    in_parallel(reduced.size(), [&](std::size_t i) { less[i] = fitted_node(reduced[i]); });
     for (Node& node : less) m_nodes.push_back(std::move(node));
     swap_of_best();
-    const bool better = highest() > before;
     choose_trust();
-    return better;
+    return best().settled.get() != before;
   }
 
   /// Each effect of the best exchanged for what else could be there in its place.
@@ -389,7 +388,7 @@ class Search {
       if (promise[i] > -m_settings.margin && !twice && !known(*children[i])) kept.push_back(children[i]);
     }
     std::vector<Node> fresh(kept.size());
-    in_parallel(kept.size(), [&, best = highest()](std::size_t i) { fresh[i] = fitted_node(kept[i], best); });
+    in_parallel(kept.size(), [&](std::size_t i) { fresh[i] = fitted_node(kept[i]); });
     for (Node& node : fresh) m_nodes.push_back(std::move(node));
   }
 
