@@ -5,8 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "core/diagnosis/description/corrected_value.h"
+#include "core/diagnosis/description/description_candidates.h"
 #include "core/diagnosis/inference/adequacy.h"
 #include "core/diagnosis/parallel.h"
 #include "core/diagnosis/search/intervals.h"
@@ -38,6 +41,7 @@ struct Proposal {
   bool from_straight = false;
   Candidate candidate;
   Score score;
+  std::optional<DescriptionError> error = {};  // instead of the candidate
 };
 
 class Search {
@@ -124,6 +128,7 @@ class Search {
   /// What was proposed of a node by both of its fits is fitted from the one that promises more.
   static void only_once(std::vector<Proposal>& list) {
     const auto same = [](const Proposal& a, const Proposal& b) {
+      if (a.error || b.error) return false;
       const HeldEffect &one = a.candidate.effect, &two = b.candidate.effect;
       return a.parent == b.parent && one.run == two.run && one.spec.id == two.spec.id &&
              one.spec.words == two.spec.words && one.spec.numbers == two.spec.numbers &&
@@ -149,10 +154,21 @@ class Search {
     std::erase_if(list, [&](const Proposal& one) { return one.score.log_odds < share * best; });
   }
 
+  /// Mistakes in the description, where a hypothesis leaves more than it should or bends the description to suit.
+  void propose_errors(std::size_t at, std::vector<Proposal>& list) const {
+    const Node& node = m_nodes[at];
+    if (node.adequacy >= m_settings.significance && inference::bending(*node.settled) >= m_settings.significance)
+      return;
+    for (auto& [error, log_odds] :
+         description::description_candidates(*node.straight, *node.settled, m_settings.proposals))
+      list.push_back({at, true, {}, {log_odds, {}, 0.0}, std::move(error)});
+  }
+
   std::shared_ptr<Fit> child_of(const Proposal& proposal) const { return child_of(proposal, m_nodes[proposal.parent]); }
 
   std::shared_ptr<Fit> child_of(const Proposal& proposal, const Node& node) const {
     const Fit& parent = proposal.from_straight ? *node.straight : *node.settled;
+    if (proposal.error) return description::fitted_with(parent, *proposal.error);
     Hypothesis hypothesis = parent.model().hypothesis();
     const auto added = static_cast<int>(hypothesis.effects.size());
     hypothesis.effects.push_back(proposal.candidate.effect);
@@ -176,6 +192,7 @@ class Search {
     // The prior of what stays: as when it was proposed.
     hypothesis.log_prior = 0.0;
     for (const HeldEffect& held : hypothesis.effects) hypothesis.log_prior += held.spec.log_prior;
+    for (const DescriptionError& error : hypothesis.errors) hypothesis.log_prior += error.log_prior();
     auto reduced = std::make_shared<Fit>(model_of(std::move(hypothesis)), fit.sizes());
     reduced->start_from(fit, false);
     return reduced;
@@ -189,7 +206,7 @@ class Search {
   static bool alike(const Fit& a, const Fit& b) {
     const auto& one = a.model().hypothesis().effects;
     const auto& two = b.model().hypothesis().effects;
-    if (one.size() != two.size()) return false;
+    if (one.size() != two.size() || !same_errors(a.model().hypothesis(), b.model().hypothesis())) return false;
     std::vector<bool> used(two.size(), false);
     for (std::size_t i = 0; i < one.size(); ++i) {
       bool found = false;
@@ -202,6 +219,15 @@ class Search {
       if (!found) return false;
     }
     return true;
+  }
+
+  static bool same_errors(const Hypothesis& a, const Hypothesis& b) {
+    constexpr double same = 0.1;  // of what a value may be
+    return std::is_permutation(a.errors.begin(), a.errors.end(), b.errors.begin(), b.errors.end(),
+                               [](const DescriptionError& one, const DescriptionError& two) {
+                                 return name_of(one) == name_of(two) && one.other == two.other &&
+                                        (!is_sought(one) || std::abs(one.value - two.value) < same * one.spread);
+                               });
   }
 
   /// Places and moments that were fitted agree.
@@ -261,6 +287,7 @@ class Search {
       for (const char* word : {"component", "channel", "driver"}) name += ":" + held.spec.word_or(word, "");
       names.push_back(std::move(name));
     }
+    for (const DescriptionError& error : hypothesis.errors) names.push_back(diagnosis::name_of(error));
     std::sort(names.begin(), names.end());
     std::string kind;
     for (const std::string& name : names) kind += name + " ";
@@ -299,6 +326,7 @@ class Search {
         continue;
       propose(at, false, proposals);
       propose(at, true, proposals);
+      propose_errors(at, proposals);
     }
     only_once(proposals);
     keep_promising(proposals);
