@@ -9,7 +9,6 @@
 
 #include "core/base/memory.h"
 #include "core/diagnosis/another_clock.h"
-#include "core/diagnosis/answer/diagnose_jointly.h"
 #include "core/diagnosis/apart.h"
 #include "core/diagnosis/bodies.h"
 #include "core/diagnosis/checked_runs.h"
@@ -339,7 +338,6 @@ Result<Diagnosis> diagnose(const Machine& machine, const std::vector<Recording>&
   if (given.empty())
     return fail(ErrorCode::bad_argument, {{"what", "recordings"}, {"found", "none"}, {"expected", "at least one"}});
   keep_freed_memory();
-  if (std::getenv("OLD") == nullptr) return diagnose_jointly(machine, given, options, context);
   ZD_TRY(CheckedRuns runs, checked_runs(machine, given));
   const bool apart = falls_apart(machine);
   Result<Diagnosis> result = apart ? diagnose_apart(machine, runs.recordings, options, context)

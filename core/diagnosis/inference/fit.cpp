@@ -247,7 +247,8 @@ void Fit::fit(const FitOptions& options) {
   const std::vector<int> effects = m_model->effect_unknowns();
   const double tolerance = evidence.settings().tolerance;
   constexpr double longest_step = 4.0;  // standard deviations
-  constexpr double worth_all = 30.0;    // of the cost: far enough that the base's columns have changed too
+  // Of the cost: far enough that the base's columns have changed too.
+  constexpr double worth_all = 30.0, worth_all_share = 0.05;
   if (m_predicted.empty()) refresh(m_have_columns ? effects : all);
   int old = m_stale ? 1 : 0;  // steps since all columns were fresh
   analysis::Damping damping;
@@ -280,7 +281,7 @@ void Fit::fit(const FitOptions& options) {
     }
     if (!better && old == 0) break;
     if (better && gained < tolerance && old <= 1) break;
-    if (!better || gained > worth_all || old >= 3 || effects.empty()) {
+    if (!better || gained > std::max(worth_all, worth_all_share * m_cost) || old >= 3 || effects.empty()) {
       refresh(all);
       old = 0;
       if (!better) damping.restart();

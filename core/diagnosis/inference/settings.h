@@ -69,9 +69,9 @@ struct DiagnosisSettings {
   std::size_t proposals = 6;        // of each, fitted after the score test
   std::size_t forms_of_a_kind = 2;  // among them
   int most_rounds = 6;
-  double margin = 12.0;     // log odds behind the best at which a hypothesis is dropped
-  int iterations = 12;      // of a fit
-  double tolerance = 0.2;   // of -2 log posterior, at which a fit has converged
+  double margin = 12.0;    // log odds behind the best at which a hypothesis is dropped
+  int iterations = 12;     // of a fit
+  double tolerance = 0.2;  // of -2 log posterior, at which a fit has converged
 
   /// What is wrong with these settings, and why.
   Status check() const;

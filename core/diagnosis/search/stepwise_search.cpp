@@ -33,6 +33,7 @@ struct Node {
   std::size_t parent = 0;  // index among the nodes
   bool extended = false;
   bool swapped = false;
+  bool roughly = false;  // fitted in a few steps, from its parent alone
 };
 
 /// A child still to be fitted.
@@ -55,12 +56,12 @@ class Search {
     m_context.progress(0.0, "fitting");
     m_nodes.push_back(
         fitted_node(std::make_shared<Fit>(model_of({m_evidence->machine(), {}, 0.0}), m_evidence->usual_sizes())));
-    choose_trust();
     for (int round = 0; round < m_settings.most_rounds; ++round) {
       if (m_context.cancelled()) return fail(ErrorCode::cancelled);
       m_context.progress((round + 1.0) / (m_settings.most_rounds + 1.0), "searching");
       if (!extend_best()) break;
     }
+    swap_of_best();
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     return posterior();
   }
@@ -72,7 +73,7 @@ class Search {
 
   /// Fitted from where it starts and, lest it stays in a valley that the parent was bent into, from the description;
   /// the latter only where it could become the best.
-  Node fitted_node(std::shared_ptr<Fit> start) {
+  Node fitted_node(std::shared_ptr<Fit> start, bool also_from_description = true) {
     Node node;
     node.straight = std::make_shared<Fit>(*start);
     node.straight->set_sizes(m_evidence->usual_sizes());
@@ -80,7 +81,8 @@ class Search {
     node.settled = std::move(start);
     node.settled->settle();
     node.log_evidence = node.settled->log_evidence();
-    const bool could_win = !m_nodes.empty() && ahead(node.log_evidence, *node.settled) > -m_settings.margin;
+    const bool could_win =
+        also_from_description && !m_nodes.empty() && ahead(node.log_evidence, *node.settled) > -m_settings.margin;
     if (could_win) {
       auto other = std::make_shared<Fit>(*node.straight);
       other->settle();
@@ -117,41 +119,14 @@ class Search {
     std::map<std::string, std::size_t> of_kind;
     std::size_t taken = 0;
     for (const std::size_t i : order) {
-      const double prior = candidates[i].log_prior;
-      if (taken == m_settings.proposals || m_trust * (scores[i].log_odds - prior) + prior < -m_settings.decisive) break;
+      // Far behind the best, an effect can wait until that one is in the model.
+      constexpr double share = 0.05;  // of the best one's log odds
+      const double least = std::max(-m_settings.decisive, share * scores[order.front()].log_odds);
+      if (taken == m_settings.proposals || scores[i].log_odds < least) break;
       if (of_kind[candidates[i].effect.spec.id]++ >= m_settings.forms_of_a_kind) continue;
       list.push_back({at, straight, candidates[i], scores[i]});
       ++taken;
     }
-  }
-
-  /// What was proposed of a node by both of its fits is fitted from the one that promises more.
-  static void only_once(std::vector<Proposal>& list) {
-    const auto same = [](const Proposal& a, const Proposal& b) {
-      if (a.error || b.error) return false;
-      const HeldEffect &one = a.candidate.effect, &two = b.candidate.effect;
-      return a.parent == b.parent && one.run == two.run && one.spec.id == two.spec.id &&
-             one.spec.words == two.spec.words && one.spec.numbers == two.spec.numbers &&
-             one.spec.intervals_s == two.spec.intervals_s;
-    };
-    std::vector<Proposal> kept;
-    for (Proposal& one : list) {
-      const auto had = std::find_if(kept.begin(), kept.end(), [&](const Proposal& other) { return same(one, other); });
-      if (had == kept.end()) {
-        kept.push_back(std::move(one));
-      } else if (one.score.log_odds > had->score.log_odds) {
-        *had = std::move(one);
-      }
-    }
-    list = std::move(kept);
-  }
-
-  /// Far behind the best of a round, an effect can wait for the next, in which that one is there.
-  static void keep_promising(std::vector<Proposal>& list) {
-    constexpr double share = 0.2;  // of the best one's log odds: scores are of one linear step
-    double best = 0.0;
-    for (const Proposal& one : list) best = std::max(best, one.score.log_odds);
-    std::erase_if(list, [&](const Proposal& one) { return one.score.log_odds < share * best; });
   }
 
   /// Mistakes in the description, where a hypothesis leaves more than it should or bends the description to suit.
@@ -182,7 +157,7 @@ class Search {
       if (amplitude < proposal.score.step.size())
         fit->set_z(i, std::clamp(proposal.score.step[amplitude++], -3.0, 3.0));
     }
-    fit->fit({6, false});
+    fit->fit({4, false});
     return fit;
   }
 
@@ -262,11 +237,10 @@ class Search {
                              [&](const Node& a, const Node& b) { return rank(a) < rank(b); });
   }
 
-  /// Of a hypothesis over the best so far, trusted as the better description of both can be.
+  /// Of a hypothesis over the best so far.
   double ahead(double log_evidence, const Fit& fit) const {
     const Node& first = best();
-    return std::max(m_trust, m_evidence->trust(fit.sizes())) * (log_evidence - first.log_evidence) +
-           fit.model().hypothesis().log_prior - first.settled->model().hypothesis().log_prior;
+    return rank(log_evidence, fit) - rank(first);
   }
 
   void choose_trust() {
@@ -296,9 +270,7 @@ class Search {
 
   /// How far behind the best a hypothesis may be and still lead to it. While much is unexplained, differences between
   /// incomplete hypotheses say little: a tenth of what was gained so far.
-  double search_margin() const {
-    return std::max(m_settings.margin, 0.1 * (highest() - rank(m_nodes.front())));
-  }
+  double search_margin() const { return std::max(m_settings.margin, 0.1 * (highest() - rank(m_nodes.front()))); }
 
   /// The nodes to extend next: the best of each kind that were not extended.
   std::vector<std::size_t> beam() const {
@@ -328,8 +300,6 @@ class Search {
       propose(at, true, proposals);
       propose_errors(at, proposals);
     }
-    only_once(proposals);
-    keep_promising(proposals);
     if (proposals.empty()) return false;
     std::vector<std::shared_ptr<Fit>> children(proposals.size());
     std::vector<double> promise(proposals.size(), -1e300);
@@ -337,7 +307,7 @@ class Search {
       if (m_context.cancelled()) return;
       children[i] = child_of(proposals[i]);
       // What the linear model promises of other sizes has to be reached.
-      if (children[i]->choose_sizes()) children[i]->fit({6, false});
+      if (children[i]->choose_sizes()) children[i]->fit({4, false});
       promise[i] = ahead(children[i]->log_evidence_at(children[i]->sizes()), *children[i]);
     });
     if (m_context.cancelled()) return false;
@@ -345,6 +315,7 @@ class Search {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return promise[a] > promise[b]; });
     const double best = promise[order.front()];
+    remember(children);
     std::vector<std::shared_ptr<Fit>> kept;
     std::map<std::string, std::size_t> of_kind;
     for (const std::size_t i : order) {
@@ -357,6 +328,17 @@ class Search {
       if (kept.size() == m_settings.proposals) break;
     }
     return take_in(kept);
+  }
+
+  /// What is not promising enough to be followed is a rival all the same.
+  void remember(const std::vector<std::shared_ptr<Fit>>& children) {
+    for (const std::shared_ptr<Fit>& child : children) {
+      Node node;
+      node.settled = child;
+      node.log_evidence = child->log_evidence_at(child->sizes());
+      node.roughly = node.extended = node.swapped = true;
+      m_rivals.push_back(std::move(node));
+    }
   }
 
   /// Fits what is promising to the end, and what it is without each of its effects. True where the best has improved.
@@ -376,10 +358,8 @@ class Search {
       }
     }
     std::vector<Node> less(reduced.size());
-    in_parallel(reduced.size(), [&](std::size_t i) { less[i] = fitted_node(reduced[i]); });
+    in_parallel(reduced.size(), [&](std::size_t i) { less[i] = fitted_node(reduced[i], false); });
     for (Node& node : less) m_nodes.push_back(std::move(node));
-    swap_of_best();
-    choose_trust();
     return best().settled.get() != before;
   }
 
@@ -405,10 +385,11 @@ class Search {
     in_parallel(proposals.size(), [&](std::size_t i) {
       if (m_context.cancelled()) return;
       children[i] = child_of(proposals[i], reduced[proposals[i].parent]);
-      if (children[i]->choose_sizes()) children[i]->fit({6, false});
+      if (children[i]->choose_sizes()) children[i]->fit({4, false});
       promise[i] = ahead(children[i]->log_evidence_at(children[i]->sizes()), *children[i]);
     });
     if (m_context.cancelled()) return;
+    remember(children);
     std::vector<std::shared_ptr<Fit>> kept;
     for (std::size_t i = 0; i < children.size(); ++i) {
       const bool twice =
@@ -420,22 +401,29 @@ class Search {
     for (Node& node : fresh) m_nodes.push_back(std::move(node));
   }
 
+  /// Everything that was fitted, evidence counted as far as the best description can be trusted. What then comes first
+  /// is fitted to the end.
   Posterior posterior() {
+    choose_trust();
+    const Fit* described = m_nodes.front().settled.get();
     Posterior out;
     out.evidence = m_evidence;
-    out.fitted = m_fitted;
     out.described_straight = m_nodes.front().straight;
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < m_nodes.size(); ++i) order.push_back(i);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return rank(m_nodes[a]) > rank(m_nodes[b]); });
-    for (const std::size_t i : order) {
-      const Node& node = m_nodes[i];
-      if (i != 0 && rank(node) < highest() - m_settings.margin) continue;
+    std::move(m_rivals.begin(), m_rivals.end(), std::back_inserter(m_nodes));
+    while (true) {
+      std::stable_sort(m_nodes.begin(), m_nodes.end(), [&](const Node& a, const Node& b) { return rank(a) > rank(b); });
+      if (!m_nodes.front().roughly) break;
+      m_nodes.front() = fitted_node(m_nodes.front().settled);
+    }
+    out.fitted = m_fitted;
+    const double highest = rank(m_nodes.front());
+    for (const Node& node : m_nodes) {
+      const bool is_described = node.settled.get() == described;
+      if (!is_described && rank(node) < highest - m_settings.margin) continue;
       const bool twice = std::any_of(out.explanations.begin(), out.explanations.end(),
                                      [&](const auto& one) { return alike(*one.fit, *node.settled); });
       if (twice) continue;
-      if (i == 0) out.described = out.explanations.size();
+      if (is_described) out.described = out.explanations.size();
       out.explanations.push_back({node.settled, rank(node)});
     }
     return out;
@@ -446,7 +434,8 @@ class Search {
   const TaskContext& m_context;
   std::vector<physics::RunFacts> m_facts;
   std::vector<Node> m_nodes;
-  double m_trust = 1.0;  // of the evidence
+  std::vector<Node> m_rivals;  // fitted roughly
+  double m_trust = 1.0;        // of the evidence
   std::atomic<int> m_fitted{0};
 };
 
