@@ -7,6 +7,7 @@
 
 #include "core/diagnosis/answer/fitted_description.h"
 #include "core/diagnosis/answer/heat_history.h"
+#include "core/diagnosis/answer/mistakes.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/locate.h"
 #include "core/physics/simulate.h"
@@ -90,7 +91,8 @@ class Assessment {
     verdict();
     mismatch();
     held_out();
-    m_out.sentences.push_back(explain_verdict(m_out));
+    tell_mistakes(m_posterior, m_probability, m_out);
+    m_out.sentences.insert(m_out.sentences.begin(), explain_verdict(m_out));
     for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
     return std::move(m_out);
   }
@@ -113,15 +115,20 @@ class Assessment {
         (coarse ? m_settings.adequate_coarse_share : m_settings.adequate_share) * m_evidence.range(series));
   }
 
+  /// With its inputs at the times at which the best explanation has them.
+  recording::Recording driven(const recording::Recording& run) const {
+    return set_right(run, m_best.model().hypothesis().errors);
+  }
+
   void channels() {
     const recording::Recording& first = m_recordings.front();
-    const auto simulated = [&](const physics::Machine& machine) {
-      auto result = physics::simulate(machine, first);
+    const auto simulated = [&](const physics::Machine& machine, const recording::Recording& run) {
+      auto result = physics::simulate(machine, run);
       return result ? result->prediction : recording::Recording{};
     };
-    const recording::Recording nominal = simulated(m_described);
-    const recording::Recording explained = simulated(m_out.refined);
-    const recording::Recording refitted = simulated(fitted_description(m_base));
+    const recording::Recording nominal = simulated(m_described, first);
+    const recording::Recording explained = simulated(m_out.refined, driven(first));
+    const recording::Recording refitted = simulated(fitted_description(m_base), first);
     m_out.time_s = first.time_s;
     const auto rms = [&](const recording::Recording& simulation, const std::string& channel) {
       for (const auto& one : physics::compare(simulation, first)) {
@@ -336,14 +343,15 @@ class Assessment {
     for (std::size_t r = 1; r < m_recordings.size(); ++r) {
       HeldOut out;
       out.recording = m_recordings[r].name;
-      const auto put = [&](const physics::Machine& machine, std::map<std::string, double>& rms) {
-        const auto result = physics::simulate(machine, m_recordings[r]);
+      const auto put = [&](const physics::Machine& machine, std::map<std::string, double>& rms,
+                           const recording::Recording& run) {
+        const auto result = physics::simulate(machine, run);
         if (!result) return;
         for (const auto& one : physics::compare(result->prediction, m_recordings[r])) rms[one.channel] = one.rms;
       };
-      put(m_described, out.nominal);
-      put(fitted_description(m_base, static_cast<int>(r)), out.refitted);
-      put(fitted_description(m_best, static_cast<int>(r)), out.explained);
+      put(m_described, out.nominal, m_recordings[r]);
+      put(fitted_description(m_base, static_cast<int>(r)), out.refitted, m_recordings[r]);
+      put(fitted_description(m_best, static_cast<int>(r)), out.explained, driven(m_recordings[r]));
       m_out.held_out.push_back(std::move(out));
     }
   }

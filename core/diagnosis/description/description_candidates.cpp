@@ -8,10 +8,10 @@
 
 namespace zerodrift::diagnosis::description {
 
-std::vector<PossibleError> description_candidates(const inference::Fit& straight, const inference::Fit& settled,
-                                                  std::size_t most) {
-  const DiagnosisSettings& settings = straight.model().evidence().settings();
-  std::vector<PossibleError> all = sensor_errors(straight);
+std::vector<PossibleError> description_candidates(const inference::Fit& straight, const inference::Fit& usual,
+                                                  const inference::Fit& settled, std::size_t most) {
+  const DiagnosisSettings& settings = usual.model().evidence().settings();
+  std::vector<PossibleError> all = sensor_errors(usual);
   for (auto more : {machine_errors(straight), number_errors(settled)})
     std::move(more.begin(), more.end(), std::back_inserter(all));
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.log_odds > b.log_odds; });

@@ -29,6 +29,12 @@ struct Seat {
   }
 };
 
+/// A series' statistics with its near field marginalised.
+struct SeatStatistics {
+  SeriesStatistics series;
+  double log_determinant = 0.0;
+};
+
 /// Readings of a fit's simulation at any seat.
 class Readings {
  public:
@@ -45,6 +51,7 @@ class Readings {
     for (std::size_t r = 0; r < model.evidence().runs().size(); ++r) {
       const recording::Recording recording = set_right(model.evidence().runs()[r].recording, model.hypothesis().errors);
       const Machine machine = model.hypothesis().machine_in(static_cast<int>(r));
+      m_near_fields.push_back(near_fields(machine, recording));
       physics::NetworkBuilder builder(machine, recording, {});
       builder.build();
       const std::size_t known = builder.network().observations.size();
@@ -54,62 +61,125 @@ class Readings {
         seen.probe = builder.probe(builder.probe_at(seat.component, seat.position_mm));
         builder.network().observations.push_back(std::move(seen));
       }
-      std::vector<int> parameters;
-      std::vector<Index> unknowns;
-      std::vector<double> slopes;
-      const std::vector<double> values = model.values(r, m_fit.z());
-      for (std::size_t u = 0; u < model.unknowns(); ++u) {
-        const int parameter = model.parameter_of(r, u);
-        if (parameter < 0) continue;
-        parameters.push_back(parameter);
-        unknowns.push_back(static_cast<Index>(u));
-        slopes.push_back(model.unknown(u).parameter.slope_at(values[static_cast<std::size_t>(parameter)]));
-      }
-      const physics::InputSet inputs = physics::make_inputs(builder.network(), recording);
-      const physics::Prediction by = predicted(builder.network(), inputs, values, parameters);
-      m_shown.emplace_back();
-      m_columns.emplace_back();
-      for (std::size_t s = 0; s < m_seats.size(); ++s) {
-        const auto& seen = by.channels[known + s];
-        RowMatrix columns = RowMatrix::Zero(static_cast<Index>(by.rows), static_cast<Index>(model.unknowns()));
-        for (std::size_t k = 0; k < by.rows; ++k) {
-          for (std::size_t p = 0; p < parameters.size(); ++p) {
-            columns(static_cast<Index>(k), unknowns[p]) = slopes[p] * seen.derivatives[k * parameters.size() + p];
-          }
-        }
-        m_shown.back().push_back(seen.values);
-        m_columns.back().push_back(std::move(columns));
-      }
+      take_in(physics::make_inputs(builder.network(), recording), builder.network(), known, r);
     }
   }
 
-  /// Of a series whose sensor sits there; its own offset stays with it.
-  SeriesStatistics statistics(std::size_t series, std::size_t seat) const {
+  /// Of a series whose sensor sits there; its own offset stays with it. The near field of the source that it then sits
+  /// on is marginalised (the gains of the repeatable discrepancy do not act at the usual sizes).
+  SeatStatistics statistics(std::size_t series, std::size_t seat) const {
     const inference::JointModel& model = m_fit.model();
     const std::string& channel = model.evidence().runs().front().series[series].channel;
+    const auto n = static_cast<Index>(model.unknowns());
     std::vector<std::vector<double>> shown;
     std::vector<RowMatrix> columns;
     for (std::size_t r = 0; r < m_shown.size(); ++r) {
       shown.push_back(m_shown[r][seat]);
-      columns.push_back(m_columns[r][seat]);
+      RowMatrix wide(m_columns[r][seat].rows(), n + 1);
+      wide << m_columns[r][seat], near_field(r, m_seats[seat], m_columns[r][seat].rows());
       const std::vector<double> values = model.values(r, m_fit.z());
       for (std::size_t u = 0; u < model.unknowns(); ++u) {
         const physics::Parameter& parameter = model.unknown(u).parameter;
         const int at = model.parameter_of(r, u);
         if (at < 0 || parameter.key != "offset_K" || parameter.channel != channel || parameter.effect >= 0) continue;
-        columns.back().col(static_cast<Index>(u)).setConstant(parameter.sigma);
+        wide.col(static_cast<Index>(u)).setConstant(parameter.sigma);
         for (double& value : shown.back()) value += values[static_cast<std::size_t>(at)];
       }
+      columns.push_back(std::move(wide));
     }
-    return statistics_of(model.evidence(), series, m_fit.sizes(), shown, columns);
+    const SeriesStatistics all = statistics_of(model.evidence(), series, m_fit.sizes(), shown, columns);
+    const double precision = 1.0 + all.jj(n, n);
+    const Eigen::VectorXd across = all.jj.col(n).head(n);
+    SeatStatistics out;
+    out.series.jj = all.jj.topLeftCorner(n, n) - across * across.transpose() / precision;
+    out.series.jr = all.jr.head(n) - across * (all.jr[n] / precision);
+    out.series.rr = all.rr - all.jr[n] * all.jr[n] / precision;
+    out.series.bj = all.bj.leftCols(n) - all.bj.col(n) * across.transpose() / precision;
+    out.series.br = all.br - all.bj.col(n) * (all.jr[n] / precision);
+    out.log_determinant = std::log(precision);
+    return out;
   }
 
  private:
+  /// Of each source with a near field: what a sensor on it shows of one standard deviation.
+  static std::map<std::string, std::vector<double>> near_fields(Machine machine,
+                                                                const recording::Recording& recording) {
+    std::map<std::string, std::string> source_of;  // of each sensor put on it
+    for (Component& part : machine.components) {
+      if (!part.inner || part.prescribed) continue;
+      for (const auto& source : part.sources) {
+        Sensor on{"@" + part.id + "/" + source.id, part.id, 0.5 * (source.from_mm + source.to_mm)};
+        part.inner->near_field_K_W[on.channel] = 0.0;
+        source_of[on.channel] = part.id + "/" + source.id;
+        machine.sensors.push_back(std::move(on));
+      }
+    }
+    const physics::Network network = physics::build_network(machine, recording);
+    std::vector<int> parameters;
+    for (std::size_t p = 0; p < network.parameters.size(); ++p) {
+      const physics::Parameter& parameter = network.parameters[p];
+      if (parameter.key == "near_field_K_W" && source_of.count(parameter.channel) != 0)
+        parameters.push_back(static_cast<int>(p));
+    }
+    const physics::Prediction by =
+        physics::predict(network, physics::make_inputs(network, recording), network.start_values(), parameters);
+    std::map<std::string, std::vector<double>> fields;
+    for (std::size_t c = 0; c < by.channels.size(); ++c) {
+      for (std::size_t p = 0; p < parameters.size(); ++p) {
+        const physics::Parameter& parameter = network.parameters[static_cast<std::size_t>(parameters[p])];
+        if (parameter.channel != network.observations[c].channel) continue;
+        std::vector<double>& field = fields[source_of[parameter.channel]];
+        for (std::size_t k = 0; k < by.rows; ++k)
+          field.push_back(parameter.sigma * by.channels[c].derivatives[k * parameters.size() + p]);
+      }
+    }
+    return fields;
+  }
+
+  Eigen::VectorXd near_field(std::size_t run, const Seat& seat, Index rows) const {
+    const Component& part = *m_fit.model().hypothesis().machine.find(seat.component);
+    const physics::HeatSource* source = part.inner ? part.source_near(seat.position_mm) : nullptr;
+    const auto found =
+        source == nullptr ? m_near_fields[run].end() : m_near_fields[run].find(part.id + "/" + source->id);
+    if (found == m_near_fields[run].end()) return Eigen::VectorXd::Zero(rows);
+    return Eigen::Map<const Eigen::VectorXd>(found->second.data(), rows);
+  }
+
+  void take_in(const physics::InputSet& inputs, const physics::Network& network, std::size_t known, std::size_t r) {
+    const inference::JointModel& model = m_fit.model();
+    std::vector<int> parameters;
+    std::vector<Index> unknowns;
+    std::vector<double> slopes;
+    const std::vector<double> values = model.values(r, m_fit.z());
+    for (std::size_t u = 0; u < model.unknowns(); ++u) {
+      const int parameter = model.parameter_of(r, u);
+      if (parameter < 0) continue;
+      parameters.push_back(parameter);
+      unknowns.push_back(static_cast<Index>(u));
+      slopes.push_back(model.unknown(u).parameter.slope_at(values[static_cast<std::size_t>(parameter)]));
+    }
+    const physics::Prediction by = predicted(network, inputs, values, parameters);
+    m_shown.emplace_back();
+    m_columns.emplace_back();
+    for (std::size_t s = 0; s < m_seats.size(); ++s) {
+      const auto& seen = by.channels[known + s];
+      RowMatrix columns = RowMatrix::Zero(static_cast<Index>(by.rows), static_cast<Index>(model.unknowns()));
+      for (std::size_t k = 0; k < by.rows; ++k) {
+        for (std::size_t p = 0; p < parameters.size(); ++p) {
+          columns(static_cast<Index>(k), unknowns[p]) = slopes[p] * seen.derivatives[k * parameters.size() + p];
+        }
+      }
+      m_shown.back().push_back(seen.values);
+      m_columns.back().push_back(std::move(columns));
+    }
+  }
+
   const Fit& m_fit;
   std::map<Seat, std::size_t> m_index;
   std::vector<Seat> m_seats;
-  std::vector<std::vector<std::vector<double>>> m_shown;  // [run][seat][row]
-  std::vector<std::vector<RowMatrix>> m_columns;          // [run][seat]
+  std::vector<std::vector<std::vector<double>>> m_shown;                  // [run][seat][row]
+  std::vector<std::vector<RowMatrix>> m_columns;                          // [run][seat]
+  std::vector<std::map<std::string, std::vector<double>>> m_near_fields;  // [run], by part/source
 };
 
 struct Unit {
@@ -267,7 +337,7 @@ class Trials {
 
   void evaluate() {
     m_readings.simulate();
-    std::map<std::pair<std::size_t, std::size_t>, SeriesStatistics> there;
+    std::map<std::pair<std::size_t, std::size_t>, SeatStatistics> there;
     std::vector<std::pair<std::size_t, std::size_t>> wanted;
     for (const Trial& one : m_trials) {
       for (const auto& seat : one.seats) {
@@ -287,8 +357,12 @@ class Trials {
     const double before = log_evidence(described);
     in_parallel(m_trials.size(), [&](std::size_t i) {
       std::vector<const SeriesStatistics*> moved = described;
-      for (const auto& seat : m_trials[i].seats) moved[seat.first] = &there.at(seat);
-      m_trials[i].what.log_odds = log_evidence(moved) - before + m_trials[i].what.error.log_prior();
+      double near_fields = 0.0;
+      for (const auto& seat : m_trials[i].seats) {
+        moved[seat.first] = &there.at(seat).series;
+        near_fields -= 0.5 * there.at(seat).log_determinant;
+      }
+      m_trials[i].what.log_odds = log_evidence(moved) + near_fields - before + m_trials[i].what.error.log_prior();
     });
   }
 

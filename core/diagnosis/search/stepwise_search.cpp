@@ -129,13 +129,20 @@ class Search {
     }
   }
 
-  /// Mistakes in the description, where a hypothesis leaves more than it should or bends the description to suit.
+  /// Mistakes in the description, where a hypothesis leaves more than it should, bends the description to suit, or lets
+  /// an effect promise anything.
   void propose_errors(std::size_t at, std::vector<Proposal>& list) const {
     const Node& node = m_nodes[at];
-    if (node.adequacy >= m_settings.significance && inference::bending(*node.settled) >= m_settings.significance)
+    const bool promised = std::any_of(list.begin(), list.end(), [&](const Proposal& one) {
+      return one.parent == at && one.score.log_odds > m_settings.decisive;
+    });
+    if (!promised && node.adequacy >= m_settings.significance &&
+        inference::bending(*node.settled) >= m_settings.significance)
       return;
+    Fit usual(*node.straight);
+    usual.fit({m_settings.iterations, true});
     for (auto& [error, log_odds] :
-         description::description_candidates(*node.straight, *node.settled, m_settings.proposals))
+         description::description_candidates(*node.straight, usual, *node.settled, m_settings.proposals))
       list.push_back({at, true, {}, {log_odds, {}, 0.0}, std::move(error)});
   }
 
