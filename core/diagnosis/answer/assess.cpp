@@ -179,7 +179,7 @@ class Assessment {
     const auto& held = m_best.model().hypothesis().effects;
     for (std::size_t e = 0; e < held.size(); ++e) {
       const double mass = mass_of(name_of(held[e]));
-      if (mass < m_settings.named_from) continue;
+      if (mass < m_settings.named_from || !material(name_of(held[e]))) continue;
       FoundEffect found;
       const physics::EffectSpec spec = fitted_effect(m_best, e, &found.sigma);
       found.id = spec.id;
@@ -214,6 +214,24 @@ class Assessment {
                      [](const auto& a, const auto& b) { return a.log_evidence_gain > b.log_evidence_gain; });
     for (const HeldEffect& one : held) m_out.tried.push_back(one.spec.id);
     std::sort(m_out.tried.begin(), m_out.tried.end());
+  }
+
+  /// Does the best explanation without these effects, fitted anew, leave more of some channel?
+  bool material(const Name& name) const {
+    inference::Hypothesis hypothesis = m_best.model().hypothesis();
+    std::erase_if(hypothesis.effects,
+                  [&](const HeldEffect& held) { return !(name_of(held) < name) && !(name < name_of(held)); });
+    Fit without(std::make_shared<inference::JointModel>(std::move(hypothesis), m_best.model().shared_evidence()),
+                m_best.sizes());
+    without.start_from(m_best, false);
+    without.fit({m_settings.iterations, true});
+    for (std::size_t c = 0; c < m_evidence.series(); ++c) {
+      if (m_evidence.samples(c) == 0) continue;
+      const double with = leftover(m_best, c), less = leftover(without, c);
+      if (std::sqrt(std::max(0.0, less * less - with * with)) > m_settings.material_share * leftover(m_base, c))
+        return true;
+    }
+    return false;
   }
 
   /// Log odds that the best loses without this effect: against the best explanation that has it not.

@@ -54,10 +54,12 @@ struct DiagnosisSettings {
   double decisive = 3.0;           // twenty to one: what is certain enough to act on
   double tempering = 1.0;          // of log posterior odds, so that stated probabilities come true; fitted on trials
   double named_from = 0.5;         // posterior mass from which an effect is named: more likely than not
-  double rival_from = 0.02;        // and from which it is reported as what this recording cannot exclude
+  /// Share of what the description leaves of a channel that a named effect has to take: less is a detail, which a
+  /// better form of something else would take as well.
+  double material_share = 0.15;
+  double rival_from = 0.02;  // and from which it is reported as what this recording cannot exclude
 
   // -- What a good description leaves of a channel: hypot(size * slow discrepancy, share of range)
-  // ---------------------
   double adequate_size = 4.0, adequate_share = 0.01;                 // by rods of stated sizes
   double adequate_coarse_size = 12.0, adequate_coarse_share = 0.05;  // by lumps, guessed sizes
 
