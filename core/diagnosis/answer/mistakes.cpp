@@ -65,7 +65,7 @@ Sentence sentence_of(const DescriptionError& error) {
     case ErrorKind::length:
       return explain_note("overlong", {{"component", error.of},
                                        {"described", mm(error.described)},
-                                       {"bare", mm(error.high - error.low)},
+                                       {"bare", mm(error.described - error.low)},
                                        {"fits", mm(error.value)}});
     case ErrorKind::diameter:
       return explain_note("diameter",

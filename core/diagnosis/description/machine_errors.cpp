@@ -18,6 +18,10 @@ using physics::Machine;
 
 constexpr double wide = 2.3;  // standard deviation of the logarithm of a number that may be anything: a factor of ten
 
+/// Who misreads a drawing is off by far; by less a size is not misstated, and a heat is within its tolerance.
+constexpr double least_factor = 1.25;
+constexpr double least_too_long = 0.07;  // of a length
+
 /// The farthest place of a rod on which the description has anything.
 double last_known_mm(const Machine& machine, const Component& rod) {
   double last_mm = 0.0;
@@ -41,14 +45,14 @@ double last_known_mm(const Machine& machine, const Component& rod) {
 void add_lengths(const Machine& machine, const Component& rod, std::vector<DescriptionError>& list) {
   const double last_mm = last_known_mm(machine, rod);
   const double bare_mm = rod.length_mm - last_mm;
-  constexpr double shares[] = {0.05, 0.2, 0.4, 0.65, 0.85};  // of the bare end
-  if (last_mm <= 0.0 || bare_mm < 0.02 * rod.length_mm) return;
+  constexpr double shares[] = {0.05, 0.2, 0.35, 0.5};  // of the bare end
+  if (last_mm <= 0.0 || bare_mm < 2.0 * least_too_long * rod.length_mm) return;
   for (const double share : shares) {
     DescriptionError error{ErrorKind::length, rod.id};
     error.described = rod.length_mm;
     error.value = last_mm + share * bare_mm;
     error.low = last_mm;
-    error.high = rod.length_mm;
+    error.high = (1.0 - least_too_long) * rod.length_mm;
     error.spread = 0.4 * bare_mm;  // as dense as uniform
     error.value_log_prior = -std::log(static_cast<double>(std::size(shares)));
     list.push_back(std::move(error));
@@ -61,8 +65,8 @@ void add_factors(ErrorKind kind, const std::string& of, double described, std::i
     DescriptionError error{kind, of};
     error.described = described;
     error.value = factor * described;
-    error.low = 1e-3 * described;
-    error.high = 1e3 * described;
+    error.low = (factor < 1.0 ? 1e-3 : least_factor) * described;
+    error.high = (factor < 1.0 ? 1.0 / least_factor : 1e3) * described;
     error.spread = spread * error.value;
     error.value_log_prior = -std::log(static_cast<double>(factors.size()));
     list.push_back(std::move(error));
