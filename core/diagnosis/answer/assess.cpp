@@ -7,6 +7,7 @@
 
 #include "core/diagnosis/answer/fitted_description.h"
 #include "core/diagnosis/answer/heat_history.h"
+#include "core/diagnosis/answer/mistakes.h"
 #include "core/diagnosis/explain.h"
 #include "core/diagnosis/locate.h"
 #include "core/physics/simulate.h"
@@ -90,7 +91,8 @@ class Assessment {
     verdict();
     mismatch();
     held_out();
-    m_out.sentences.push_back(explain_verdict(m_out));
+    tell_mistakes(m_posterior, m_probability, m_out);
+    m_out.sentences.insert(m_out.sentences.begin(), explain_verdict(m_out));
     for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
     return std::move(m_out);
   }
@@ -113,15 +115,20 @@ class Assessment {
         (coarse ? m_settings.adequate_coarse_share : m_settings.adequate_share) * m_evidence.range(series));
   }
 
+  /// With its inputs at the times at which the best explanation has them.
+  recording::Recording driven(const recording::Recording& run) const {
+    return set_right(run, m_best.model().hypothesis().errors);
+  }
+
   void channels() {
     const recording::Recording& first = m_recordings.front();
-    const auto simulated = [&](const physics::Machine& machine) {
-      auto result = physics::simulate(machine, first);
+    const auto simulated = [&](const physics::Machine& machine, const recording::Recording& run) {
+      auto result = physics::simulate(machine, run);
       return result ? result->prediction : recording::Recording{};
     };
-    const recording::Recording nominal = simulated(m_described);
-    const recording::Recording explained = simulated(m_out.refined);
-    const recording::Recording refitted = simulated(fitted_description(m_base));
+    const recording::Recording nominal = simulated(m_described, first);
+    const recording::Recording explained = simulated(m_out.refined, driven(first));
+    const recording::Recording refitted = simulated(fitted_description(m_base), first);
     m_out.time_s = first.time_s;
     const auto rms = [&](const recording::Recording& simulation, const std::string& channel) {
       for (const auto& one : physics::compare(simulation, first)) {
@@ -172,7 +179,7 @@ class Assessment {
     const auto& held = m_best.model().hypothesis().effects;
     for (std::size_t e = 0; e < held.size(); ++e) {
       const double mass = mass_of(name_of(held[e]));
-      if (mass < m_settings.named_from) continue;
+      if (mass < m_settings.named_from || !material(name_of(held[e]))) continue;
       FoundEffect found;
       const physics::EffectSpec spec = fitted_effect(m_best, e, &found.sigma);
       found.id = spec.id;
@@ -207,6 +214,24 @@ class Assessment {
                      [](const auto& a, const auto& b) { return a.log_evidence_gain > b.log_evidence_gain; });
     for (const HeldEffect& one : held) m_out.tried.push_back(one.spec.id);
     std::sort(m_out.tried.begin(), m_out.tried.end());
+  }
+
+  /// Does the best explanation without these effects, fitted anew, leave more of some channel?
+  bool material(const Name& name) const {
+    inference::Hypothesis hypothesis = m_best.model().hypothesis();
+    std::erase_if(hypothesis.effects,
+                  [&](const HeldEffect& held) { return !(name_of(held) < name) && !(name < name_of(held)); });
+    Fit without(std::make_shared<inference::JointModel>(std::move(hypothesis), m_best.model().shared_evidence()),
+                m_best.sizes());
+    without.start_from(m_best, false);
+    without.fit({m_settings.iterations, true});
+    for (std::size_t c = 0; c < m_evidence.series(); ++c) {
+      if (m_evidence.samples(c) == 0) continue;
+      const double with = leftover(m_best, c), less = leftover(without, c);
+      if (std::sqrt(std::max(0.0, less * less - with * with)) > m_settings.material_share * leftover(m_base, c))
+        return true;
+    }
+    return false;
   }
 
   /// Log odds that the best loses without this effect: against the best explanation that has it not.
@@ -336,14 +361,15 @@ class Assessment {
     for (std::size_t r = 1; r < m_recordings.size(); ++r) {
       HeldOut out;
       out.recording = m_recordings[r].name;
-      const auto put = [&](const physics::Machine& machine, std::map<std::string, double>& rms) {
-        const auto result = physics::simulate(machine, m_recordings[r]);
+      const auto put = [&](const physics::Machine& machine, std::map<std::string, double>& rms,
+                           const recording::Recording& run) {
+        const auto result = physics::simulate(machine, run);
         if (!result) return;
         for (const auto& one : physics::compare(result->prediction, m_recordings[r])) rms[one.channel] = one.rms;
       };
-      put(m_described, out.nominal);
-      put(fitted_description(m_base, static_cast<int>(r)), out.refitted);
-      put(fitted_description(m_best, static_cast<int>(r)), out.explained);
+      put(m_described, out.nominal, m_recordings[r]);
+      put(fitted_description(m_base, static_cast<int>(r)), out.refitted, m_recordings[r]);
+      put(fitted_description(m_best, static_cast<int>(r)), out.explained, driven(m_recordings[r]));
       m_out.held_out.push_back(std::move(out));
     }
   }

@@ -21,7 +21,7 @@ Result<Diagnosis> diagnose_jointly(const physics::Machine& machine, const std::v
   ZD_TRY(const search::Posterior posterior, search::stepwise_search(evidence, context));
   Diagnosis answer = answer::assess(posterior, machine, runs.recordings, options);
   answer.findings = runs.findings;
-  answer.notes = runs.warnings;
+  answer.notes.insert(answer.notes.end(), runs.warnings.begin(), runs.warnings.end());
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return answer;
 }

@@ -56,6 +56,7 @@ std::vector<HeatHistory> heat_histories(const inference::Fit& fit, std::size_t r
   const std::vector<double> centres = search::hat_centres(data, hats, rows_of_a_hat);
   std::vector<HeatHistory> list;
   if (centres.size() < 4) return list;
+  const search::WhitenedFit whole = search::whitened(fit);
   for (const auto& part : fit.model().hypothesis().machine.components) {
     if (part.prescribed) continue;
     HeatHistory history;
@@ -75,7 +76,7 @@ std::vector<HeatHistory> heat_histories(const inference::Fit& fit, std::size_t r
                          : builder.source_over(part.id, std::max(0.0, at_mm - half_mm),
                                                std::min(part.length_mm, at_mm + half_mm));
       });
-      Smoothed best = smoothed(search::hat_scores(fit, run, centres, response));
+      Smoothed best = smoothed(search::hat_scores(fit, whole, run, centres, response));
       history.log_evidence[place] = best.log_evidence;
       history.watts[place] = std::move(best.watts);
     });

@@ -51,4 +51,15 @@ double adequacy(const Fit& fit) {
   return std::min(1.0, least * looks);
 }
 
+double bending(const Fit& fit) {
+  double squares = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < fit.model().unknowns(); ++i) {
+    if (fit.model().unknown(i).effect >= 0) continue;
+    const double z = fit.z()[static_cast<Eigen::Index>(i)];
+    squares += z * z;
+    count += 1.0;
+  }
+  return count > 0.0 ? chi_squared_tail(squares, count) : 1.0;
+}
+
 }  // namespace zerodrift::diagnosis::inference

@@ -17,4 +17,7 @@ double p_of_blocks(const std::vector<double>& innovations, const std::vector<boo
 /// (Bonferroni).
 double adequacy(const Fit& fit);
 
+/// Probability that the unknowns of a right description are as far from what is known of them beforehand.
+double bending(const Fit& fit);
+
 }  // namespace zerodrift::diagnosis::inference

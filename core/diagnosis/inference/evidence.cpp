@@ -117,6 +117,18 @@ double Evidence::log_prior(const Sizes& sizes) const {
   return sum;
 }
 
+double Evidence::trust(const Sizes& sizes) const {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t c = 0; c < series(); ++c) {
+    if (samples(c) == 0) continue;
+    const double usual = m_coarse[c] ? m_settings.coarse_slow_size : m_settings.usual_slow_size;
+    sum += std::max(1.0, m_settings.slow_sizes[static_cast<std::size_t>(sizes.slow[c])] / usual);
+    ++count;
+  }
+  return count == 0 ? 1.0 : count / sum;
+}
+
 Sizes Evidence::usual_sizes() const {
   Sizes sizes;
   for (std::size_t c = 0; c < series(); ++c) {

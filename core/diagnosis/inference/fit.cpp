@@ -143,13 +143,10 @@ double Fit::cost_of(const Predicted& predicted, const VectorXd& z) const {
   return cost;
 }
 
-const SeriesStatistics& Fit::statistics(std::size_t series, const Sizes& sizes) const {
-  const auto [at, is_new] =
-      m_statistics.try_emplace({static_cast<int>(series), sizes.slow[series], sizes.time[series]});
-  SeriesStatistics& s = at->second;
-  if (!is_new) return s;
-  const Evidence& evidence = m_model->evidence();
-  const auto n = static_cast<Index>(m_model->unknowns());
+SeriesStatistics statistics_of(const Evidence& evidence, std::size_t series, const Sizes& sizes,
+                               const std::vector<std::vector<double>>& shown, const std::vector<RowMatrix>& columns) {
+  SeriesStatistics s;
+  const Index n = columns.front().cols();
   const WhitenedSeries& white = evidence.whitened(series, sizes);
   s.jj.setZero(n, n);
   s.jr.setZero(n);
@@ -157,11 +154,13 @@ const SeriesStatistics& Fit::statistics(std::size_t series, const Sizes& sizes) 
   s.br.setZero(white.basis_gram.rows());
   for (std::size_t r = 0; r < evidence.runs().size(); ++r) {
     const auto rows = static_cast<Index>(evidence.runs()[r].rows());
-    const std::vector<double> left = residual(m_predicted, r, series);
+    const MeasuredSeries& measured = evidence.runs()[r].series[series];
+    std::vector<double> left(measured.values.size());
+    for (std::size_t k = 0; k < left.size(); ++k) left[k] = measured.values[k] - shown[r][k];
     VectorXd w(rows);
     white.whitener[r].apply(left.data(), w.data());
     RowMatrix j(rows, n);
-    white.whitener[r].apply(m_columns[r].middleRows(static_cast<Index>(series) * rows, rows), j);
+    white.whitener[r].apply(columns[r], j);
     s.jj.selfadjointView<Eigen::Lower>().rankUpdate(j.transpose());
     s.jr.noalias() += j.transpose() * w;
     s.rr += w.squaredNorm();
@@ -173,19 +172,34 @@ const SeriesStatistics& Fit::statistics(std::size_t series, const Sizes& sizes) 
   return s;
 }
 
-Quadratic Fit::quadratic_at(const Sizes& sizes) const {
+const SeriesStatistics& Fit::statistics(std::size_t series, const Sizes& sizes) const {
+  const std::lock_guard lock(m_guard.mutex);
+  const auto [at, is_new] =
+      m_statistics.try_emplace({static_cast<int>(series), sizes.slow[series], sizes.time[series]});
+  if (!is_new) return at->second;
   const Evidence& evidence = m_model->evidence();
-  const auto n = static_cast<Index>(m_model->unknowns());
+  std::vector<std::vector<double>> shown;
+  std::vector<RowMatrix> columns;
+  for (std::size_t r = 0; r < evidence.runs().size(); ++r) {
+    const auto rows = static_cast<Index>(evidence.runs()[r].rows());
+    shown.push_back(m_predicted[r][series]);
+    columns.emplace_back(m_columns[r].middleRows(static_cast<Index>(series) * rows, rows));
+  }
+  return at->second = statistics_of(evidence, series, sizes, shown, columns);
+}
+
+Quadratic quadratic_of(const Evidence& evidence, const Sizes& sizes, const VectorXd& z,
+                       const std::vector<const SeriesStatistics*>& statistics) {
+  const Index n = z.size();
   Quadratic q;
   q.curvature.setIdentity(n, n);
-  q.slope = -m_z;
-  q.cost = m_z.squaredNorm();
+  q.slope = -z;
+  q.cost = z.squaredNorm();
   for (std::size_t c = 0; c < evidence.series(); ++c) {
     if (evidence.samples(c) == 0) continue;
-    const SeriesStatistics& s = statistics(c, sizes);
-    q.curvature += s.jj;
-    q.slope += s.jr;
-    q.cost += s.rr;
+    q.curvature += statistics[c]->jj;
+    q.slope += statistics[c]->jr;
+    q.cost += statistics[c]->rr;
     q.log_determinant += evidence.whitened(c, sizes).log_determinant;
   }
   for (std::size_t g = 0; g < evidence.gains().size(); ++g) {
@@ -196,7 +210,7 @@ Quadratic Fit::quadratic_at(const Sizes& sizes) const {
     MatrixXd bj(gains.count, n);
     VectorXd br(gains.count);
     for (std::size_t i = 0; i < gains.series.size(); ++i) {
-      const SeriesStatistics& s = statistics(gains.series[i], sizes);
+      const SeriesStatistics& s = *statistics[gains.series[i]];
       bj.middleRows(gains.first[i], s.bj.rows()) = s.bj;
       br.segment(gains.first[i], s.br.size()) = s.br;
     }
@@ -211,13 +225,30 @@ Quadratic Fit::quadratic_at(const Sizes& sizes) const {
   return q;
 }
 
+double log_evidence_of(const Quadratic& q, const VectorXd& z, const VectorXd& low, const VectorXd& high) {
+  const VectorXd step = analysis::damped_step(q.curvature, q.slope, VectorXd::Zero(z.size()), z, low, high);
+  const double cost = q.cost - 2.0 * step.dot(q.slope) + step.dot(q.curvature * step);
+  const Eigen::LLT<MatrixXd> factors(q.curvature);
+  return -0.5 * cost - 0.5 * log_determinant(factors) - 0.5 * q.log_determinant;
+}
+
+Quadratic Fit::quadratic_at(const Sizes& sizes) const {
+  const Evidence& evidence = m_model->evidence();
+  std::vector<const SeriesStatistics*> all(evidence.series(), nullptr);
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (evidence.samples(c) > 0) all[c] = &statistics(c, sizes);
+  }
+  return quadratic_of(evidence, sizes, m_z, all);
+}
+
 void Fit::fit(const FitOptions& options) {
   const Evidence& evidence = m_model->evidence();
   const std::vector<int> all = all_unknowns();
   const std::vector<int> effects = m_model->effect_unknowns();
   const double tolerance = evidence.settings().tolerance;
   constexpr double longest_step = 4.0;  // standard deviations
-  constexpr double worth_all = 30.0;    // of the cost: far enough that the base's columns have changed too
+  // Of the cost: far enough that the base's columns have changed too.
+  constexpr double worth_all = 30.0, worth_all_share = 0.05;
   if (m_predicted.empty()) refresh(m_have_columns ? effects : all);
   int old = m_stale ? 1 : 0;  // steps since all columns were fresh
   analysis::Damping damping;
@@ -250,7 +281,7 @@ void Fit::fit(const FitOptions& options) {
     }
     if (!better && old == 0) break;
     if (better && gained < tolerance && old <= 1) break;
-    if (!better || gained > worth_all || old >= 3 || effects.empty()) {
+    if (!better || gained > std::max(worth_all, worth_all_share * m_cost) || old >= 3 || effects.empty()) {
       refresh(all);
       old = 0;
       if (!better) damping.restart();
@@ -263,12 +294,8 @@ void Fit::fit(const FitOptions& options) {
 }
 
 double Fit::log_evidence_at(const Sizes& sizes) const {
-  const Quadratic q = quadratic_at(sizes);
-  const VectorXd step =
-      analysis::damped_step(q.curvature, q.slope, VectorXd::Zero(m_z.size()), m_z, m_model->low(), m_model->high());
-  const double cost = q.cost - 2.0 * step.dot(q.slope) + step.dot(q.curvature * step);
-  const Eigen::LLT<MatrixXd> factors(q.curvature);
-  return -0.5 * cost - 0.5 * log_determinant(factors) - 0.5 * q.log_determinant + m_model->evidence().log_prior(sizes);
+  return log_evidence_of(quadratic_at(sizes), m_z, m_model->low(), m_model->high()) +
+         m_model->evidence().log_prior(sizes);
 }
 
 bool Fit::choose_sizes() {

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "core/diagnosis/inference/joint_model.h"
@@ -32,6 +33,16 @@ struct Quadratic {
   double cost = 0.0;
   double log_determinant = 0.0;  // of the noise, with the repeatable part
 };
+
+/// `shown` and `columns` of each run: what the series shows, and its derivatives by the unknowns (rows x unknowns).
+SeriesStatistics statistics_of(const Evidence& evidence, std::size_t series, const Sizes& sizes,
+                               const std::vector<std::vector<double>>& shown, const std::vector<RowMatrix>& columns);
+/// Of all series, in their order; those without samples are not looked at.
+Quadratic quadratic_of(const Evidence& evidence, const Sizes& sizes, const Eigen::VectorXd& z,
+                       const std::vector<const SeriesStatistics*>& statistics);
+/// ln evidence in the linear model, the unknowns re-optimised within low to high; without the prior of the sizes.
+double log_evidence_of(const Quadratic& q, const Eigen::VectorXd& z, const Eigen::VectorXd& low,
+                       const Eigen::VectorXd& high);
 
 struct FitOptions {
   int iterations = 12;
@@ -78,6 +89,8 @@ class Fit {
   std::vector<double> repeatable(std::size_t run, std::size_t series) const;
   /// Innovations of a series: white and of unit variance under this hypothesis; 0 where nothing was measured.
   std::vector<double> innovations(std::size_t run, std::size_t series) const;
+  /// Of a series at this point.
+  const SeriesStatistics& statistics(std::size_t series, const Sizes& sizes) const;
   /// ln evidence of the data at these sizes, the unknowns re-optimised in the linear model.
   double log_evidence_at(const Sizes& sizes) const;
 
@@ -87,7 +100,6 @@ class Fit {
   std::vector<int> all_unknowns() const;
   Predicted simulate(const Eigen::VectorXd& z, const std::vector<int>& unknowns, std::vector<RowMatrix>* columns) const;
   double cost_of(const Predicted& predicted, const Eigen::VectorXd& z) const;
-  const SeriesStatistics& statistics(std::size_t series, const Sizes& sizes) const;
   Quadratic quadratic_at(const Sizes& sizes) const;
   std::vector<double> residual(const Predicted& predicted, std::size_t run, std::size_t series) const;
   Eigen::VectorXd gains(std::size_t group) const;
@@ -100,6 +112,14 @@ class Fit {
   bool m_have_columns = false;
   bool m_stale = true;  // some columns are of another point
   double m_cost = 0.0;
+  /// Several threads may ask a fit that none changes.
+  struct Guard {
+    std::mutex mutex;
+    Guard() = default;
+    Guard(const Guard&) {}
+    Guard& operator=(const Guard&) { return *this; }
+  };
+  mutable Guard m_guard;
   mutable std::map<std::array<int, 3>, SeriesStatistics> m_statistics;  // at today's point
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/description/description_error.h"
 #include "core/physics/effects/effect.h"
 #include "core/physics/machine.h"
 
@@ -19,9 +20,10 @@ struct HeldEffect {
 };
 
 struct Hypothesis {
-  physics::Machine machine;         // described, with mistakes set right; its own effects alone
-  std::vector<HeldEffect> effects;  // left out of it
-  double log_prior = 0.0;           // of all of them together
+  physics::Machine machine;                   // described, with mistakes set right; its own effects alone
+  std::vector<HeldEffect> effects;            // left out of it
+  double log_prior = 0.0;                     // of all of them together
+  std::vector<DescriptionError> errors = {};  // that were set right in `machine`
 
   /// What one recording saw.
   physics::Machine machine_in(int run) const;

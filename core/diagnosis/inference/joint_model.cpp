@@ -20,6 +20,18 @@ std::string name_of(const HeldEffect& effect) {
   return effect.run < 0 ? name : fmt::format("{}@{}", name, effect.run);
 }
 
+/// A number that is misstated is as good as unknown.
+void give_up_tolerances(physics::Network& network, const Hypothesis& hypothesis) {
+  for (const DescriptionError& error : hypothesis.errors) {
+    for (physics::Parameter& parameter : network.parameters) {
+      const bool described = hypothesis.effect_of(0, parameter.effect) < 0;
+      if (!described || !is_about(error, parameter)) continue;
+      parameter.sigma = error.spread;
+      parameter.start = parameter.mean * error.value;
+    }
+  }
+}
+
 }  // namespace
 
 JointModel::JointModel(Hypothesis hypothesis, std::shared_ptr<const Evidence> evidence)
@@ -42,8 +54,10 @@ JointModel::JointModel(Hypothesis hypothesis, std::shared_ptr<const Evidence> ev
 
 void JointModel::add_run(int run) {
   InRun in;
-  const recording::Recording& recording = m_evidence->runs()[static_cast<std::size_t>(run)].recording;
+  const recording::Recording recording =
+      set_right(m_evidence->runs()[static_cast<std::size_t>(run)].recording, m_hypothesis.errors);
   in.network = physics::build_network(m_hypothesis.machine_in(run), recording);
+  give_up_tolerances(in.network, m_hypothesis);
   in.inputs = physics::make_inputs(in.network, recording);
   in.parameter.assign(m_unknowns.size(), -1);
   std::map<std::string, int> seen;

@@ -38,6 +38,8 @@ class JointModel {
 
   const physics::Network& network(std::size_t run) const { return m_runs[run].network; }
   const physics::InputSet& inputs(std::size_t run) const { return m_runs[run].inputs; }
+  /// Index of an unknown among the parameters of a run's network; -1: the run has not got it.
+  int parameter_of(std::size_t run, std::size_t unknown) const { return m_runs[run].parameter[unknown]; }
   /// Values of the network's parameters.
   std::vector<double> values(std::size_t run, const Eigen::VectorXd& z) const;
   /// What the series show in a run: [series][row]. Derivatives by the `wanted` unknowns (d/dz) go into those columns of

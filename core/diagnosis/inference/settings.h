@@ -54,10 +54,12 @@ struct DiagnosisSettings {
   double decisive = 3.0;           // twenty to one: what is certain enough to act on
   double tempering = 1.0;          // of log posterior odds, so that stated probabilities come true; fitted on trials
   double named_from = 0.5;         // posterior mass from which an effect is named: more likely than not
-  double rival_from = 0.02;        // and from which it is reported as what this recording cannot exclude
+  /// Share of what the description leaves of a channel that a named effect has to take: less is a detail, which a
+  /// better form of something else would take as well.
+  double material_share = 0.15;
+  double rival_from = 0.02;  // and from which it is reported as what this recording cannot exclude
 
   // -- What a good description leaves of a channel: hypot(size * slow discrepancy, share of range)
-  // ---------------------
   double adequate_size = 4.0, adequate_share = 0.01;                 // by rods of stated sizes
   double adequate_coarse_size = 12.0, adequate_coarse_share = 0.05;  // by lumps, guessed sizes
 
@@ -65,13 +67,13 @@ struct DiagnosisSettings {
 
   // -- Search ----------------------------------------------------------------------------------------------------
   int most_effects = 4;
-  std::size_t beam = 3;             // hypotheses that are extended in each round
-  std::size_t proposals = 8;        // of each, fitted after the score test
+  std::size_t beam = 2;             // hypotheses that are extended in each round
+  std::size_t proposals = 6;        // of each, fitted after the score test
   std::size_t forms_of_a_kind = 2;  // among them
   int most_rounds = 6;
-  double margin = 12.0;     // log odds behind the best at which a hypothesis is dropped
-  int iterations = 12;      // of a fit
-  double tolerance = 0.05;  // of -2 log posterior, at which a fit has converged
+  double margin = 12.0;    // log odds behind the best at which a hypothesis is dropped
+  int iterations = 12;     // of a fit
+  double tolerance = 0.2;  // of -2 log posterior, at which a fit has converged
 
   /// What is wrong with these settings, and why.
   Status check() const;

@@ -1,6 +1,5 @@
 #include "core/diagnosis/search/hat_scores.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -67,66 +66,85 @@ RowMatrix hat_responses(const Fit& fit, std::size_t r, const std::vector<double>
   return out;
 }
 
-HatScores hat_scores(const Fit& fit, std::size_t r, std::vector<double> centres, const RowMatrix& response) {
+WhitenedFit whitened(const Fit& fit) {
+  const Evidence& evidence = fit.model().evidence();
+  const auto n = static_cast<Index>(fit.model().unknowns());
+  WhitenedFit out;
+  out.columns.resize(evidence.runs().size());
+  out.left.resize(evidence.runs().size());
+  for (const auto& gains : evidence.gains()) {
+    out.bj.emplace_back(MatrixXd::Zero(gains.count, n));
+    out.br.emplace_back(VectorXd::Zero(gains.count));
+  }
+  for (std::size_t q = 0; q < evidence.runs().size(); ++q) {
+    const auto rows = static_cast<Index>(evidence.runs()[q].rows());
+    for (std::size_t c = 0; c < evidence.series(); ++c) {
+      RowMatrix& j = out.columns[q].emplace_back();
+      VectorXd& w = out.left[q].emplace_back();
+      if (evidence.samples(c) == 0) continue;
+      const auto& white = evidence.whitened(c, fit.sizes());
+      j.resize(rows, n);
+      white.whitener[q].apply(fit.columns(q).middleRows(static_cast<Index>(c) * rows, rows), j);
+      const auto& measured = evidence.runs()[q].series[c].values;
+      std::vector<double> left(measured.size());
+      for (std::size_t k = 0; k < left.size(); ++k) left[k] = measured[k] - fit.predicted()[q][c][k];
+      w.resize(rows);
+      white.whitener[q].apply(left.data(), w.data());
+      const auto [group, place] = evidence.gain_place(c);
+      if (group < 0) continue;
+      const auto g = static_cast<std::size_t>(group);
+      const Index from = evidence.gains()[g].first[static_cast<std::size_t>(place)];
+      const Index count = white.basis[q].cols();
+      out.bj[g].middleRows(from, count).noalias() += white.basis[q].transpose() * j;
+      out.br[g].segment(from, count).noalias() += white.basis[q].transpose() * w;
+    }
+  }
+  const inference::Quadratic q = fit.quadratic();
+  out.curvature.compute(q.curvature);
+  out.slope = q.slope;
+  return out;
+}
+
+HatScores hat_scores(const Fit& fit, const WhitenedFit& whole, std::size_t r, std::vector<double> centres,
+                     const RowMatrix& response) {
   const Evidence& evidence = fit.model().evidence();
   const Index hats = response.cols();
   const auto n = static_cast<Index>(fit.model().unknowns());
   const auto rows = static_cast<Index>(evidence.runs()[r].rows());
   HatScores out{std::move(centres), VectorXd::Zero(hats), MatrixXd::Zero(hats, hats)};
   MatrixXd by_unknown = MatrixXd::Zero(n, hats);
-  std::vector<MatrixXd> bh, bj;
-  std::vector<VectorXd> br;
-  for (const auto& gains : evidence.gains()) {
-    bh.emplace_back(MatrixXd::Zero(gains.count, hats));
-    bj.emplace_back(MatrixXd::Zero(gains.count, n));
-    br.emplace_back(VectorXd::Zero(gains.count));
-  }
+  std::vector<MatrixXd> bh;
+  for (const auto& gains : evidence.gains()) bh.emplace_back(MatrixXd::Zero(gains.count, hats));
   for (std::size_t c = 0; c < evidence.series(); ++c) {
-    if (evidence.samples(c) == 0) continue;
+    const auto own = response.middleRows(static_cast<Index>(c) * rows, rows);
+    if (evidence.samples(c) == 0 || own.isZero(0.0)) continue;
     const auto& white = evidence.whitened(c, fit.sizes());
+    RowMatrix h(rows, hats);
+    white.whitener[r].apply(own, h);
+    out.slope.noalias() += h.transpose() * whole.left[r][c];
+    out.information.selfadjointView<Eigen::Lower>().rankUpdate(h.transpose());
+    by_unknown.noalias() += whole.columns[r][c].transpose() * h;
     const auto [group, place] = evidence.gain_place(c);
-    for (std::size_t q = 0; q < evidence.runs().size(); ++q) {
-      const auto own = static_cast<Index>(evidence.runs()[q].rows());
-      const bool here = q == r;
-      if (!here && group < 0) continue;
-      RowMatrix j(own, n);
-      white.whitener[q].apply(fit.columns(q).middleRows(static_cast<Index>(c) * own, own), j);
-      const auto& measured = evidence.runs()[q].series[c].values;
-      std::vector<double> left(measured.size());
-      for (std::size_t k = 0; k < left.size(); ++k) left[k] = measured[k] - fit.predicted()[q][c][k];
-      VectorXd w(own);
-      white.whitener[q].apply(left.data(), w.data());
-      RowMatrix h;
-      if (here) {
-        h.resize(rows, hats);
-        white.whitener[q].apply(response.middleRows(static_cast<Index>(c) * rows, rows), h);
-        out.slope.noalias() += h.transpose() * w;
-        out.information.noalias() += h.transpose() * h;
-        by_unknown.noalias() += j.transpose() * h;
-      }
-      if (group < 0) continue;
-      const auto g = static_cast<std::size_t>(group);
-      const Index from = evidence.gains()[g].first[static_cast<std::size_t>(place)];
-      const Index count = white.basis[q].cols();
-      if (here) bh[g].middleRows(from, count).noalias() += white.basis[q].transpose() * h;
-      bj[g].middleRows(from, count).noalias() += white.basis[q].transpose() * j;
-      br[g].segment(from, count).noalias() += white.basis[q].transpose() * w;
-    }
+    if (group < 0) continue;
+    const auto g = static_cast<std::size_t>(group);
+    const Index from = evidence.gains()[g].first[static_cast<std::size_t>(place)];
+    bh[g].middleRows(from, white.basis[r].cols()).noalias() += white.basis[r].transpose() * h;
   }
+  out.information.triangularView<Eigen::StrictlyUpper>() = out.information.transpose();
   for (std::size_t g = 0; g < evidence.gains().size(); ++g) {
     if (!inference::gains_act(evidence, g, fit.sizes())) continue;
     const auto factors = inference::gain_precision(evidence, g, fit.sizes());
+    MatrixXd bj = whole.bj[g];
+    VectorXd br = whole.br[g];
     factors.matrixL().solveInPlace(bh[g]);
-    factors.matrixL().solveInPlace(bj[g]);
-    factors.matrixL().solveInPlace(br[g]);
-    out.slope.noalias() -= bh[g].transpose() * br[g];
+    factors.matrixL().solveInPlace(bj);
+    factors.matrixL().solveInPlace(br);
+    out.slope.noalias() -= bh[g].transpose() * br;
     out.information.noalias() -= bh[g].transpose() * bh[g];
-    by_unknown.noalias() -= bj[g].transpose() * bh[g];
+    by_unknown.noalias() -= bj.transpose() * bh[g];
   }
-  const inference::Quadratic q = fit.quadratic();
-  const Eigen::LLT<MatrixXd> factors(q.curvature);
-  const MatrixXd solved = factors.solve(by_unknown);
-  out.slope.noalias() -= solved.transpose() * q.slope;
+  const MatrixXd solved = whole.curvature.solve(by_unknown);
+  out.slope.noalias() -= solved.transpose() * whole.slope;
   out.information.noalias() -= by_unknown.transpose() * solved;
   return out;
 }

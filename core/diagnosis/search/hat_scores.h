@@ -3,6 +3,7 @@
 // hat functions, and the efficient score of each, with all unknowns and the gains of the repeatable discrepancy
 // re-optimised beside it.
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <functional>
 #include <vector>
@@ -25,7 +26,17 @@ using MakeTerm = std::function<physics::Term(physics::NetworkBuilder&)>;
 /// What the series of a run show of a unit strength in each hat: (series * rows + row) x hats.
 inference::RowMatrix hat_responses(const inference::Fit& fit, std::size_t run, const std::vector<double>& centres,
                                    const MakeTerm& make_term);
-HatScores hat_scores(const inference::Fit& fit, std::size_t run, std::vector<double> centres,
+/// What all scores of one fit share: its derivatives and what it leaves, whitened.
+struct WhitenedFit {
+  std::vector<std::vector<inference::RowMatrix>> columns;  // [run][series]
+  std::vector<std::vector<Eigen::VectorXd>> left;          // [run][series]
+  std::vector<Eigen::MatrixXd> bj;                         // of each group of gains: basis' columns
+  std::vector<Eigen::VectorXd> br;
+  Eigen::LLT<Eigen::MatrixXd> curvature;  // factors
+  Eigen::VectorXd slope;
+};
+WhitenedFit whitened(const inference::Fit& fit);
+HatScores hat_scores(const inference::Fit& fit, const WhitenedFit& white, std::size_t run, std::vector<double> centres,
                      const inference::RowMatrix& response);
 
 }  // namespace zerodrift::diagnosis::search

@@ -195,6 +195,7 @@ std::vector<Candidate> interval_candidates(const Fit& fit, const std::vector<phy
     add_sensors(evidence, machine, list);
     for (Timed& one : list) jobs.push_back({r, std::move(one)});
   }
+  const WhitenedFit whole = whitened(fit);
   std::vector<std::vector<Candidate>> found(jobs.size());
   in_parallel(jobs.size(), [&](std::size_t i) {
     const auto& [r, timed] = jobs[i];
@@ -205,7 +206,7 @@ std::vector<Candidate> interval_candidates(const Fit& fit, const std::vector<phy
     const double apart_s = centres[1] - centres[0];
     const RowMatrix response = timed.make_term ? hat_responses(fit, r, centres, timed.make_term)
                                                : reading_alone(evidence.runs()[r], timed.series, centres);
-    const HatScores scores = hat_scores(fit, r, centres, response);
+    const HatScores scores = hat_scores(fit, whole, r, centres, response);
     // Each edge may be anywhere: its prior is spread over the recording, in units of how well a hat tells it.
     const double edge_cost = std::log(static_cast<double>(centres.size()));
     const auto stretches = best_stretches(scores, timed.sigma, timed.only_positive, 2.0 * edge_cost);
