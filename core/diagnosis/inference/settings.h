@@ -66,10 +66,11 @@ struct DiagnosisSettings {
   double significance = 1e-3;  // of the test whether a hypothesis leaves more than noise and usual discrepancy
 
   // -- Search ----------------------------------------------------------------------------------------------------
-  int most_effects = 4;
+  int most_effects = 3;             // what three do not explain, no list of effects does
   std::size_t beam = 2;             // hypotheses that are extended in each round
   std::size_t proposals = 6;        // of each, fitted after the score test
   std::size_t forms_of_a_kind = 2;  // among them
+  std::size_t followed = 4;         // of all proposals of a round, fitted to the end
   int most_rounds = 6;
   double margin = 12.0;    // log odds behind the best at which a hypothesis is dropped
   int iterations = 12;     // of a fit

@@ -45,7 +45,7 @@ double largest_W(const physics::HeatSource& source, const recording::Recording& 
 
 void add_heats(const physics::Machine& machine, const physics::RunFacts& facts, const recording::Recording& recording,
                std::vector<Timed>& list) {
-  constexpr int places = 5;  // along a rod; the fit moves them
+  constexpr int places = 3;  // along a rod; the fit moves them
   for (const auto& part : machine.components) {
     if (part.prescribed) continue;
     // A lump's own sources say how much heat moves it; without any, 20 K in an hour is much.

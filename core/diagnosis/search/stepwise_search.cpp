@@ -332,7 +332,7 @@ class Search {
       if (twice || known(*children[i])) continue;
       if (of_kind[kind_of(children[i]->model().hypothesis())]++ >= m_settings.forms_of_a_kind) continue;
       kept.push_back(children[i]);
-      if (kept.size() == m_settings.proposals) break;
+      if (kept.size() == m_settings.followed) break;
     }
     return take_in(kept);
   }
@@ -358,7 +358,7 @@ class Search {
     const std::size_t first = m_nodes.size() - fresh.size();
     for (std::size_t i = first; i < m_nodes.size(); ++i) {
       const auto& effects = m_nodes[i].settled->model().hypothesis().effects;
-      if (effects.size() < 2 || rank(m_nodes[i]) < highest() - m_settings.decisive) continue;
+      if (effects.size() < 2 || rank(m_nodes[i]) < highest()) continue;
       for (std::size_t e = 0; e + 1 < effects.size(); ++e) {
         auto less = without(*m_nodes[i].settled, e);
         if (!known(*less)) reduced.push_back(std::move(less));
