@@ -1,5 +1,6 @@
 // A job that is left, opened or made: every page shows what the open job holds and nothing else, and work that runs
-// keeps its job. ZERODRIFT_ORDERS=200 goes through as many random orders of New, Open, Other job, Close and Disconnect.
+// keeps its job. ZERODRIFT_ORDERS=200 goes through as many random orders of New, Open, Other job, Close and Disconnect,
+// drawn with ZERODRIFT_SEED.
 
 #include <QApplication>
 #include <QFile>
@@ -209,7 +210,8 @@ class JobChangeTest : public QObject, private zerodrift::desktop::TestHome {
 
   void ordersWhileWorkRuns() {
     const int orders = qEnvironmentVariableIntValue("ZERODRIFT_ORDERS");
-    QRandomGenerator random(20261129);
+    const int seed = qEnvironmentVariableIntValue("ZERODRIFT_SEED");
+    QRandomGenerator random(seed > 0 ? static_cast<quint32>(seed) : 20261129);
     for (int order = 0; order < std::max(8, orders); ++order) {
       orderOfWork(random, order);
       if (QTest::currentTestFailed()) {
