@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/desktop/application.h"
+#include "app/desktop/child_process.h"
 #include "app/desktop/file_opener.h"
 #include "app/desktop/run_presenter.h"
 #include "core/acquisition/plan.h"
@@ -278,6 +279,7 @@ class JobChangeTest : public QObject, private zerodrift::desktop::TestHome {
   bool startMachine() {
     if (m_machine != nullptr && m_machine->state() == QProcess::Running) return true;
     m_machine = std::make_unique<QProcess>();
+    zerodrift::desktop::end_with_parent(*m_machine);
     m_profile = m_folder.filePath(QStringLiteral("machine-%1.json").arg(++m_jobs));
     m_machine->start(QStringLiteral(ZERODRIFT_BIN_DIR "/zerodrift-machine"),
                      {QStringLiteral("--speedup"), QStringLiteral("240"), QStringLiteral("--seed"),
