@@ -134,9 +134,10 @@ function(zerodrift_qt_library name)
   zerodrift_batches(${name} zerodrift_qt_pch)
 endfunction()
 
-# zerodrift_test(room SOURCES a_test.cpp ... DEPENDS ...): GoogleTest; ctest names are room/Suite.Test.
+# zerodrift_test(room [SLOW] SOURCES a_test.cpp ... DEPENDS ...): GoogleTest; ctest names are room/Suite.Test. Label
+# "unit", which ./check --quick runs; SLOW rooms (minutes of simulated machines and rendered frames) have "slow".
 function(zerodrift_test room)
-  cmake_parse_arguments(A "" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(A "SLOW" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
   string(REPLACE "/" "_" name ${room})
   add_executable(${name}_tests ${A_SOURCES})
   target_link_libraries(${name}_tests PRIVATE zerodrift_options ${A_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
@@ -147,7 +148,12 @@ function(zerodrift_test room)
   if(NOT A_TIMEOUT)
     set(A_TIMEOUT 120)
   endif()
-  gtest_discover_tests(${name}_tests TEST_PREFIX ${room}/ DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${A_TIMEOUT})
+  set(label unit)
+  if(A_SLOW)
+    set(label slow)
+  endif()
+  gtest_discover_tests(${name}_tests TEST_PREFIX ${room}/ DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${A_TIMEOUT} LABELS ${label})
 endfunction()
 
 # zerodrift_qt_test(room/name SOURCES one_test.cpp DEPENDS ...): Qt Test on the offscreen platform.

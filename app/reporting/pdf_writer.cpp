@@ -106,7 +106,7 @@ class PdfDrawing : public Drawing {
   QByteArray m_bytes;
   QBuffer m_buffer{&m_bytes};
   std::unique_ptr<QPdfWriter> m_device;
-  std::unique_ptr<QPainter> m_painter;  // ends before its device
+  ui::VectorPainter m_painter;  // ends before its device
   PdfMarks m_marks;
   std::string m_finished;
 };
@@ -127,7 +127,7 @@ struct PagePictures::Inside {
   Pages places{report};
   Paper* paper = nullptr;
   std::deque<QImage> pages = {};  // stay where they are while painted on
-  std::unique_ptr<QPainter> painter = {};
+  ui::VectorPainter painter = {};
 
   QImage& blank() {
     QImage& page = pages.emplace_back((a4() * scale).toSize(), QImage::Format_RGB32);

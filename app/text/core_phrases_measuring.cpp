@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 257> measuring = {{
+constexpr std::array<const char*, 258> measuring = {{
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),
@@ -132,6 +132,7 @@ constexpr std::array<const char*, 257> measuring = {{
     QT_TRANSLATE_NOOP("core", "the picture does not show the move to the measuring position"),
     QT_TRANSLATE_NOOP("core", "the machine moved while it was measured"),
     QT_TRANSLATE_NOOP("core", "its picture does not follow the machine"),
+    QT_TRANSLATE_NOOP("core", "%1 shows the target %2 um from where the machine was sent, heat can make %3 um"),
     QT_TRANSLATE_NOOP("core", "a measurement"),
     QT_TRANSLATE_NOOP("core", "a time from 0.1 to 60 s"),
     QT_TRANSLATE_NOOP("core", "the plan's measuring position"),

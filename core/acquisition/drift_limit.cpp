@@ -1,6 +1,9 @@
 #include "core/acquisition/drift_limit.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <map>
 
 namespace zerodrift::acquisition {
 namespace {
@@ -61,6 +64,29 @@ std::optional<Leap> DriftLimit::judge(double time_s, const std::array<double, 3>
   m_leapt = {};
   m_found = 0;
   return leap;
+}
+
+HeatJudgement judge_by_heat(DriftLimit& limit, double time_s, const std::array<double, 3>& applied_um,
+                            ErrorSample& measured) {
+  HeatJudgement judgement;
+  judgement.by_heat_um = measured.error_um;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::isfinite(applied_um[i])) judgement.by_heat_um[i] -= applied_um[i];
+  }
+  const auto leap = limit.judge(time_s, judgement.by_heat_um, measured.sigma_um);
+  if (!leap) return judgement;
+  std::map<std::string, std::string> context = {{"axis", leap->axis},
+                                                {"change_um", fmt::format("{:+.1f}", leap->change_um)}};
+  if (leap->confirmed) {
+    judgement.slipped = Error{ErrorCode::leap_confirmed, std::move(context)};
+    return judgement;
+  }
+  context["limit_um"] = fmt::format("{:.1f}", leap->limit_um);
+  std::vector<Settled> settled = std::move(measured.settled);
+  measured = not_measured({});
+  measured.settled = std::move(settled);
+  judgement.refused = Error{ErrorCode::error_leapt, std::move(context)};
+  return judgement;
 }
 
 }  // namespace zerodrift::acquisition

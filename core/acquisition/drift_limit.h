@@ -7,6 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "core/acquisition/error_source.h"
+#include "core/base/result.h"
+
 namespace zerodrift::acquisition {
 
 struct DriftRule {
@@ -49,5 +52,14 @@ class DriftLimit {
   Leap m_first;     // as it was found first
   int m_found = 0;  // how often in a row what leapt was found where it leapt to
 };
+
+/// A measurement judged by what heat can have made of it, whatever the machine compensated meanwhile.
+struct HeatJudgement {
+  std::array<double, 3> by_heat_um{};  // the error less what was compensated
+  std::optional<Error> refused;        // error_leapt: the sample holds nothing any more
+  std::optional<Error> slipped;        // leap_confirmed: it holds what is there since the slip
+};
+HeatJudgement judge_by_heat(DriftLimit& limit, double time_s, const std::array<double, 3>& applied_um,
+                            ErrorSample& measured);
 
 }  // namespace zerodrift::acquisition

@@ -1,5 +1,7 @@
 #include "core/acquisition/job_sink.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/json.h"
@@ -54,6 +56,19 @@ Status replay(const std::vector<Event>& events, InterruptedRun& run) {
   return {};
 }
 
+int good_measurements(const recording::Recording& run) {
+  std::vector<const recording::Channel*> seen;
+  for (const char* name : {"dX_um", "dY_um", "dZ_um"}) {
+    const auto* error = run.find(name);
+    if (error != nullptr && recording::present_count(*error) > 0) seen.push_back(error);
+  }
+  int good = 0;
+  for (std::size_t r = 0; r < run.rows() && !seen.empty(); ++r) {
+    good += std::all_of(seen.begin(), seen.end(), [r](const auto* error) { return std::isfinite(error->values[r]); });
+  }
+  return good;
+}
+
 Result<InterruptedSeries> interrupted(const Job& job, const SeriesInfo& info) {
   InterruptedSeries found;
   found.series = info.id;
@@ -63,6 +78,7 @@ Result<InterruptedSeries> interrupted(const Job& job, const SeriesInfo& info) {
   std::vector<Error> damaged;  // a gap for the reader, no reason not to go on
   ZD_TRY(const recording::Recording recording, job.read_series(info.id, &damaged));
   if (!recording.time_s.empty()) found.run.last_time_s = recording.time_s.back();
+  found.run.good_measurements = good_measurements(recording);
   ZD_TRY(const auto events, job.events(info.id));
   ZD_CHECK(replay(events, found.run));
   return found;

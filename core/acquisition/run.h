@@ -111,6 +111,8 @@ class Run {
   std::optional<Good> m_good_before;  // the last two good measurements: how fast the errors drift
   std::optional<Good> m_good;
   bool m_enough_expected = false;  // looked at, once
+  double m_judged_from_s = 0.0;    // plan time from which measurements are counted for it: the start, or the resumption
+  int m_good_stored = 0;           // good measurements from before the resumption
   int m_stale_readings = 0;
   bool m_link_was_lost = false;
 };

@@ -47,15 +47,18 @@ void Run::note_pace(double due_s) {
                   {"every_s", fmt::format("{:g}", static_cast<double>(periods) * period_s)}}});
 }
 
-/// In the first tenth, whether the run will end with enough good measurements.
+/// In the first tenth, of the whole plan or of what remained of it when the run was resumed, whether the run will end
+/// with enough good measurements.
 Status Run::expect_enough() {
   const double total_s = m_start.plan.duration_s();
-  const double plan_s = plan_time_s(time_now_s());
-  if (m_enough_expected || plan_s < first_part * total_s) return {};
+  const double passed_s = plan_time_s(time_now_s()) - m_judged_from_s;
+  const double remained_s = total_s - m_judged_from_s;
+  if (m_enough_expected || remained_s <= 0.0 || passed_s < first_part * remained_s) return {};
   m_enough_expected = true;
   const double planned = total_s / m_start.plan.measure_period_s + 1.0;
   const double needed = std::min(static_cast<double>(m_options.least_measurements), 0.5 * planned);
-  const double expected = (m_summary.measurements - m_summary.refused) * total_s / plan_s;
+  const int good = m_summary.measurements - m_summary.refused;
+  const double expected = m_good_stored + good * std::max(1.0, remained_s / passed_s);
   if (expected >= needed) return {};
   const Error error{ErrorCode::too_few_measurements,
                     {{"expected", fmt::format("{:.0f}", expected)}, {"needed", fmt::format("{:.0f}", needed)}}};
@@ -112,28 +115,15 @@ Result<Run::Taken> Run::take(const Stand& stand) {
 std::optional<Error> Run::refusal_of(const MachineSample& row, ErrorSample& measured) {
   const double time_s = row.machine_time_s - m_start.origin_s;
   add_latency(time_s, measured);
-  // What the machine compensates is no leap of the heat.
-  std::array<double, 3> by_heat_um = measured.error_um;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (std::isfinite(row.applied_um[i])) by_heat_um[i] -= row.applied_um[i];
-  }
-  const auto leap = m_drift.judge(time_s, by_heat_um, measured.sigma_um);
-  std::map<std::string, std::string> context;
-  if (leap) context = {{"axis", leap->axis}, {"change_um", fmt::format("{:+.1f}", leap->change_um)}};
-  if (leap && !leap->confirmed) {
-    context["limit_um"] = fmt::format("{:.1f}", leap->limit_um);
-    const std::vector<Settled> settled = std::move(measured.settled);
-    measured = not_measured({});
-    measured.settled = settled;
-    return Error{ErrorCode::error_leapt, std::move(context)};
-  }
-  if (leap) {
-    raise("leap", {ErrorCode::leap_confirmed, std::move(context)});
+  const HeatJudgement judged = judge_by_heat(m_drift, time_s, row.applied_um, measured);
+  if (judged.refused) return judged.refused;
+  if (judged.slipped) {
+    raise("leap", *judged.slipped);
   } else {
     clear("leap");
   }
-  m_good_before = leap ? std::nullopt : m_good;
-  m_good = Good{time_s, by_heat_um};
+  m_good_before = judged.slipped ? std::nullopt : m_good;
+  m_good = Good{time_s, judged.by_heat_um};
   return std::nullopt;
 }
 

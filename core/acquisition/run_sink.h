@@ -32,6 +32,7 @@ struct InterruptedRun {
   UtcTime last_utc{};                    // of the last commit
   double paused_s = 0.0;                 // time that does not count for the plan
   std::optional<double> paused_since_s;  // it was pausing when it was broken off
+  int good_measurements = 0;             // stored, in every direction that was ever measured
 };
 
 struct RunEvent {

@@ -125,9 +125,10 @@ Result<RunSummary> Run::go_on(const InterruptedRun& interrupted) {
   ZD_CHECK(rejoin(interrupted, now));
   constexpr std::array<double, 3> nothing{};
   m_drift.know(0.0, nothing, nothing);
-  m_enough_expected = true;  // of a part of a run nothing can be expected
   m_next_sample_s = m_time_s;
   m_next_measure_s = plan_time_s(m_time_s);
+  m_judged_from_s = m_next_measure_s;
+  m_good_stored = interrupted.good_measurements;
   return record(std::nullopt);
 }
 

@@ -89,12 +89,14 @@ class Commissioning {
     return prove(0.4);
   }
 
-  /// Corrects by the measured residual and verifies again while a part error exceeds its threshold (C2).
+  /// Corrects by the measured residual and verifies again (C2).
   Status correct() {
     for (int round = 0; round < most_corrections; ++round) {
       ZD_TRY(const auto artefact, m_job.latest("verification"));
+      ZD_TRY(const Input uploaded, need(m_job, "verify", "upload"));
+      ZD_TRY(const json verification, artefact->document());
       ZD_TRY(const auto table, corrected_table(*artefact));
-      if (!table) return {};
+      if (!table || !correction_due(verification, uploaded.body)) return {};
       ZD_CHECK(write(table));
       ZD_CHECK(prove(0.0));
     }
@@ -162,6 +164,11 @@ class Commissioning {
 };
 
 }  // namespace
+
+bool correction_due(const json& verification, const json& upload) {
+  const bool corrected = upload.value("kind", "") == controller::name_of(controller::TableOrigin::correction);
+  return !corrected || verification.value("verdict", "") != "passed";
+}
 
 Result<CommissionResult> commission(Job& job, const controller::Profile& profile, const json& profile_document,
                                     const CommissionOptions& options, const TaskContext& context) {

@@ -1,8 +1,9 @@
 #pragma once
 // The whole job without a person: machine, calibrate, warm-up, sensors, fit, physics, upload, verify; a correction and
-// a second verification when a part error of the first exceeds its threshold. Each is done by Flow::perform, and what
-// the job already holds and is current is not done again: a commissioning that was broken off goes on where it stopped,
-// and sensors chosen by hand stay chosen. A step that is out of date is done again as it was asked for.
+// a second verification when a part error of the first exceeds its threshold, another where the second fails. Each is
+// done by Flow::perform, and what the job already holds and is current is not done again: a commissioning that was
+// broken off goes on where it stopped, and sensors chosen by hand stay chosen. A step that is out of date is done again
+// as it was asked for.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -28,6 +29,11 @@ struct CommissionResult {
   nlohmann::json upload;
   nlohmann::json sensors;
 };
+
+/// Whether the correction that a verification proposes is worth another verification run. What is left after a
+/// correction is one slow wave of model error: corrected by it once more, the next run finds the opposite. It is worth
+/// it only where the corrected table failed. Bodies of the artefacts.
+bool correction_due(const nlohmann::json& verification, const nlohmann::json& upload);
 
 /// `profile_document` is what `profile` was read from; it is kept in the job. access_locked or not_confirmed before
 /// anything moves when the table could not be written in the end.

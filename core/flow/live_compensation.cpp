@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
-#include <cmath>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/analysis/model.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/table_words.h"
 #include "core/flow/devices.h"
+#include "core/flow/live_measuring.h"
 #include "core/flow/machine_write.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
@@ -25,101 +20,19 @@ using nlohmann::json;
 
 namespace {
 
-const std::string elsewhere = "the machine is not at the measuring position";
-const std::string no_answer = "the controller does not answer";
-
-/// Measures on a thread of its own, with devices of its own: a camera needs longer than a turn of the compensator.
-class Watch {
- public:
-  Watch(const commissioning::Job& job, const controller::Profile& profile, const LiveOptions& options)
-      : m_options(options), m_position_mm(profile.measure_position_mm) {
-    const Status opened = open(job, profile);
-    if (!opened) {
-      m_why = describe(opened.error());
-      return;
-    }
-    m_why = elsewhere;
-    m_thread = std::jthread([this](const std::stop_token& stop) { work(stop); });
+/// With the zero of the warm-up run in force; the devices must outlive it.
+Result<std::unique_ptr<acquisition::ErrorSource>> source_of(const commissioning::Job& job,
+                                                            const controller::Profile& profile, Devices& devices) {
+  ZD_TRY(const Input warmup, need(job, "compensator", "warmup"));
+  ZD_TRY(devices, Devices::open(profile));
+  ZD_TRY(auto source, open_error_source(job, devices));
+  const auto zero = warmup.body.find("zero_um");
+  if (zero == warmup.body.end() || !zero->is_array() || !source->restore_zero_um(zero->get<std::array<double, 3>>())) {
+    return fail(ErrorCode::machine_not_ready,
+                {{"what", source->name()}, {"reason", "the zero of the warm-up run cannot be restored"}});
   }
-
-  /// Where the machine is now; what was measured since the last call.
-  void exchange(LiveTurn& turn) {
-    const std::scoped_lock lock(m_mutex);
-    const bool was_there = m_there;
-    m_there = stands_there(turn.turn);
-    if (!m_there) ++m_moves;
-    if (m_there && !was_there) m_stand = acquisition::standing_now();
-    turn.left = std::exchange(m_sample, std::nullopt);
-    turn.not_measured = turn.turn.link_lost ? no_answer : m_thread.joinable() && !m_there ? elsewhere : m_why;
-    if (m_there) m_arrived.notify_all();
-  }
-
- private:
-  Status open(const commissioning::Job& job, const controller::Profile& profile) {
-    ZD_TRY(const Input warmup, need(job, "compensator", "warmup"));
-    ZD_TRY(m_devices, Devices::open(profile));
-    ZD_TRY(m_source, open_error_source(job, m_devices));
-    const auto zero = warmup.body.find("zero_um");
-    if (zero == warmup.body.end() || !zero->is_array() ||
-        !m_source->restore_zero_um(zero->get<std::array<double, 3>>())) {
-      return fail(ErrorCode::machine_not_ready,
-                  {{"what", m_source->name()}, {"reason", "the zero of the warm-up run cannot be restored"}});
-    }
-    return {};
-  }
-
-  bool stands_there(const controller::CompensatorTurn& turn) const {
-    if (turn.link_lost || turn.moving) return false;
-    for (const auto& [axis, wanted_mm] : m_position_mm) {
-      const auto at = turn.axes.find(axis);
-      if (at == turn.axes.end() || !(std::abs(at->second - wanted_mm) <= m_options.there_mm)) return false;
-    }
-    return true;
-  }
-
-  /// On this thread an exception would end the program, and the offset would stay in the machine.
-  Result<acquisition::ErrorSample> measure(const acquisition::Stand& stand, const TaskContext& context) {
-    try {
-      return m_source->measure(stand, context);
-    } catch (const std::exception& thrown) {
-      return fail(ErrorCode::internal, {{"detail", thrown.what()}});
-    }
-  }
-
-  void work(const std::stop_token& stop) {
-    const TaskContext context{stop, {}};
-    std::unique_lock lock(m_mutex);
-    while (m_arrived.wait(lock, stop, [this] { return m_there; }) && !stop.stop_requested()) {
-      const long moves = m_moves;
-      const acquisition::Stand stand = m_stand;
-      lock.unlock();
-      auto sample = measure(stand, context);
-      lock.lock();
-      // A machine that moved meanwhile was not measured where it was thought to stand.
-      if (sample && moves == m_moves) {
-        m_why = sample->problems.empty() ? std::string() : sample->problems.front();
-        m_sample = std::move(*sample);
-      } else if (!sample) {
-        m_why = describe(sample.error());
-      }
-      const auto rest = std::chrono::duration<double>(m_options.measure_every_s);
-      m_arrived.wait_for(lock, stop, rest, [] { return false; });
-    }
-  }
-
-  LiveOptions m_options;
-  std::map<std::string, double> m_position_mm;
-  Devices m_devices;
-  std::unique_ptr<acquisition::ErrorSource> m_source;
-  std::mutex m_mutex;
-  std::condition_variable_any m_arrived;
-  bool m_there = false;
-  acquisition::Stand m_stand;  // since it is there
-  long m_moves = 0;            // turns that found it elsewhere
-  std::optional<acquisition::ErrorSample> m_sample;
-  std::string m_why;
-  std::jthread m_thread;  // last: ends before what it uses
-};
+  return source;
+}
 
 Result<analysis::Model> running_model(const commissioning::Job& job) {
   ZD_TRY(const auto artefact, job.latest("model"));
@@ -141,7 +54,13 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, options.permit));
   ZD_TRY(const auto identity, machine->identify());
   ZD_CHECK(same_machine(job, "compensator", identity.serial));
-  Watch watch(job, profile, options);
+  Devices cameras;  // of their own: a camera needs longer than a turn of the compensator
+  LiveMeasuringOptions measuring_options;
+  measuring_options.position_mm = profile.measure_position_mm;
+  measuring_options.there_mm = options.there_mm;
+  measuring_options.every_s = options.measure_every_s;
+  measuring_options.drift.um_per_min = profile.max_drift_um_per_min;
+  LiveMeasuring measuring(source_of(job, profile, cameras), measuring_options);
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;
   how.switch_on = true;
@@ -159,9 +78,8 @@ Result<controller::CompensatorSummary> compensate_live(commissioning::Job& job, 
   controller::CompensatorSummary summary;
   const auto work = [&]() -> Status {
     auto ran = controller::run_host_compensator(*machine, table, how, context, [&](const auto& turn) {
-      LiveTurn live{turn, {}, {}};
-      watch.exchange(live);
-      observer(live);
+      LiveMeasuring::Now now = measuring.exchange(turn);
+      observer({turn, std::move(now.left), std::move(now.not_measured)});
     });
     if (!ran) return fail(ran.error());
     summary = *ran;

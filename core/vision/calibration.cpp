@@ -200,10 +200,10 @@ ErrorUm Calibration::to_um(const Location& location) const {
   return {um(0), um(1), std::sqrt(from_image(0, 0) + from_scale_x), std::sqrt(from_image(1, 1) + from_scale_y)};
 }
 
-std::optional<std::size_t> oddest_view(const std::vector<CalibrationView>& views) {
+std::optional<OddView> oddest_view(const std::vector<CalibrationView>& views) {
   const LeftOut out = leave_one_out(pixels_of(views), machine_um_of(views));
   if (!std::isfinite(out.rms_um)) return std::nullopt;
-  return static_cast<std::size_t>(out.worst);
+  return OddView{static_cast<std::size_t>(out.worst), out.worst_um};
 }
 
 Result<Calibration> calibrate(std::vector<CalibrationView> views, const CalibrationLimits& limits) {

@@ -71,8 +71,12 @@ struct CalibrationLimits {
 /// Errors: not_enough_data, calibration_refused with the reason.
 Result<Calibration> calibrate(std::vector<CalibrationView> views, const CalibrationLimits& limits = {});
 
+struct OddView {
+  std::size_t view = 0;
+  double apart_um = 0.0;  // from where the others predict it
+};
 /// Which view the others predict worst; nothing below five views, which cannot tell.
-std::optional<std::size_t> oddest_view(const std::vector<CalibrationView>& views);
+std::optional<OddView> oddest_view(const std::vector<CalibrationView>& views);
 
 /// Whether the views scatter about the calibration by more than chance makes of what their pictures state and a machine
 /// of the assumed repeatability, where the pictures state a fair part of it: then it is likelier what they state that

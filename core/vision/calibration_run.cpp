@@ -20,21 +20,23 @@ std::map<std::string, double> place(const CalibrationPlan& plan, double x_mm, do
 struct Seen {
   CalibrationView view;
   std::vector<GrayImage> frames;
+  Seconds when{0.0};  // host time
 };
 
 /// The move to a position by way of its approach, as one: the pictures before it show the position before.
 Result<acquisition::Stand> come_by(acquisition::MachineIo& machine, const CalibrationPlan& plan,
-                                   const ProposedPosition& at) {
+                                   const ProposedPosition& at, Clock& host) {
   ZD_TRY(const acquisition::Stand on_the_way,
-         acquisition::come_to(machine, place(plan, at.approach_x_mm, at.approach_y_mm)));
-  ZD_TRY(acquisition::Stand stand, acquisition::come_to(machine, place(plan, at.x_mm, at.y_mm)));
+         acquisition::come_to(machine, place(plan, at.approach_x_mm, at.approach_y_mm), host));
+  ZD_TRY(acquisition::Stand stand, acquisition::come_to(machine, place(plan, at.x_mm, at.y_mm), host));
   stand.left = on_the_way.left;
   for (std::size_t i = 0; i < 3; ++i) stand.came_mm[i] = std::max(stand.came_mm[i], on_the_way.came_mm[i]);
   return stand;
 }
 
-Result<std::vector<GrayImage>> frames_at(const Camera& camera, const acquisition::Stand& stand, const Region& region,
-                                         const CalibrationPlan& plan, const TaskContext& context) {
+Result<std::vector<GrayImage>> frames_at(const PictureSource& camera, const acquisition::Stand& stand,
+                                         const Region& region, const CalibrationPlan& plan,
+                                         const TaskContext& context) {
   StandingLook look;
   look.region = region;
   look.latency = plan.latency;
@@ -69,10 +71,11 @@ MeanLocation located(const Pattern& pattern, const std::vector<GrayImage>& frame
   return mean_of(locations);
 }
 
-Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Pattern& pattern,
-                 const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
-  ZD_TRY(const acquisition::Stand stand, come_by(machine, plan, at));
+Result<Seen> see(acquisition::MachineIo& machine, const PictureSource& camera, const Pattern& pattern,
+                 const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context, Clock& host) {
+  ZD_TRY(const acquisition::Stand stand, come_by(machine, plan, at, host));
   Seen seen;
+  seen.when = stand.since;
   ZD_TRY(const acquisition::MachineSample sample, machine.read());
   ZD_TRY(seen.frames, frames_at(camera, stand, pattern.target.region(), plan, context));
   const auto coordinate = [&](int axis) -> double {
@@ -92,13 +95,14 @@ Result<Seen> see(acquisition::MachineIo& machine, const Camera& camera, const Pa
 
 // A picture may be spoilt by something that is over a moment later: a position where the target is refused, or the
 // camera hangs, gets a second look.
-Result<Seen> see_patiently(acquisition::MachineIo& machine, const Camera& camera, const Pattern& pattern,
-                           const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context) {
-  Result<Seen> seen = see(machine, camera, pattern, plan, at, context);
+Result<Seen> see_patiently(acquisition::MachineIo& machine, const PictureSource& camera, const Pattern& pattern,
+                           const CalibrationPlan& plan, const ProposedPosition& at, const TaskContext& context,
+                           Clock& host) {
+  Result<Seen> seen = see(machine, camera, pattern, plan, at, context, host);
   if (seen || context.cancelled()) return seen;
   const ErrorCode code = seen.error().code;
   if (code != ErrorCode::target_refused && code != ErrorCode::camera_frozen) return seen;
-  return see(machine, camera, pattern, plan, at, context);
+  return see(machine, camera, pattern, plan, at, context, host);
 }
 
 // The positions measured with what their pictures teach together: the pixels that stand still taken out.
@@ -115,37 +119,72 @@ CalibrationOutcome taught(const Pattern& pattern, const std::vector<Seen>& all, 
   return out;
 }
 
+/// The view that shows the target farther from where the machine was sent than heat, the machine's own scatter and the
+/// picture can put it: a picture of another moment, a target that slipped, an axis that is not where it says.
+std::optional<OddView> leapt(const std::vector<Seen>& all, const std::vector<CalibrationView>& views,
+                             const Calibration& calibration, const CalibrationPlan& plan, double& limit_um) {
+  const std::optional<OddView> odd = oddest_view(views);
+  if (!odd) return std::nullopt;
+  Seconds first = all.front().when;
+  Seconds last = all.front().when;
+  for (const Seen& seen : all) {
+    first = std::min(first, seen.when);
+    last = std::max(last, seen.when);
+  }
+  const double minutes = (last - first).count() * plan.time_factor / 60.0;
+  const double picture_um = views[odd->view].sigma_px * calibration.scale_um_per_px;
+  constexpr double coverage = 4.0;  // standard uncertainties
+  limit_um = plan.drift.least_um + plan.drift.um_per_min * minutes +
+             coverage * std::hypot(picture_um, CalibrationLimits().repeatability_um);
+  return odd->apart_um > limit_um ? odd : std::nullopt;
+}
+
 }  // namespace
 
-Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, const Camera& camera, const Target& target,
-                                           const std::vector<Target>& marks, const CalibrationPlan& plan,
-                                           const TaskContext& context, const CalibrationWatcher& watcher) {
+Result<CalibrationOutcome> run_calibration(acquisition::MachineIo& machine, const PictureSource& camera,
+                                           const Target& target, const std::vector<Target>& marks,
+                                           const CalibrationPlan& plan, const TaskContext& context,
+                                           const CalibrationWatcher& watcher, Clock& host) {
   const Pattern pattern{target, marks};
   const std::vector<ProposedPosition> positions = propose_positions(plan.span_mm, plan.per_side, plan.approach_mm);
   const int count = static_cast<int>(positions.size());
   std::vector<Seen> all;
   for (const ProposedPosition& at : positions) {
     if (context.cancelled()) return fail(ErrorCode::cancelled);
-    ZD_TRY(Seen seen, see_patiently(machine, camera, pattern, plan, at, context));
+    ZD_TRY(Seen seen, see_patiently(machine, camera, pattern, plan, at, context, host));
     all.push_back(std::move(seen));
     const int done = static_cast<int>(all.size());
     if (watcher) watcher(done, count, all.back().frames.back(), target.locate(all.back().frames.back()));
     context.progress(static_cast<double>(done) / count, "calibration");
   }
-  std::vector<CalibrationView> views;
-  CalibrationOutcome out = taught(pattern, all, views);
-  Result<Calibration> calibration = calibrate(views);
-  // One view that does not fit the others may be a picture of another moment: it is taken anew before all is refused.
-  const std::optional<std::size_t> odd = oddest_view(views);
-  if (!calibration && calibration.error().code == ErrorCode::calibration_refused && odd) {
-    ZD_TRY(all[*odd], see_patiently(machine, camera, pattern, plan, positions[*odd], context));
-    views.clear();
+  CalibrationOutcome out{{}, target, {}};
+  Result<Calibration> calibration = fail(ErrorCode::internal);
+  std::optional<OddView> odd;  // that does not fit the others
+  double limit_um = 0.0;
+  const auto judge = [&] {
+    std::vector<CalibrationView> views;
     out = taught(pattern, all, views);
-    calibration = calibrate(std::move(views));
+    calibration = calibrate(views);
+    const bool refused = !calibration && calibration.error().code == ErrorCode::calibration_refused;
+    odd = refused ? oddest_view(views) : std::nullopt;
+    if (calibration) odd = leapt(all, views, *calibration, plan, limit_um);
+  };
+  judge();
+  // One view that does not fit the others may be a picture of another moment: it is taken anew before all is refused.
+  if (odd) {
+    ZD_TRY(all[odd->view], see_patiently(machine, camera, pattern, plan, positions[odd->view], context, host));
+    judge();
   }
   ZD_CHECK(machine.move_to(place(plan, positions[0].approach_x_mm, positions[0].approach_y_mm)));
   ZD_CHECK(machine.move_to(place(plan, 0.0, 0.0)));
-  ZD_TRY(out.calibration, std::move(calibration));
+  ZD_CHECK(calibration);
+  if (odd) {
+    return fail(ErrorCode::calibration_refused,
+                {{"reason",
+                  fmt::format("{} shows the target {:.1f} um from where the machine was sent, heat can make {:.1f} um",
+                              all[odd->view].view.image, odd->apart_um, limit_um)}});
+  }
+  out.calibration = std::move(*calibration);
   return out;
 }
 

@@ -13,17 +13,9 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "core/vision/image.h"
-#include "core/vision/picture_sketch.h"
+#include "core/vision/picture_source.h"
 
 namespace zerodrift::vision {
-
-struct CameraFrame {
-  GrayImage image;
-  std::uint64_t count = 0;  // frames since the start
-  std::chrono::steady_clock::time_point arrived;
-  Seconds stamp{0.0};  // host time: by the device, else of the arrival
-};
 
 struct CameraOptions {
   std::chrono::milliseconds open_timeout{1000};
@@ -34,13 +26,13 @@ struct CameraOptions {
   std::chrono::milliseconds longest_pause{5000};  // between attempts to open
 };
 
-class Camera {
+class Camera : public PictureSource {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   /// Starts reading at once and returns; whether it works shows in the frames.
   explicit Camera(std::string source, CameraOptions options = {});
-  ~Camera();
+  ~Camera() override;
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
 
@@ -50,14 +42,10 @@ class Camera {
   /// A frame taken after this moment: the first to arrive may have been on its way already and is passed over.
   Result<std::shared_ptr<const CameraFrame>> fresh_frame(Time after, std::chrono::milliseconds timeout,
                                                          const std::stop_token& stop = {}) const;
-  /// The first frame that is stamped after this host time and does not repeat the one before. Frames that come at once,
-  /// as a starved reader finds them in the line, are passed over: their stamp is too late.
   Result<std::shared_ptr<const CameraFrame>> next_picture(Seconds after, std::chrono::milliseconds timeout,
-                                                          const std::stop_token& stop = {}) const;
-  /// Of the last pictures, from the last one that is not after `from` on.
-  Sketches sketches(Seconds from) const;
-  /// A file or a sequence of images: played at its own rate, its pictures are of no time.
-  bool is_file() const;
+                                                          const std::stop_token& stop = {}) const override;
+  Sketches sketches(Seconds from) const override;
+  bool is_file() const override;
   /// Frames a second over the last few seconds; 0 while nothing comes.
   double frames_per_s() const;
   std::uint64_t reconnections() const;

@@ -196,7 +196,8 @@ Result<ViewState> CameraErrorSource::look(std::size_t view, const acquisition::S
     const Seconds until = std::max(stand.until, here ? stand.since : surely_here(view, stand));
     const bool again = window.judged < tries * static_cast<int>(window.needed) || after <= until;
     if (!(here && rests) && again) continue;
-    if (!here) {
+    // What hides the target hides its move too, and is the reason.
+    if (located && !here) {
       state.problem = "the picture does not show the move to the measuring position";
     } else if (located && !rests) {
       state.problem = verdict.reason;
@@ -206,7 +207,8 @@ Result<ViewState> CameraErrorSource::look(std::size_t view, const acquisition::S
     state.location.sigma_x_px = std::hypot(state.location.sigma_x_px, trend.x());
     state.location.sigma_y_px = std::hypot(state.location.sigma_y_px, trend.y());
     const std::lock_guard lock(m_mutex);
-    state.settled.widened = window.bounds && m_latencies[view].add(*window.bounds);
+    // Of what hides the target no one knows when it came: it says nothing about the latency.
+    state.settled.widened = located && window.bounds && m_latencies[view].add(*window.bounds);
     return state;
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/acquisition/stand.h"
 
@@ -95,20 +96,21 @@ acquisition::Latency latency_by(const std::vector<LatencyBounds>& bounds) {
 
 class LatencyMeasurement {
  public:
-  LatencyMeasurement(acquisition::MachineIo& machine, const LatencyPlan& plan, const TaskContext& context)
-      : m_machine(machine), m_plan(plan), m_context(context), m_away_mm(plan.centre_mm) {
+  LatencyMeasurement(acquisition::MachineIo& machine, const LatencyPlan& plan, const TaskContext& context, Clock& host)
+      : m_machine(machine), m_plan(plan), m_context(context), m_host(host), m_away_mm(plan.centre_mm) {
     for (const std::string& axis : plan.axes) m_away_mm[axis] += plan.way_mm;
   }
 
-  /// `older_s`: no picture of before is expected to come later than this.
-  Status run(std::vector<Watched>& cameras, double older_s) {
-    ZD_TRY(const Stand first, acquisition::come_to(m_machine, m_plan.centre_mm));
-    if (!host_clock().wait_until(first.since + Seconds(older_s), m_context.stop)) return fail(ErrorCode::cancelled);
+  /// `older_s`: no picture of before is expected to come later than this. `home`: where the machine is at rest already.
+  Status run(std::vector<Watched>& cameras, double older_s, const std::optional<Stand>& home) {
+    const bool there = home && home->still();
+    ZD_TRY(const Stand first, there ? Result<Stand>(*home) : acquisition::come_to(m_machine, m_plan.centre_mm, m_host));
+    if (!m_host.wait_until(first.since + Seconds(older_s), m_context.stop)) return fail(ErrorCode::cancelled);
     for (Watched& camera : cameras) ZD_CHECK(learn_home(camera, first.since + Seconds(older_s), m_context));
     for (int k = 0; k < m_plan.moves; ++k) {
-      const bool home = k % 2 == 1;
-      ZD_TRY(const Stand stand, acquisition::come_to(m_machine, home ? m_plan.centre_mm : m_away_mm));
-      for (Watched& camera : cameras) ZD_CHECK(follow(camera, stand, home, m_context));
+      const bool back = k % 2 == 1;
+      ZD_TRY(const Stand stand, acquisition::come_to(m_machine, back ? m_plan.centre_mm : m_away_mm, m_host));
+      for (Watched& camera : cameras) ZD_CHECK(follow(camera, stand, back, m_context));
       m_context.progress(static_cast<double>(k + 1) / m_plan.moves, "latency");
     }
     return {};
@@ -118,6 +120,7 @@ class LatencyMeasurement {
   acquisition::MachineIo& m_machine;
   const LatencyPlan& m_plan;
   const TaskContext& m_context;
+  Clock& m_host;
   std::map<std::string, double> m_away_mm;
 };
 
@@ -125,21 +128,23 @@ class LatencyMeasurement {
 
 Result<std::vector<acquisition::Latency>> measure_latency(acquisition::MachineIo& machine,
                                                           const std::vector<LatencyCamera>& cameras,
-                                                          const LatencyPlan& plan, const TaskContext& context) {
-  LatencyMeasurement measurement(machine, plan, context);
+                                                          const LatencyPlan& plan, const TaskContext& context,
+                                                          Clock& host) {
+  LatencyMeasurement measurement(machine, plan, context, host);
   // Once more where a camera hung, and then after a longer rest: one that is slower than expected still showed an
   // earlier move.
   std::vector<Watched> watched;
   Status done;
+  std::optional<Stand> home = plan.home;
   for (const double older_s : {plan.longest_s, plan.longest_s, 2.0 * plan.longest_s + follow_patience_s}) {
     watched.clear();
     for (const LatencyCamera& camera : cameras) watched.push_back({camera, {}, least_moved_levels, {}, {}});
-    done = measurement.run(watched, older_s);
+    done = measurement.run(watched, older_s, std::exchange(home, std::nullopt));
     if (done) break;
     const ErrorCode code = done.error().code;
     if (code != ErrorCode::calibration_refused && code != ErrorCode::camera_frozen) break;
   }
-  ZD_CHECK(acquisition::come_to(machine, plan.centre_mm).map([](const Stand&) {}));
+  ZD_CHECK(acquisition::come_to(machine, plan.centre_mm, host).map([](const Stand&) {}));
   ZD_CHECK(done);
   std::vector<acquisition::Latency> out;
   for (const Watched& camera : watched) out.push_back(latency_by(camera.bounds));

@@ -10,7 +10,7 @@ namespace {
 constexpr double rest_patience_s = 5.0;  // for pictures that come to rest late
 
 /// Whether the pictures from the first of them on show one place, and that the stand's.
-bool show_the_stand(const Camera& camera, const acquisition::Stand& stand, const StandingLook& look,
+bool show_the_stand(const PictureSource& camera, const acquisition::Stand& stand, const StandingLook& look,
                     const Pictures& pictures, Seconds surely_here) {
   const Region cells = sketch_region(look.region, pictures.back()->image);
   const Sketches sketches = camera.sketches(stand.left);
@@ -23,8 +23,8 @@ bool show_the_stand(const Camera& camera, const acquisition::Stand& stand, const
 
 }  // namespace
 
-Result<Pictures> standing_pictures(const Camera& camera, const acquisition::Stand& stand, const StandingLook& look,
-                                   const TaskContext& context) {
+Result<Pictures> standing_pictures(const PictureSource& camera, const acquisition::Stand& stand,
+                                   const StandingLook& look, const TaskContext& context) {
   const Seconds settle = camera.is_file() ? Seconds(0.0) : look.latency.settle();
   const Seconds surely_here = stand.since + std::max(settle, Seconds(acquisition::assumed_latency_s));
   Pictures pictures;

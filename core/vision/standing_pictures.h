@@ -8,7 +8,7 @@
 #include "core/acquisition/latency.h"
 #include "core/acquisition/stand.h"
 #include "core/base/task_context.h"
-#include "core/vision/camera.h"
+#include "core/vision/picture_source.h"
 
 namespace zerodrift::vision {
 
@@ -24,8 +24,8 @@ using Pictures = std::vector<std::shared_ptr<const CameraFrame>>;
 
 /// Errors: those of the camera; machine_not_ready when the machine does not stay; target_refused when the pictures do
 /// not come to rest, or do not show the move; cancelled.
-Result<Pictures> standing_pictures(const Camera& camera, const acquisition::Stand& stand, const StandingLook& look,
-                                   const TaskContext& context);
+Result<Pictures> standing_pictures(const PictureSource& camera, const acquisition::Stand& stand,
+                                   const StandingLook& look, const TaskContext& context);
 
 /// Their mean, for the template: its noise enters every measurement. image_size when they differ.
 Result<GrayImage> mean_of(const Pictures& pictures, const std::string& source);

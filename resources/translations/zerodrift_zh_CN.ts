@@ -5094,6 +5094,10 @@
         <translation>其图像不随机床移动</translation>
     </message>
     <message>
+        <source>%1 shows the target %2 um from where the machine was sent, heat can make %3 um</source>
+        <translation>%1 所示靶标距机床指令位置 %2 µm，热变形最多为 %3 µm</translation>
+    </message>
+    <message>
         <source>a measurement</source>
         <translation>测量</translation>
     </message>

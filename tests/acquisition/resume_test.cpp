@@ -51,11 +51,11 @@ class Resume : public testing::Test {
     clock.advance(Seconds(seconds));
     clock.away += Seconds(seconds);
   }
-  Result<RunSummary> go_on(commissioning::Job& job) {
+  Result<RunSummary> go_on(commissioning::Job& job, RecorderOptions options = {}) {
     ZD_TRY(const auto interrupted, interrupted_run(job, "warm-up"));
     if (!interrupted) return fail(ErrorCode::internal);
     JobSink sink(job, interrupted->series);
-    Recorder recorder(machine, errors, clock, sink, {});
+    Recorder recorder(machine, errors, clock, sink, std::move(options));
     return recorder.resume(interrupted->run, {});
   }
   commissioning::Job open() {
@@ -132,6 +132,35 @@ TEST_F(Resume, OfAPausedRun) {
   auto job = open();
   ASSERT_TRUE(go_on(job));
   EXPECT_NEAR(job.read_series(1)->time_s.back(), 1800.0 + 300.0, 30.0);
+}
+
+TEST_F(Resume, IsJudgedForTooFewMeasurementsLikeAFreshRun) {
+  record_until(500.0);
+  pass(100.0);
+  errors.refuse = true;
+  auto job = open();
+  EXPECT_EQ((*interrupted_run(job, "warm-up"))->run.good_measurements, 9) << "one a minute until then";
+  RecorderOptions options;
+  options.refuse_too_few = true;
+  const auto summary = go_on(job, options);
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::too_few_measurements);
+  EXPECT_EQ(summary.error().context.at("expected"), "9") << "those that were good before count";
+  EXPECT_LE(machine.now_s(), 600.0 + 0.1 * 1200.0 + 70.0) << "within the first tenth of what remained";
+  // What was in the way is gone: it goes on to the end.
+  errors.refuse = false;
+  const auto again = go_on(job, options);
+  ASSERT_TRUE(again) << describe(again.error());
+}
+
+TEST_F(Resume, CountsTheGoodMeasurementsOfBefore) {
+  record_until(1500.0);
+  errors.refuse = true;  // from now on none is good; there are enough
+  auto job = open();
+  RecorderOptions options;
+  options.refuse_too_few = true;
+  const auto summary = go_on(job, options);
+  ASSERT_TRUE(summary) << describe(summary.error());
 }
 
 TEST_F(Resume, IsRefusedOnAnotherMachine) {

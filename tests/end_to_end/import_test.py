@@ -1,4 +1,4 @@
-"""The examples of docs/import.md give what stands there, workbooks written by openpyxl are read, and the commands that take
+"""The examples of docs/reference/import.md give what stands there, workbooks written by openpyxl are read, and the commands that take
 a recording take the same files with the same header map.
 
 Usage: import_test.py"""
@@ -25,7 +25,7 @@ def cli(folder, *arguments, code=0):
 
 
 def examples(folder):
-    with open(os.path.join(ROOT, "docs/import.md"), encoding="utf-8") as file:
+    with open(os.path.join(ROOT, "docs/reference/import.md"), encoding="utf-8") as file:
         blocks = re.findall(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", file.read(), re.M | re.S)
     commands = 0
     for kind, name, text in blocks:

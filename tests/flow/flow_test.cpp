@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/commissioning/job.h"
+#include "core/flow/commission.h"
 
 namespace zerodrift::flow {
 namespace {
@@ -198,6 +199,17 @@ TEST_F(FlowTest, AStepThatFailsLeavesNothing) {
   };
   EXPECT_EQ(flow.perform(*job, "machine", made, {stop.get_token(), {}}).error().code, ErrorCode::cancelled);
   EXPECT_TRUE(job->history("machine")->empty());
+}
+
+TEST(Commission, CorrectsOnceAndAgainOnlyWhereTheCorrectedTableFailed) {
+  const nlohmann::json model = {{"kind", "upload"}};
+  const nlohmann::json corrected = {{"kind", "correction"}};
+  const nlohmann::json passed = {{"verdict", "passed"}};
+  const nlohmann::json failed = {{"verdict", "failed"}};
+  EXPECT_TRUE(correction_due(passed, model)) << "a part error is above its threshold";
+  EXPECT_TRUE(correction_due(failed, model));
+  EXPECT_FALSE(correction_due(passed, corrected)) << "what is left is the run's own wave";
+  EXPECT_TRUE(correction_due(failed, corrected));
 }
 
 TEST_F(FlowTest, SurvivesReopening) {

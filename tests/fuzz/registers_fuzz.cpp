@@ -1,4 +1,5 @@
-// Any bytes as a list of registers (CSV, tab, semicolons) and as the words of a table area out of a controller.
+// Any bytes as a list of registers (CSV, tab, semicolons), counted from 0, from 1 or as it says itself; and as the
+// words of a table area out of a controller.
 
 #include <cstdint>
 #include <cstdlib>
@@ -16,8 +17,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (size == 0) return 0;
   if (bytes[0] % 2 == 0) {
     const std::string_view text(reinterpret_cast<const char*>(bytes) + 1, size - 1);
-    const auto map = controller::register_map_from_list(text, "fuzz");
-    if (map && !controller::register_map_from_json(controller::to_json(*map), "fuzz, written")) std::abort();
+    const int base = bytes[0] / 2 % 3 - 1;
+    std::vector<std::string> warnings;
+    const auto map = controller::register_map_from_list(text, "fuzz", base, &warnings);
+    if (!map) return 0;
+    const auto again = controller::register_map_from_json(controller::to_json(*map), "fuzz, written");
+    if (!again || again->registers.size() != map->registers.size()) std::abort();
+    for (const auto& [name, entry] : map->registers) {
+      const auto* other = again->find(name);
+      if (other == nullptr || other->address != entry.address || other->count != entry.count ||
+          other->words() != entry.words()) {
+        std::abort();
+      }
+    }
     return 0;
   }
   std::vector<std::uint16_t> words((size - 1) / 2);

@@ -43,6 +43,7 @@ class World {
   explicit World(const Scenario& scenario, unsigned seed) : m_scenario(scenario), m_random(seed) {}
 
   ManualClock clock;
+  double hidden_from_s = 1e9;  // something stands before the target
   double now() const { return clock.steady().count(); }
   double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(m_random); }
   double normal() { return std::normal_distribution()(m_random); }
@@ -211,6 +212,7 @@ class SimulatedView : public TargetView {
     const auto newest = place_um(m_frames.back());
     const auto like = [&](const Frame& frame) {
       const auto at = place_um(frame);
+      if (hidden(frame) || hidden(m_frames.back())) return hidden(frame) && hidden(m_frames.back());
       const bool both_away = std::abs(at[0]) > view_um && std::abs(newest[0]) > view_um;
       return both_away || std::max(std::abs(at[0] - newest[0]), std::abs(at[1] - newest[1])) < um_per_px;
     };
@@ -258,8 +260,14 @@ class SimulatedView : public TargetView {
     return {1000.0 * at[0] + error[0] + m_world.creep_um(frame.exposed_s), 1000.0 * at[2] + error[2]};
   }
 
+  bool hidden(const Frame& frame) const { return frame.exposed_s >= m_world.hidden_from_s; }
+
   Location located(const Frame& frame) const {
     Location location;
+    if (hidden(frame)) {
+      location.reason = "target occluded";
+      return location;
+    }
     const auto at = place_um(frame);
     if (std::max(std::abs(at[0]), std::abs(at[1])) > view_um) {
       location.reason = "target missing";
@@ -439,6 +447,31 @@ TEST(MeasuringInTime, LatencyAndStandstillAreRecordedWithEachMeasurement) {
   EXPECT_EQ(sample->settled[0].latency_s, 0.5);
   EXPECT_EQ(sample->settled[0].spread_s, 0.1);
   EXPECT_GE(sample->settled[0].standstill_s, 0.6);
+}
+
+// Something comes before the target when the machine has come to stand: that is the reason, not a late camera.
+TEST(MeasuringInTime, WhatHidesTheTargetIsTheReasonAndNoLatency) {
+  Scenario scenario;
+  scenario.known = {0.01, 0.04, 8};
+  for (const double after_s : {0.3, 1.0, 4.0}) {
+    World world(scenario, 5);
+    SimulatedMachine machine(world);
+    std::vector<std::unique_ptr<TargetView>> views;
+    views.push_back(std::make_unique<SimulatedView>(world));
+    CameraErrorSource source(std::move(views), {}, world.clock);
+    ASSERT_TRUE(machine.command(3000.0, true, true));
+    world.clock.advance(Seconds(10.0));
+    const auto stand = acquisition::come_to(machine, {{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}, world.clock);
+    ASSERT_TRUE(stand);
+    world.hidden_from_s = stand->since.count() + after_s;
+    world.clock.advance(Seconds(after_s + 0.1));
+    const auto sample = source.measure(*stand, {});
+    ASSERT_TRUE(sample) << describe(sample.error());
+    ASSERT_EQ(sample->problems.size(), 1u);
+    EXPECT_NE(sample->problems[0].find("target occluded"), std::string::npos) << sample->problems[0] << ", " << after_s;
+    ASSERT_EQ(sample->settled.size(), 1u);
+    EXPECT_FALSE(sample->settled[0].widened) << after_s;
+  }
 }
 
 }  // namespace

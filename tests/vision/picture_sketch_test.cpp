@@ -7,7 +7,7 @@
 namespace zerodrift::vision {
 namespace {
 
-const Region target{240, 160, 160, 160};
+const Region target_box{240, 160, 160, 160};
 
 std::shared_ptr<const PictureSketch> sketch(double shift_px, double stamp_s, unsigned seed, double gain = 1.0) {
   GrayImage image = testing::render(testing::Speckle(1), {.dx = shift_px}, {.noise = 1.5, .seed = seed});
@@ -16,7 +16,7 @@ std::shared_ptr<const PictureSketch> sketch(double shift_px, double stamp_s, uns
 }
 
 Region cells() {
-  return sketch_region(target, testing::render(testing::Speckle(1)));
+  return sketch_region(target_box, testing::render(testing::Speckle(1)));
 }
 
 TEST(PictureSketch, NoiseAndLightAreNoChange) {

@@ -1,5 +1,5 @@
 // The image measurement on rendered frames whose displacement is exact, one small session for each thing that has to
-// hold; the figures of all sets are in docs/measuring-accuracy.md.
+// hold; the figures of all sets are in docs/explanation/measuring-accuracy.md.
 
 #include <gtest/gtest.h>
 

@@ -219,11 +219,15 @@ QByteArray svgOf(const QSize& size, const Draw& draw) {
 
 }  // namespace
 
-std::unique_ptr<QPainter> makeVectorPainter(QPaintDevice* device) {
+void EndVectorPainter::operator()(QPainter* painter) const {
+  delete static_cast<QCPPainter*>(painter);
+}
+
+VectorPainter makeVectorPainter(QPaintDevice* device) {
   auto painter = std::make_unique<QCPPainter>(device);
   painter->setMode(QCPPainter::pmVectorized);
   painter->setMode(QCPPainter::pmNoCaching);
-  return painter;
+  return VectorPainter(painter.release());
 }
 
 void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData& data) {

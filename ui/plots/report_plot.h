@@ -57,8 +57,13 @@ struct ReportMapData {
   QVector<std::pair<double, QString>> ticks{};  // along y
 };
 
+/// Ends a painter as what it was made as: QPainter's destructor is not virtual.
+struct EndVectorPainter {
+  void operator()(QPainter* painter) const;
+};
+using VectorPainter = std::unique_ptr<QPainter, EndVectorPainter>;
 /// A painter that keeps QCustomPlot's drawing vectorised; use it for everything on that device.
-std::unique_ptr<QPainter> makeVectorPainter(QPaintDevice* device);
+VectorPainter makeVectorPainter(QPaintDevice* device);
 /// Draws into the rectangle (in the painter's logical pixels of 1/96 inch); the painter is one of makeVectorPainter.
 void drawReportPlot(QPainter& painter, const QRectF& place, const ReportPlotData& data);
 /// The same bit by bit, where it is a picture that is painted on: to fill the lines of twenty long curves at once would

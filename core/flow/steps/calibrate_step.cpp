@@ -90,10 +90,19 @@ struct CameraCalibration {
   std::vector<commissioning::Blob> blobs;
 };
 
+/// The pictures of all cameras at one moment, with the machine's stand in them.
+struct Templates {
+  std::vector<vision::GrayImage> images;
+  acquisition::Stand stand;
+  std::vector<double> waited_s;  // of each camera, from the stand to the stamp of the first picture
+};
+
 /// Of all cameras at once, by moves within what a calibration drives anyhow.
 Result<std::vector<acquisition::Latency>> measure_latencies(Devices& devices, const CalibrateOptions& options,
+                                                            const acquisition::Stand& home,
                                                             const TaskContext& context) {
   vision::LatencyPlan plan;
+  plan.home = home;
   plan.centre_mm = devices.profile.measure_position_mm;
   plan.way_mm = 0.5 * span_of(devices, options);
   std::vector<vision::LatencyCamera> cameras;
@@ -108,18 +117,18 @@ Result<std::vector<acquisition::Latency>> measure_latencies(Devices& devices, co
 }
 
 /// The templates of all cameras, at one moment and before anything else moves: they are the zero of the errors, and the
-/// machine drifts while a camera is calibrated.
-Result<std::vector<vision::GrayImage>> take_templates(Devices& devices, const CalibrateOptions& options,
-                                                      const std::vector<acquisition::Latency>& latencies,
-                                                      const TaskContext& context) {
-  ZD_TRY(const acquisition::Stand stand, come_to_measuring_position(devices));
-  acquisition::Stand seen = stand;
+/// machine drifts while its cameras are calibrated. Every error counts from them: they are waited for as if no latency
+/// were known.
+Result<Templates> take_templates(Devices& devices, const CalibrateOptions& options,
+                                 const std::vector<acquisition::Latency>& latencies, const TaskContext& context) {
+  Templates out;
+  ZD_TRY(out.stand, come_to_measuring_position(devices));
+  acquisition::Stand seen = out.stand;
   seen.check = nullptr;  // the machine is asked from this thread alone
   std::vector<std::future<Result<vision::Pictures>>> pending;
   for (std::size_t k = 0; k < devices.cameras.size(); ++k) {
     vision::StandingLook look;
     look.region = region_of(roi_of(devices.cameras[k].profile, options));
-    // Every error counts from it: it is waited for as if no latency were known.
     look.latency = latencies[k];
     look.latency.spread_s = std::max(latencies[k].spread_s, devices.cameras[k].profile.assumed_latency_s);
     look.pictures = template_frames;
@@ -130,13 +139,31 @@ Result<std::vector<vision::GrayImage>> take_templates(Devices& devices, const Ca
   }
   std::vector<Result<vision::Pictures>> taken;  // all of them, so that no thread is left behind
   for (auto& one : pending) taken.push_back(one.get());
-  ZD_CHECK(stand.still());
-  std::vector<vision::GrayImage> out;
+  ZD_CHECK(out.stand.still());
   for (std::size_t k = 0; k < taken.size(); ++k) {
     ZD_TRY(const vision::Pictures pictures, std::move(taken[k]));
-    ZD_TRY(out.emplace_back(), vision::mean_of(pictures, without_secrets(devices.cameras[k].profile.url)));
+    out.waited_s.push_back((pictures.front()->stamp - seen.since).count());
+    ZD_TRY(out.images.emplace_back(), vision::mean_of(pictures, without_secrets(devices.cameras[k].profile.url)));
   }
   return out;
+}
+
+/// The latencies, and templates that were waited for longer than these: taken before a latency is known, they are taken
+/// again where it turns out to be longer than was expected.
+Result<std::vector<acquisition::Latency>> latencies_and_templates(Devices& devices, const CalibrateOptions& options,
+                                                                  Templates& templates, const TaskContext& context) {
+  const std::vector<acquisition::Latency> unknown(devices.cameras.size(), acquisition::Latency::none());
+  ZD_TRY(templates, take_templates(devices, options, unknown, context));
+  ZD_TRY(auto latencies, measure_latencies(devices, options, templates.stand, context));
+  bool late = false;
+  for (std::size_t k = 0; k < latencies.size(); ++k) {
+    const bool live = !devices.cameras[k].camera->is_file();
+    late = late || (live && templates.waited_s[k] <= latencies[k].settle().count());
+  }
+  if (late) {
+    ZD_TRY(templates, take_templates(devices, options, latencies, context));
+  }
+  return latencies;
 }
 
 Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice& device, const vision::GrayImage& image,
@@ -155,6 +182,8 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   plan.span_mm = span_of(devices, options);
   plan.latency = latency;
   plan.per_side = options.per_side;
+  plan.drift.um_per_min = devices.profile.max_drift_um_per_min;
+  plan.time_factor = devices.profile.time_factor;
   if (devices.profile.time_factor > 10.0) plan.frames = 2;
   ZD_TRY(auto outcome, vision::run_calibration(
                            *devices.machine, *device.camera, target, mark_patterns, plan, context,
@@ -257,12 +286,12 @@ Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devi
   if (devices.profile.measure_position_mm.empty()) {
     return fail(ErrorCode::no_measuring_position, {{"axes", "X, Y, Z"}});
   }
-  ZD_TRY(const auto latencies, measure_latencies(devices, options, context));
-  ZD_TRY(const std::vector<vision::GrayImage> templates, take_templates(devices, options, latencies, context));
+  Templates templates;
+  ZD_TRY(const auto latencies, latencies_and_templates(devices, options, templates, context));
   for (std::size_t i = 0; i < devices.cameras.size(); ++i) {
     const auto& device = devices.cameras[i];
     if (i > 0) ZD_CHECK(may_move(devices, device.profile.id, options, context));
-    ZD_TRY(auto made, calibrate_camera(devices, device, templates[i], latencies[i], options, context));
+    ZD_TRY(auto made, calibrate_camera(devices, device, templates.images[i], latencies[i], options, context));
     if (marks_of(made.body).empty()) body["reference_target"] = false;
     body["cameras"].push_back(std::move(made.body));
     for (auto& blob : made.blobs) blobs.push_back(std::move(blob));
