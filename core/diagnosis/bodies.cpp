@@ -1,6 +1,7 @@
 #include "core/diagnosis/bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace zerodrift::diagnosis {
@@ -52,9 +53,52 @@ InnerBody axis_of(const Component& component) {
   return inner;
 }
 
+bool is_heated_on_one_side(const Component& component) {
+  return std::any_of(component.sources.begin(), component.sources.end(),
+                     [](const HeatSource& source) { return source.kind == SourceKind::guide; });
+}
+
+/// Time constant of the first mode around a ring of the section: R^2 / a.
+double around_s(const Component& component) {
+  const physics::Material& m = component.material;
+  const double radius_m = 0.25e-3 * (component.outer_diameter_mm + component.bore_diameter_mm);
+  return radius_m * radius_m * m.density_kg_m3 * m.heat_capacity_J_kgK / m.conductivity_W_mK;
+}
+
+/// Heat that enters a part at one side reaches the other after L^2 / (pi^2 a), the slowest mode of a wall (Carslaw and
+/// Jaeger 1959, 3.3).
+double crosses_s(double length_m, double diffusivity_m2_s) {
+  return length_m * length_m / (std::numbers::pi * std::numbers::pi * diffusivity_m2_s);
+}
+
+/// How late a sensor may be on a part whose section the description takes as even though nobody knows where in it the
+/// heat enters: a lump, taken as a cube of iron of its capacity, and a rod that exchanges heat with one.
+std::optional<double> lateness_s(const physics::Machine& machine, const Component& part) {
+  constexpr double iron_J_m3K = 3.6e6, iron_m2_s = 1.4e-5;
+  if (part.prescribed) return std::nullopt;
+  if (part.lump) {
+    if (!part.heat_capacity_J_K || part.capacity_is_guessed) return std::nullopt;
+    return crosses_s(std::cbrt(*part.heat_capacity_J_K / iron_J_m3K), iron_m2_s);
+  }
+  if (!touches_lump(machine, part.id)) return std::nullopt;
+  const physics::Material& m = part.material;
+  return crosses_s(1e-3 * part.outer_diameter_mm, m.conductivity_W_mK / (m.density_kg_m3 * m.heat_capacity_J_kgK));
+}
+
+void let_sensors_be_late(physics::Machine& machine) {
+  for (auto& sensor : machine.sensors) {
+    const Component* part = machine.find(sensor.component);
+    const auto late_s = part == nullptr ? std::nullopt : lateness_s(machine, *part);
+    if (!late_s) continue;
+    sensor.lag_sigma_s = *late_s;
+    if (sensor.lag_s == 0.0) sensor.lag_s = 0.25 * *late_s;
+  }
+}
+
 }  // namespace
 
 physics::Machine with_inner_bodies(physics::Machine machine) {
+  let_sensors_be_late(machine);
   for (Component& component : machine.components) {
     if (component.lump || component.prescribed || component.inner) continue;
     const physics::Material& m = component.material;
@@ -70,7 +114,7 @@ physics::Machine with_inner_bodies(physics::Machine machine) {
     } else {
       continue;
     }
-    component.inner->near_lag_s = 0.25 * evens_out_s;
+    component.inner->near_lag_s = is_heated_on_one_side(component) ? around_s(component) : 0.25 * evens_out_s;
     for (const auto& sensor : machine.sensors) {
       if (sensor.component == component.id && component.source_near(sensor.position_mm) != nullptr) {
         component.inner->near_field_K_W[sensor.channel] = 0.0;
@@ -78,6 +122,17 @@ physics::Machine with_inner_bodies(physics::Machine machine) {
     }
   }
   return machine;
+}
+
+bool touches_lump(const physics::Machine& machine, const std::string& component) {
+  const auto is_lump = [&](const std::string& id) {
+    const Component* part = machine.find(id);
+    return part != nullptr && part->lump;
+  };
+  return std::any_of(machine.couplings.begin(), machine.couplings.end(), [&](const physics::Coupling& joint) {
+    const std::string &first = joint.first.component, &second = joint.second.component;
+    return (first == component && is_lump(second)) || (second == component && is_lump(first));
+  });
 }
 
 bool of_lumps_alone(const physics::Machine& machine) {

@@ -11,6 +11,9 @@ namespace zerodrift::diagnosis {
 physics::Machine with_inner_bodies(physics::Machine machine);
 
 /// No rod: a description so crude that its numbers stand for many parts each.
+/// Exchanges heat with a lump: what it is handed is as coarse as that.
+bool touches_lump(const physics::Machine& machine, const std::string& component);
+
 bool of_lumps_alone(const physics::Machine& machine);
 /// Lumps that neither anything heats nor touches: what flows between them is anyone's guess.
 bool is_unknown(const physics::Machine& machine);

@@ -81,6 +81,9 @@ void take_value(Machine& machine, const physics::Parameter& p, double value) {
       }
     }
   }
+  for (auto& sensor : machine.sensors) {
+    if (p.key == "sensor_lag_s" && p.channel == sensor.channel) sensor.lag_s = value;
+  }
   for (std::size_t i = 0; i < machine.couplings.size(); ++i) {
     if (p.key == "conductance_W_K" && p.component == physics::coupling_name(machine.couplings, i)) {
       machine.couplings[i].conductance_W_K = value;

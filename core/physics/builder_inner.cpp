@@ -34,6 +34,18 @@ Law gap_law(int speed, double full_rpm) {
   };
 }
 
+/// How far a reading may be from its section's mean, K per W/m of a steady source. A bearing or a motor sits all
+/// around: a fifth of what its flux makes between the surface and the mean of a cylinder. A guideway lies on one side:
+/// the first mode around a ring of the section, q' R / (pi k t).
+double near_field_width_K_W(const Component& component, const HeatSource& source) {
+  constexpr double pi = 3.14159265358979;
+  const double k_W_mK = component.material.conductivity_W_mK;
+  if (source.kind != SourceKind::guide) return 0.2 / (8.0 * pi * k_W_mK);
+  const double wall_m = 0.5 * m_per_mm * (component.outer_diameter_mm - component.bore_diameter_mm);
+  const double radius_m = 0.5 * (m_per_mm * component.outer_diameter_mm - wall_m);
+  return radius_m / (pi * k_W_mK * wall_m);
+}
+
 Parameter share_parameter(const std::string& key, const std::string& component, double mean, double sigma) {
   Parameter share;
   share.key = key;
@@ -137,15 +149,13 @@ void NetworkBuilder::add_near_field(const Component& component, const Sensor& se
   const HeatSource* found = component.source_near(sensor.position_mm);
   const auto known = component.inner->near_field_K_W.find(sensor.channel);
   if (found == nullptr || known == component.inner->near_field_K_W.end()) return;
-  // A fifth of what a steady flux makes between the surface and the mean of a cylinder, over the source's width or the
-  // radius, whichever is longer.
   const double width_m = m_per_mm * std::max(found->to_mm - found->from_mm, 0.5 * component.outer_diameter_mm);
   Parameter gain;
   gain.key = "near_field_K_W";
   gain.component = component.id;
   gain.channel = sensor.channel;
   gain.mean = gain.start = known->second;
-  gain.sigma = 0.2 / (8.0 * 3.14159265358979 * component.material.conductivity_W_mK * width_m);
+  gain.sigma = near_field_width_K_W(component, *found) / width_m;
   Parameter lag;
   lag.key = "near_lag_s";
   lag.component = component.id;

@@ -167,6 +167,16 @@ void NetworkBuilder::add_couplings() {
   }
 }
 
+static Parameter lag_parameter(const Sensor& sensor) {
+  Parameter lag;
+  lag.key = "sensor_lag_s";
+  lag.channel = sensor.channel;
+  lag.mean = lag.start = sensor.lag_s;
+  lag.sigma = sensor.lag_sigma_s;
+  lag.low = 0.0;
+  return lag;
+}
+
 void NetworkBuilder::add_sensors() {
   for (const auto& sensor : m_machine.sensors) {
     const Component* component = m_machine.find(sensor.component);
@@ -182,6 +192,7 @@ void NetworkBuilder::add_sensors() {
     offset.sigma = 0.5 * sensor.accuracy_C;  // as wide as the accuracy it would hide a faulty sensor
     offset.per_recording = offset.of_sensor = true;
     seen.offset = add_parameter(offset);
+    if (sensor.lag_s > 0.0 || sensor.lag_sigma_s > 0.0) seen.lag_s = add_parameter(lag_parameter(sensor));
     if (component->inner) add_near_field(*component, sensor, seen);
     m_network.observations.push_back(std::move(seen));
   }

@@ -19,7 +19,9 @@ const HeatSource* Component::source_near(double position_mm) const {
   const HeatSource* nearest = nullptr;
   double least_mm = 0.25 * outer_diameter_mm;
   for (const auto& source : sources) {
-    if (source.kind != SourceKind::bearing && source.kind != SourceKind::motor) continue;
+    const bool near =
+        source.kind == SourceKind::bearing || source.kind == SourceKind::motor || source.kind == SourceKind::guide;
+    if (!near) continue;
     const double off_mm = std::max({0.0, source.from_mm - position_mm, position_mm - source.to_mm});
     if (off_mm < least_mm) least_mm = off_mm, nearest = &source;
   }

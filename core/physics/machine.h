@@ -132,6 +132,8 @@ struct Sensor {
   std::string component;  // "ambient": the room
   double position_mm = 0.0;
   double accuracy_C = 0.1;
+  double lag_s = 0.0;        // how late it shows its part's temperature
+  double lag_sigma_s = 0.0;  // how much later it may be; 0: as described. Not in machine.json
 };
 
 struct Displacement {

@@ -190,6 +190,7 @@ void read_sensors(JsonObject& root, Machine& machine, bool make_lumps) {
     sensor.channel = o.text("channel");
     if (machine.sensor(sensor.channel) != nullptr) o.reject("channel", sensor.channel, "a channel named only once");
     sensor.accuracy_C = o.number_or("accuracy_C", 0.1, accuracy_range);
+    sensor.lag_s = o.number_or("lag_s", 0.0, not_negative);
     sensor.component = make_lumps ? o.text_or("component", sensor.channel) : o.text("component");
     if (make_lumps && sensor.component != "ambient" && machine.find(sensor.component) == nullptr) {
       Component lump;

@@ -60,11 +60,13 @@ void write_sensor(json& list, const Machine& machine, const Sensor& sensor) {
   for (auto& one : list) {
     if (one.value("channel", "") != sensor.channel) continue;
     one["component"] = sensor.component;
+    if (sensor.lag_s > 0.0) one["lag_s"] = sensor.lag_s;
     return;
   }
   list.push_back({{"channel", sensor.channel}, {"component", sensor.component}, {"accuracy_C", sensor.accuracy_C}});
   const Component* component = machine.find(sensor.component);
   if (component != nullptr && !component->lump) list.back()["position_mm"] = sensor.position_mm;
+  if (sensor.lag_s > 0.0) list.back()["lag_s"] = sensor.lag_s;
 }
 
 void write_effects(json& document, const Machine& machine) {

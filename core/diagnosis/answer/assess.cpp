@@ -69,6 +69,15 @@ double leftover(const Fit& fit, std::size_t series) {
   return count == 0 ? 0.0 : std::sqrt(std::max(0.0, sum / count));
 }
 
+/// Fitted as if it left no more than such descriptions usually do: where the discrepancy may be any size, a fit that is
+/// far off has no reason to come nearer.
+Fit at_usual_sizes(const Fit& start) {
+  Fit fit(start);
+  fit.set_sizes(fit.model().evidence().usual_sizes());
+  fit.fit({fit.model().evidence().settings().iterations, true});
+  return fit;
+}
+
 class Assessment {
  public:
   Assessment(const Posterior& posterior, const physics::Machine& described,
@@ -77,7 +86,7 @@ class Assessment {
         m_evidence(*posterior.evidence),
         m_settings(m_evidence.settings()),
         m_best(*posterior.explanations.front().fit),
-        m_base(*posterior.explanations[posterior.described].fit),
+        m_base(at_usual_sizes(*posterior.described_straight)),
         m_described(described),
         m_recordings(recordings),
         m_options(options),
@@ -162,7 +171,8 @@ class Assessment {
       report.excess_explained = after / limit;
       report.score = before / limit;
       constexpr double material = 0.5;  // of what was left, that an explanation has to take
-      const bool changed = &m_best != &m_base && after < material * before && before > series.slow;
+      const bool changed =
+          !m_best.model().hypothesis().effects.empty() && after < material * before && before > series.slow;
       report.verdict = report.excess_explained > 1.0 ? ChannelVerdict::unexplained
                        : changed                     ? ChannelVerdict::explained
                                                      : ChannelVerdict::consistent;
@@ -177,9 +187,10 @@ class Assessment {
 
   void effects() {
     const auto& held = m_best.model().hypothesis().effects;
+    const std::set<Name> left_out = details();
     for (std::size_t e = 0; e < held.size(); ++e) {
       const double mass = mass_of(name_of(held[e]));
-      if (mass < m_settings.named_from || !material(name_of(held[e]))) continue;
+      if (mass < m_settings.named_from || left_out.count(name_of(held[e])) != 0) continue;
       FoundEffect found;
       const physics::EffectSpec spec = fitted_effect(m_best, e, &found.sigma);
       found.id = spec.id;
@@ -194,7 +205,7 @@ class Assessment {
         found.position_sigma_mm = found.sigma["position_mm"];
       }
       found.confidence = mass;
-      found.log_evidence_gain = gain_of(e);
+      found.log_evidence_gain = gain_of(name_of(held[e]));
       ShownBy shown;
       double largest = 0.0;
       for (std::size_t i = 0; i < m_out.channels.size(); ++i) {
@@ -216,11 +227,24 @@ class Assessment {
     std::sort(m_out.tried.begin(), m_out.tried.end());
   }
 
+  /// Effects of the best explanation that only take details which a better form of something else would take as well:
+  /// left out one after the other, the least supported first, as long as no channel is left with more.
+  std::set<Name> details() const {
+    std::vector<Name> order;
+    for (const Name& name : names_of(m_posterior.explanations.front())) order.push_back(name);
+    std::stable_sort(order.begin(), order.end(), [&](const Name& a, const Name& b) { return gain_of(a) < gain_of(b); });
+    std::set<Name> out;
+    for (const Name& name : order) {
+      out.insert(name);
+      if (leaves_more(out)) out.erase(name);
+    }
+    return out;
+  }
+
   /// Does the best explanation without these effects, fitted anew, leave more of some channel?
-  bool material(const Name& name) const {
+  bool leaves_more(const std::set<Name>& without_these) const {
     inference::Hypothesis hypothesis = m_best.model().hypothesis();
-    std::erase_if(hypothesis.effects,
-                  [&](const HeldEffect& held) { return !(name_of(held) < name) && !(name < name_of(held)); });
+    std::erase_if(hypothesis.effects, [&](const HeldEffect& held) { return without_these.count(name_of(held)) != 0; });
     Fit without(std::make_shared<inference::JointModel>(std::move(hypothesis), m_best.model().shared_evidence()),
                 m_best.sizes());
     without.start_from(m_best, false);
@@ -235,8 +259,7 @@ class Assessment {
   }
 
   /// Log odds that the best loses without this effect: against the best explanation that has it not.
-  double gain_of(std::size_t effect) const {
-    const Name name = name_of(m_best.model().hypothesis().effects[effect]);
+  double gain_of(const Name& name) const {
     for (const Explanation& one : m_posterior.explanations) {
       if (names_of(one).count(name) == 0) return m_posterior.explanations.front().log_posterior - one.log_posterior;
     }
@@ -378,7 +401,7 @@ class Assessment {
   const Evidence& m_evidence;
   const DiagnosisSettings& m_settings;
   const Fit& m_best;
-  const Fit& m_base;
+  Fit m_base;  // the description alone, as near as it comes
   const physics::Machine& m_described;
   const std::vector<recording::Recording>& m_recordings;
   const DiagnoseOptions& m_options;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/bodies.h"
 #include "core/diagnosis/thinning.h"
 #include "core/physics/builder.h"
 
 namespace zerodrift::diagnosis::inference {
 namespace {
 
-/// A part whose numbers stand for many parts each, or are guessed.
+/// A part whose numbers stand for many parts each, or are guessed; what it hands to its neighbours is as coarse.
 bool is_of_coarse_part(const physics::Machine& machine, const std::string& channel) {
   std::string component;
   if (const physics::Sensor* sensor = machine.sensor(channel)) component = sensor->component;
@@ -17,7 +18,7 @@ bool is_of_coarse_part(const physics::Machine& machine, const std::string& chann
     if (displacement.channel == channel) component = displacement.component;
   }
   const physics::Component* part = machine.find(component);
-  return part == nullptr || part->lump;
+  return part == nullptr || part->lump || touches_lump(machine, component);
 }
 
 }  // namespace
