@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/thinning.h"
+#include "core/diagnosis/input/thinning.h"
 #include "core/physics/builder.h"
 
 namespace zerodrift::diagnosis::inference {
