@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "app/text/core_text.h"
-#include "core/diagnosis/explain.h"
-#include "core/diagnosis/sentences.h"
+#include "core/diagnosis/answer/explain.h"
+#include "core/diagnosis/answer/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/recording/csv.h"
 #include "ui/widgets/number_text.h"

@@ -11,7 +11,7 @@
 
 namespace zerodrift::proof {
 
-/// machine.json and the recordings of a folder (the first is fitted, the others are held out); the answer is written
+/// machine.json and the recordings of a folder (explained together); the answer is written
 /// beside them.
 Result<nlohmann::json> diagnose_files(const std::filesystem::path& folder, const std::vector<std::string>& recordings,
                                       const std::string& out, const TaskContext& context);

@@ -4,24 +4,25 @@
 #include <cmath>
 #include <memory>
 
-#include "core/diagnosis/bodies.h"
-#include "core/diagnosis/diagnoser.h"
-#include "core/diagnosis/elsewhere.h"
-#include "core/diagnosis/place.h"
-#include "core/diagnosis/refine.h"
-#include "core/diagnosis/refined.h"
-#include "core/diagnosis/screening.h"
+#include "core/diagnosis/answer/fitted_description.h"
+#include "core/diagnosis/description/inner_bodies.h"
+#include "core/diagnosis/search/candidates.h"
+#include "core/diagnosis/search/run_facts.h"
+#include "core/diagnosis/search/score_test.h"
+#include "core/physics/simulate.h"
 
 namespace zerodrift::proof {
 namespace {
 
-using diagnosis::Candidate;
-using diagnosis::Dataset;
-using diagnosis::Model;
-using diagnosis::ModelPtr;
+using diagnosis::inference::Evidence;
+using diagnosis::inference::Fit;
+using diagnosis::inference::Hypothesis;
+using diagnosis::inference::JointModel;
+using diagnosis::search::Candidate;
+using FitPtr = std::shared_ptr<Fit>;
 
 bool is_form_of(const Candidate& candidate, const TrueEffect& hidden) {
-  const auto& spec = candidate.spec;
+  const auto& spec = candidate.effect.spec;
   // On a rod a heat that is always there is a source with a constant law.
   if (hidden.id == "standing_heat" && spec.id == "extra_heat_source") return spec.word_or("law", "") == "constant";
   if (spec.id != hidden.id) return false;
@@ -29,76 +30,44 @@ bool is_form_of(const Candidate& candidate, const TrueEffect& hidden) {
   return hidden.law.empty() || spec.word_or("law", hidden.law) == hidden.law;
 }
 
-/// The best form of one hidden effect added to a model; places start where the truth is.
-ModelPtr with_effect(const ModelPtr& base, const TrueEffect& hidden, const physics::RunFacts& facts) {
-  auto screened = diagnosis::screen(*base, facts);
-  std::erase_if(screened, [&](const auto& candidate) { return !is_form_of(candidate, hidden); });
-  if (hidden.position_mm) {
-    std::stable_sort(screened.begin(), screened.end(), [&](const auto& a, const auto& b) {
-      const auto off = [&](const Candidate& c) {
-        return std::abs(c.spec.number_or("position_mm", *hidden.position_mm) - *hidden.position_mm);
-      };
-      return off(a) < off(b);
-    });
+FitPtr fitted(Hypothesis hypothesis, const std::shared_ptr<const Evidence>& evidence, const Fit* start) {
+  auto fit = std::make_shared<Fit>(std::make_shared<JointModel>(std::move(hypothesis), evidence),
+                                   start == nullptr ? evidence->usual_sizes() : start->sizes());
+  if (start != nullptr) fit->start_from(*start, false);
+  fit->settle();
+  return fit;
+}
+
+/// The best form of one hidden effect added to a fit; places start where the truth is.
+FitPtr with_effect(const FitPtr& base, const TrueEffect& hidden, const std::vector<physics::RunFacts>& facts) {
+  auto candidates = diagnosis::search::candidates_for(base->model().hypothesis(), facts, 0.0);
+  std::erase_if(candidates, [&](const auto& candidate) { return !is_form_of(candidate, hidden); });
+  for (Candidate& candidate : candidates) {
+    auto& numbers = candidate.effect.spec.numbers;
+    if (hidden.position_mm && numbers.count("position_mm") != 0) numbers["position_mm"] = *hidden.position_mm;
   }
-  constexpr std::size_t forms = 12;
-  if (screened.size() > forms) screened.resize(forms);
-  ModelPtr best;
-  for (auto& candidate : screened) {
-    if (hidden.position_mm && candidate.spec.numbers.count("position_mm") != 0) {
-      candidate.spec.numbers["position_mm"] = *hidden.position_mm;
-    }
-    const ModelPtr fit = diagnosis::extended(*base, candidate);
-    fit->fit({20, 0.02, true});
+  const auto scores = diagnosis::search::score_test(*base, candidates);
+  std::vector<std::size_t> order(candidates.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a].log_odds > scores[b].log_odds; });
+  constexpr std::size_t forms = 4;
+  if (order.size() > forms) order.resize(forms);
+  FitPtr best;
+  for (const std::size_t i : order) {
+    Hypothesis hypothesis = base->model().hypothesis();
+    hypothesis.effects.push_back(candidates[i].effect);
+    const FitPtr fit = fitted(std::move(hypothesis), base->model().shared_evidence(), base.get());
     if (best == nullptr || fit->log_evidence() > best->log_evidence()) best = fit;
   }
   return best;
 }
 
-/// Under the misfit that suits the model, as every answer of the diagnosis is.
-ModelPtr at_its_own_misfit(const ModelPtr& model, const Dataset& usual) {
-  auto data = std::make_shared<Dataset>(
-      diagnosis::with_discrepancy(usual, diagnosis::ordinary_discrepancy(usual, model->prediction())));
-  auto result = std::make_shared<Model>(model->machine(), std::move(data));
-  result->continue_from(*model);
-  result->fit({20, 0.02, true});
-  return result;
-}
-
-/// The other recordings with default widths. They refer to `recordings`.
-diagnosis::OtherRecordings others_of(const physics::Machine& machine,
-                                     const std::vector<recording::Recording>& recordings) {
-  diagnosis::OtherRecordings others;
-  for (std::size_t i = 1; i < recordings.size(); ++i) {
-    const physics::Network network = physics::build_network(machine, recordings[i]);
-    auto usual = std::make_shared<Dataset>(diagnosis::make_dataset(recordings[i], network));
-    diagnosis::set_timing_noise(*usual, network, physics::make_inputs(network, recordings[i]));
-    others.push_back(std::move(usual));
-  }
-  return others;
-}
-
-/// How well the places of the effects from `first` on are known.
-std::map<std::string, double> places_of(const Model& model, std::size_t first,
-                                        const diagnosis::OtherRecordings& others) {
-  std::map<std::string, double> sigma_mm;
-  std::optional<diagnosis::SeenByAll> seen;
-  for (std::size_t i = first; i < model.machine().effects.size(); ++i) {
-    if (model.machine().effects[i].numbers.count("position_mm") == 0) continue;
-    if (!seen) seen = diagnosis::seen_by_all(model, others);
-    const auto place = diagnosis::place_of_effect(model, *seen, i);
-    if (place) sigma_mm[model.machine().effects[i].id] = place->sigma_mm;
-  }
-  return sigma_mm;
-}
-
-std::map<std::string, double> reached_in(const Model& model, const recording::Recording& other) {
-  const double hold = model.values()[static_cast<std::size_t>(model.network().hold_parameter)];
+std::map<std::string, double> reached_in(const Fit& fit, const recording::Recording& other) {
   std::map<std::string, double> reached;
-  for (const auto& channel : diagnosis::predict_other(diagnosis::refined_machine(model), other, hold).channels) {
-    const double rms = diagnosis::rms_between(other, channel.channel, channel.values);
-    if (std::isfinite(rms)) reached[channel.channel] = rms;
-  }
+  const auto simulation = physics::simulate(diagnosis::answer::fitted_description(fit, 1), other);
+  if (!simulation) return reached;
+  for (const auto& one : physics::compare(simulation->prediction, other)) reached[one.channel] = one.rms;
   return reached;
 }
 
@@ -106,50 +75,36 @@ std::map<std::string, double> reached_in(const Model& model, const recording::Re
 
 OracleAnswer told_the_truth(const physics::Machine& described, const std::vector<recording::Recording>& recordings,
                             const std::vector<TrueEffect>& hidden) {
-  const physics::Machine machine = diagnosis::with_inner_bodies(described);
-  const auto& recording = recordings.front();
-  const physics::Network network = physics::build_network(machine, recording);
-  auto usual = std::make_shared<Dataset>(diagnosis::make_dataset(recording, network));
-  diagnosis::set_timing_noise(*usual, network, physics::make_inputs(network, recording));
-  const physics::RunFacts facts = diagnosis::facts_of(machine, recording);
-  auto base = std::make_shared<Model>(machine, usual);
-  base->fit({20, 0.02, true});
-  base = at_its_own_misfit(base, *usual);
+  const auto evidence = std::make_shared<const Evidence>(diagnosis::with_inner_bodies(described), recordings,
+                                                         diagnosis::DiagnosisSettings{});
+  std::vector<physics::RunFacts> facts;
+  for (const auto& run : evidence->runs())
+    facts.push_back(diagnosis::search::run_facts(evidence->machine(), run.recording));
+  const FitPtr base = fitted({evidence->machine(), {}, 0.0}, evidence, nullptr);
   OracleAnswer answer;
-  ModelPtr best;
+  FitPtr best;
   std::vector<TrueEffect> in_turn = hidden;
   for (std::size_t order = 0; order < std::max<std::size_t>(1, hidden.size()); ++order) {
-    ModelPtr model = base;
+    FitPtr fit = base;
     for (const auto& effect : in_turn) {
-      if (model != nullptr) model = with_effect(model, effect, facts);
+      if (fit != nullptr) fit = with_effect(fit, effect, facts);
     }
-    if (model == nullptr) return answer;
-    if (best == nullptr || model->log_evidence() > best->log_evidence()) best = model;
+    if (fit == nullptr) return answer;
+    if (best == nullptr || fit->log_evidence() > best->log_evidence()) best = fit;
     std::reverse(in_turn.begin(), in_turn.end());
   }
-  if (best != base) {
-    best = at_its_own_misfit(best, *usual);
-    // One who is told starts from the description as well, not only from what it became without the effects.
-    if (const ModelPtr anew = diagnosis::restarted(*best, facts)) {
-      const ModelPtr other = at_its_own_misfit(anew, *usual);
-      if (other->log_evidence_total() > best->log_evidence_total()) best = other;
-    }
-  }
-  const diagnosis::OtherRecordings others = others_of(machine, recordings);
   answer.found = true;
-  answer.evidence = best->log_evidence_total() - base->log_evidence_total();
-  for (std::size_t i = machine.effects.size(); i < best->machine().effects.size(); ++i) {
-    auto less = diagnosis::reduced(*best, i);
-    less->fit({20, 0.02, true});
-    less = at_its_own_misfit(less, *usual);
-    double& shown = answer.beside[best->machine().effects[i].id];
-    shown = best->log_evidence_total() - less->log_evidence_total();
-    if (others.empty() || diagnosis::happened_once(*best)) continue;
-    std::vector<ModelPtr> asked = {best};
-    diagnosis::ask_elsewhere(asked, *less, others);
-    shown += best->elsewhere;
+  answer.evidence = best->log_evidence() - base->log_evidence();
+  const auto& held = best->model().hypothesis().effects;
+  for (std::size_t e = 0; e < held.size(); ++e) {
+    Hypothesis less = best->model().hypothesis();
+    less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(e));
+    answer.beside[held[e].spec.id] =
+        best->log_evidence() - fitted(std::move(less), evidence, best.get())->log_evidence();
+    std::map<std::string, double> sigma;
+    diagnosis::answer::fitted_effect(*best, e, &sigma);
+    if (sigma.count("position_mm") != 0) answer.place_sigma_mm[held[e].spec.id] = sigma["position_mm"];
   }
-  answer.place_sigma_mm = places_of(*best, machine.effects.size(), others);
   if (recordings.size() > 1) answer.reached = reached_in(*best, recordings[1]);
   return answer;
 }

@@ -22,7 +22,7 @@ struct OracleAnswer {
   std::map<std::string, double> place_sigma_mm;
 };
 
-/// Fits the first recording.
+/// Fits all recordings jointly, as the diagnosis does.
 OracleAnswer told_the_truth(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
                             const std::vector<TrueEffect>& hidden);
 

@@ -86,9 +86,9 @@ Section method_section(const Trial& trial) {
   section.blocks.emplace_back(Text{fmt::format(
       "The answers were sealed before the first diagnosis: commitments.json holds SHA-256 of salt and answer for every "
       "case; its own SHA-256 was {}. Each case was then diagnosed from machine.json, recording.csv and second.csv "
-      "alone, and the seals were opened: {} of {} promises held. One recording is fitted and the other held out: the "
-      "first is fitted, or the second where the first run could not show what the second contradicts ({} cases).",
-      trial.digest, trial.seals_kept, trial.options.cases, trial.score.turned_round())});
+      "alone, and the seals were opened: {} of {} promises held. Both recordings are "
+      "fitted jointly, as one body of evidence.",
+      trial.digest, trial.seals_kept, trial.options.cases)});
   section.blocks.emplace_back(
       Text{"Any case can be repeated: zerodrift-cli diagnose --machine cases/case-001/machine.json --recording "
            "cases/case-001/recording.csv --recording cases/case-001/second.csv --out again.json"});

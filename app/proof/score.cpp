@@ -182,9 +182,6 @@ Judgement Score::add(const OpenedAnswer& truth, const json& diagnosis) {
   judgement.seconds = diagnosis.value("seconds", 0.0);
   m_seconds.push_back(judgement.seconds);
   if (diagnosis.contains("processor_seconds")) m_processor_s.push_back(diagnosis.at("processor_seconds"));
-  for (const auto& note : diagnosis.value("notes", std::vector<std::string>{})) {
-    m_turned_round += note.rfind("fitted_instead:", 0) == 0 ? 1 : 0;
-  }
   judgement.not_named = not_named(truth, diagnosis);
   const auto& effects = diagnosis.at("effects");
   const bool names = diagnosis.value("verdict", "") == "missing_effect" && !effects.empty();

@@ -119,7 +119,6 @@ class Score {
   Undecidable undecidable() const;
 
   /// Cases in which the first recording could not show the effect: the second was fitted and the first held out.
-  int turned_round() const { return m_turned_round; }
   /// OpenedAnswer::put_aside of all cases: how often each effect was.
   const std::map<std::string, int>& put_aside() const { return m_put_aside; }
 
@@ -146,7 +145,6 @@ class Score {
 
   Tally m_first, m_all_right, m_pairs, m_pairs_decidable, m_quiet, m_missed, m_unlisted, m_channel, m_location_stated,
       m_stretch;
-  int m_turned_round = 0;
   std::map<std::string, int> m_put_aside;
   std::vector<double> m_location_mm, m_point_mm, m_decidable_mm, m_seconds, m_processor_s;
   std::vector<std::pair<double, bool>> m_confidence;

@@ -10,8 +10,11 @@ namespace zerodrift::proof {
 using nlohmann::json;
 
 json Score::to_json() const {
-  json out = {{"cases", m_judgements.size()}, {"turned_round", m_turned_round}, {"figures", json::array()},
-              {"confusion", m_confusion},     {"rmse", json::array()},          {"reliability", json::array()}};
+  json out = {{"cases", m_judgements.size()},
+              {"figures", json::array()},
+              {"confusion", m_confusion},
+              {"rmse", json::array()},
+              {"reliability", json::array()}};
   out["put_aside"] = m_put_aside;
   out["not_right"] = undecidable().wrong;
   out["not_right_and_undecidable"] = undecidable().undecidable;

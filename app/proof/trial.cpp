@@ -98,18 +98,14 @@ Result<bool> open_seal(const Sealed& one, const fs::path& folder, const json& pr
   return kept;
 }
 
-/// The files of the case again, this time with the answer known: the same recording is fitted as the diagnosis fitted.
-Result<OracleAnswer> told(const fs::path& folder, const OpenedAnswer& truth, const json& diagnosis) {
+/// The files of the case again, this time with the answer known.
+Result<OracleAnswer> told(const fs::path& folder, const OpenedAnswer& truth) {
   ZD_TRY(const physics::Machine machine, physics::read_machine(folder / "machine.json"));
   std::vector<recording::Recording> runs;
   for (const char* file : {"recording.csv", "second.csv"}) {
     ZD_TRY(auto run, recording::read_recording(folder / file));
     runs.push_back(std::move(run));
   }
-  const auto notes = diagnosis.value("notes", std::vector<std::string>{});
-  const bool turned = std::any_of(notes.begin(), notes.end(),
-                                  [](const std::string& note) { return note.rfind("fitted_instead:", 0) == 0; });
-  if (turned) std::swap(runs[0], runs[1]);
   return told_the_truth(machine, runs, truth.effects);
 }
 
@@ -148,7 +144,7 @@ Result<Trial> run_trial(const TrialOptions& options, const TaskContext& context)
     if (i >= answers.size() || context.cancelled()) continue;
     ZD_TRY(OpenedAnswer truth, truth_from(sealed[i].seal.answer, (folder / "answer.json").string()));
     if (answers[i] && !truth.unlisted) {
-      ZD_TRY(const OracleAnswer oracle, told(folder, truth, *answers[i]));
+      ZD_TRY(const OracleAnswer oracle, told(folder, truth));
       truth.reached = oracle.reached;
       truth.told_place_sigma_mm = oracle.place_sigma_mm;
       for (const auto& [id, evidence] : oracle.beside) truth.told = std::min(truth.told.value_or(evidence), evidence);

@@ -8,14 +8,8 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 161> diagnosis = {{
-    QT_TRANSLATE_NOOP("core",
-                      "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: "
-                      "{channel} is {after} {unit} (rms) off, not {before}."),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
-        "{after} {unit} (rms) off, not {before}. What happened once need not have happened there."),
+constexpr std::array<const char*, 142> diagnosis = {{
+    QT_TRANSLATE_NOOP("core", "Beside what is named, {channels} show more that the library does not explain."),
     QT_TRANSLATE_NOOP("core", "Recording {recording} has no column {column}, which {other} has: it was left out."),
     QT_TRANSLATE_NOOP("core",
                       "Recording {recording} has no column {column}, which {other} has: what that switches is not "
@@ -83,14 +77,9 @@ constexpr std::array<const char*, 161> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "{@regime}, adding {@name}{@where} ({parameters}) explains how {channel} goes (log evidence "
                       "{evidence}), but leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}."),
-    QT_TRANSLATE_NOOP("core",
-                      "{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is "
-                      "named does not explain all of it either: it cannot be excluded."),
     QT_TRANSLATE_NOOP("core", "full power for half of the time, then off, and record the cooling"),
     QT_TRANSLATE_NOOP("core", "full power and off in turn, four equal parts"),
     QT_TRANSLATE_NOOP("core", "25, 50, 75 and 100 % of full power, a quarter of the time each"),
-    QT_TRANSLATE_NOOP("core", "Beside what is named, {channels} show more that the library does not explain."),
-    QT_TRANSLATE_NOOP("core", "Nothing of the library explains {channels}."),
     QT_TRANSLATE_NOOP("core",
                       "The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in "
                       "proportion to it, the times are not."),
@@ -147,10 +136,6 @@ constexpr std::array<const char*, 161> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: {channel} is off the best simulation by "
                       "{rms} {unit} (rms), {@regime}."),
-    QT_TRANSLATE_NOOP("core",
-                      "Something is missing that the library does not explain: what fits {channel} in this recording "
-                      "misses the machine's other recording by {um} µm (rms)."),
-    QT_TRANSLATE_NOOP("core", "This run at one speed would hardly show {@name}{@where}: it cannot be excluded."),
     QT_TRANSLATE_NOOP(
         "core",
         "This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have "
@@ -196,12 +181,6 @@ constexpr std::array<const char*, 161> diagnosis = {{
         "core",
         "{channel} reads as a sensor about {at} mm from the fixed end would, not one at {described} mm as described: "
         "check its place, and that it is in millimetres."),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again."),
-    QT_TRANSLATE_NOOP("core",
-                      "The same readings may come from {@name} at its described place: check it before you change the "
-                      "description."),
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time "
                       "had passed, and the "
@@ -220,39 +199,15 @@ constexpr std::array<const char*, 161> diagnosis = {{
                       "In {recording} the column {column} has no value in {percent} % of the rows: what it was there "
                       "had to be assumed."),
     QT_TRANSLATE_NOOP("core",
-                      "The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its "
-                      "sensor moved or touched?"),
-    QT_TRANSLATE_NOOP("core",
-                      "Without {channel} nothing is missing: all other channels agree with the simulation. Check that "
-                      "sensor and how it is mounted before what is beside it."),
-    QT_TRANSLATE_NOOP("core",
-                      "It takes {@name} at the very limit of what it can be: check the numbers of the description that "
-                      "it changes first."),
-    QT_TRANSLATE_NOOP("core",
                       "What drives the machine was recorded about {seconds} s after it acted, and was taken as that "
                       "much earlier: give all columns one clock."),
     QT_TRANSLATE_NOOP("core",
                       "What drives the machine was recorded about {seconds} s before it acted, and was taken as that "
                       "much later: give all columns one clock."),
-    QT_TRANSLATE_NOOP("core",
-                      "What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns "
-                      "have one clock?"),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns "
-        "have one clock, or do all sensors answer late?"),
     QT_TRANSLATE_NOOP(
         "core",
         "The recording has no column {columns}: what acts with it cannot be found. If the machine has it, log it and "
         "record again."),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
-        "drifts. Check how it is mounted."),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the "
-        "time. A run in which it turns would tell."),
     QT_TRANSLATE_NOOP(
         "core",
         "The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
@@ -261,11 +216,6 @@ constexpr std::array<const char*, 161> diagnosis = {{
         "core",
         "The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be "
         "fitted as well. Start after a rest of some hours to be surer."),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
-        "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "
-        "It says nothing for or against the answer."),
     QT_TRANSLATE_NOOP("core",
                       "Recording {recording}: the machine description does not name {columns}, which was not used."),
     QT_TRANSLATE_NOOP("core", "about {:.3g} um for {} (is it in mm?)"),
@@ -283,13 +233,6 @@ constexpr std::array<const char*, 161> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is "
                       "spindle_load_W in {unit}?"),
-    QT_TRANSLATE_NOOP("core",
-                      "{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at "
-                      "{factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} "
-                      "({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}."),
-    QT_TRANSLATE_NOOP("core",
-                      "With {@quantity} of {part} at {factor} times what is described, the recording is explained as "
-                      "well without {@name}: check that number first."),
     QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in 1000 rpm?)"),
     QT_TRANSLATE_NOOP("core", "speeds of a motor rated at {:g} rpm (are they in % of that?)"),
     QT_TRANSLATE_NOOP("core", "0 rpm all the time beside a load of up to {:.4g} W"),
@@ -301,10 +244,6 @@ constexpr std::array<const char*, 161> diagnosis = {{
     QT_TRANSLATE_NOOP("core",
                       "Something is missing that the library does not explain: worst at {channel}, {@regime}, where "
                       "about {watts} W too much heat is simulated."),
-    QT_TRANSLATE_NOOP(
-        "core",
-        "What oil and preload do counts from the temperature at which each run starts, not from one that stays: the "
-        "other recording, which starts at another, is predicted better so."),
     QT_TRANSLATE_NOOP(
         "core",
         "Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "

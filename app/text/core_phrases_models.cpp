@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 265> models = {{
+constexpr std::array<const char*, 266> models = {{
     QT_TRANSLATE_NOOP("core", "the same run as %1"),
     QT_TRANSLATE_NOOP("core", "another run, or each run once"),
     QT_TRANSLATE_NOOP("core", "from %1 min on"),
@@ -143,6 +143,7 @@ constexpr std::array<const char*, 265> models = {{
     QT_TRANSLATE_NOOP("core", "about %1 %2 for %3; check units, geometry and powers"),
     QT_TRANSLATE_NOOP("core", "%1; corrected by the run %2"),
     QT_TRANSLATE_NOOP("core", "always %1"),
+    QT_TRANSLATE_NOOP("core", "starts at %1"),
     QT_TRANSLATE_NOOP("core", "no samples from %1 s"),
     QT_TRANSLATE_NOOP("core", "frozen from %1 s"),
     QT_TRANSLATE_NOOP("core", "as asked for"),

@@ -3,7 +3,7 @@
 // which effect explains it (effects, rivals, confidence), the description with it (refined), and how much better it
 // fits, on data used for the fit and on recordings that were not. "Nothing is missing" and "unexplained" are answers
 // too. Everything the Physics page draws is here as data; sentences are made from `Sentence`
-// (core/diagnosis/sentences.h) where they are read.
+// (core/diagnosis/answer/sentences.h) where they are read.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -13,6 +13,7 @@
 
 #include "core/analysis/findings.h"
 #include "core/base/task_context.h"
+#include "core/diagnosis/inference/settings.h"
 #include "core/physics/machine.h"
 #include "core/recording/recording.h"
 
@@ -73,8 +74,8 @@ struct ChannelReport {
   bool temperature = true;
   std::vector<double> measured, nominal, refitted, explained;
   double rms_nominal = 0.0, rms_refitted = 0.0, rms_explained = 0.0, noise = 0.0;
-  double excess_refitted = 0.0, excess_explained = 0.0;  // block excess, about 1 when nothing is missing
-  double score = 0.0;                                    // for naming the channel with the largest mismatch
+  /// What is left beyond noise, over what a good description leaves; more than 1: it is unexplained.
+  double excess_refitted = 0.0, excess_explained = 0.0;
   ChannelVerdict verdict = ChannelVerdict::consistent;
   std::vector<std::pair<double, double>> time_s;  // where it is off most, if it is
   double missing_heat_W = 0.0;                    // of its part, where one has heat
@@ -109,14 +110,14 @@ struct Detectable {
   std::string id;
   std::string key;
   double value = 0.0;
-  double usual = 0.0;   // width of what there usually is of it
+  double usual = 0.0;   // standard deviation of what there usually is of it
   double at_rpm = 0.0;  // where it grows with the speed: at this one
 };
 
 struct SuggestedExperiment {
   Sentence text;
   std::string id;
-  double distance = 0.0;  // expected evidence between the two rivals
+  double distance = 0.0;  // expected log evidence between the two rivals
   std::string plan_json;  // a warm-up plan
 };
 
@@ -126,24 +127,71 @@ struct RunFinding {
   analysis::Finding finding;
 };
 
-/// Of what drives the machine to everything else.
-struct ClockOffset {
-  double late_s = 0.0;       // below zero: it was logged before it acted
-  double rest_before = 0.0;  // share of the time before its first row in which nothing ran; then as in that row
+/// What a reader of the answer has to know beside it, with its facts.
+enum class NoteCode {
+  // Of a `recording`
+  missing_channel,       // `channel`: a sensor or a displacement that it lacks
+  unknown_columns,       // `columns` that the description does not name
+  lacks_column,          // `column` that `other` has: left out
+  lacks_what_other_has,  // `column` that `other` has: not simulated
+  left_out,              // `what`: only the longest part beside a long gap is used
+  input_gaps,            // `column`, `percent`: an input that was not logged all the time
+  load_in_other_unit,    // `unit`, `most`: the load would be one in it, and is next to nothing in W
+  clock_jumped,          // `at`, `by` (min): the logger's clock was set ahead
+  never_changes,         // `channel`, `value`, `um` simulated: it repeats one value; not used
+  // What was assumed
+  room_given,
+  room_is_initial_temperature,
+  room_not_logged,      // `column`
+  capacity_unknown,     // `components`: watts and conductances are in proportion to what was assumed
+  conductance_unknown,  // `component`: the coupling
+  warm_start,           // `component`, `above` (K): not at rest when the recording began
+  tolerances_raised,    // `keys`: stated smaller than such numbers can be known
+  // What the recordings cannot show
+  no_excitation,      // nothing moves, or nothing drives the machine
+  shows_too_little,   // nothing is found missing, but most effects of usual size would not have shown
+  never_driven,       // `effects`: what drives them never acted
+  cannot_show,        // `effects`: not even as strong as they can be
+  not_recorded,       // `columns`: sensors and displacements that no recording has
+  inputs_not_logged,  // `columns`: unexplained or an open door, and these are not there
+  few_sensors,        // `component`, `count`: so few see where along it something happens
+  coarse_rows,        // `seconds` between rows: switching times are hardly known
+  // Mistakes in the description or the wiring
+  misplaced,             // `channel`, `described`, `at` (mm)
+  exchanged,             // `channel`, `other`
+  places_in,             // `unit`
+  datum,                 // `component`, `fits` (mm), `nearer`
+  other_end,             // `component`
+  overlong,              // `component`, `described`, `bare`, `fits` (mm)
+  diameter,              // `component`, `described`, `fits` (mm)
+  sign_turned,           // `channel`
+  described_not_there,   // `effect`
+  clock_late,            // `seconds`
+  clock_early,           // `seconds`
+  far_from_description,  // `quantity`, `of`, `factor`, `sigmas` of its tolerance
+};
+std::string_view name_of(NoteCode code);
+
+struct Note {
+  NoteCode code = NoteCode::no_excitation;
+  std::map<std::string, std::string> facts;
+};
+
+/// One explanation that was fitted, and how far it is behind the likeliest.
+struct Tried {
+  std::vector<std::string> effects;   // ids
+  std::vector<std::string> mistakes;  // codes of notes
+  double probability = 0.0;
+  double behind = 0.0;  // log posterior odds
 };
 
 struct Diagnosis {
   Verdict verdict = Verdict::consistent;
   Mismatch mismatch;
   std::vector<FoundEffect> effects;
-  std::vector<std::string> tried;  // ids of the best explanation, sorted; also where it was not good enough
-  std::vector<std::string> forms;  // of the same, in the same order: id and words (law, bearing, channel ...)
-  std::vector<double> sizes;       // of the same: first amplitude, in its own unit
-  double unusual_start = 0.0;      // the largest start that one of them needs, over how far it usually is off
-  bool refuted = false;            // unexplained because it makes a held-out recording worse
-  ClockOffset clock;               // with what drives the machine moved by it the recording is explained better
-  bool wrong_set_up = false;       // unexplained because places or a size are not as described
-  bool doubtful = false;           // unexplained because the description is bent beyond what units and sizes can be off
+  std::vector<Tried> tried;   // likeliest first
+  bool wrong_set_up = false;  // unexplained because places or a size are not as described
+  bool doubtful = false;      // unexplained because the description is bent beyond what units and sizes can be off
   std::vector<Rival> ambiguous_with;
   std::optional<SuggestedExperiment> suggested;
   std::vector<ChannelReport> channels;
@@ -152,9 +200,8 @@ struct Diagnosis {
   std::vector<Detectable> detectable;
   std::optional<HeatMap> heat;
   std::vector<Sentence> sentences;
-  std::vector<std::string> notes;
+  std::vector<Note> notes;
   std::vector<RunFinding> findings;
-  double drift_factor = 1.0;  // slow discrepancy chosen by evidence, relative to the default
   double excess_before = 0.0, excess_after = 0.0;
   double seconds = 0.0;
   physics::Machine refined;
@@ -164,38 +211,12 @@ struct DiagnoseOptions {
   bool details = true;  // heat map, experiment, detectable limits
 };
 
-/// The first recording is fitted; the others are held out. Where what was fitted misses one of them by far, that one is
-/// fitted instead if the first then bears it out (contradiction.h; note "fitted_instead:NAME"). Where the fitted one
-/// leaves an effect in doubt or can hardly tell two apart, the others decide with it (elsewhere.h; note
-/// "decided_with_others:ID"); what is fitted is fitted to the first alone, but a place is told with what all recordings
-/// show of it where all fit (the refined description keeps the first's). Note "heat_falls_with_speed:CHANNEL": no law
-/// has such heat, and nothing is named there. Note "far_from_description:QUANTITY:OF:FACTOR": the fit moved a number of
-/// the description by more than four of its tolerances. Note "misstated:QUANTITY:OF:FACTOR": with that number times so
-/// much, the recording is explained as well without an effect that is named (misstated.h). Note "room_jumps": at the
-/// moment when a draught is said to begin. Note "at_its_limit:ID": that effect is at the limit of what it can be. Note
-/// "sensor_alone:CHANNEL": nothing is missing without that sensor. Note "inputs_late" or "inputs_early": what drives
-/// the machine is recorded a row or more after or before it acts; "clock_late:S" or "clock_early:S": it was, by S s,
-/// and was moved to when it acted (another_clock.h). Note "sign_turned:CHANNEL": the displacement follows the
-/// description with its sign turned. Note "moved_elsewhere:CHANNEL": only another recording shows that something moves
-/// the nose that the description has not. Note "shows_too_little": nothing is found missing, but most effects of usual
-/// size would not have shown. Note "misplaced:CHANNEL", "exchanged:CHANNEL:CHANNEL" or "places_in:UNIT": the sensors
-/// are not where the description has them (misplaced.h); "misplaced_or_faulty:ID": or that sensor is at fault.
-/// "overlong:COMPONENT", "other_end:COMPONENT", "datum:COMPONENT" or "diameter:COMPONENT": nor is that part of the
-/// shape described (wrong_geometry.h). Note "clock_jumped:RECORDING:S:S": at that time it was set ahead by so much
-/// (clock_jumps.h). Note "input_gaps:RECORDING:COLUMN": that input was not logged all the time. Note
-/// "load_in_other_unit:RECORDING:UNIT": its load would be one in kW or %, and is next to nothing in W. Note
-/// "warm_start:COMPONENT": it was not at rest when the recording began. Note "held_out_differs:RECORDING:CHANNEL": that
-/// recording does not fit this machine. Note "room_not_logged": the recording lacks the room's channel. Note
-/// "inputs_not_logged:COLUMN, COLUMN": unexplained or a draught, and it lacks these. Note "not_recorded:COLUMN,COLUMN":
-/// sensors and displacements that it lacks. Note "settles_by_itself:CHANNEL": a displacement moves by itself and slows
-/// down, and nothing shows that it follows the room. Note "no_excitation": nothing moves, or nothing drives the
-/// machine. Note "never_driven:ID,ID": what drives them never acted. Note "coarse_rows": switching times are hardly
-/// known. Note "never_changes:RECORDING:CHANNEL": a displacement that repeats one value while the machine moves; it is
-/// not used. Note "few_sensors:COMPONENT:COUNT": so few see where along it something happens. Note
-/// "tolerances_raised:KEY,KEY": the description has them smaller than such numbers can be known. Note
-/// "counts_from_each_start": oil and preload, and the refined description states no reference temperature.
+/// All recordings are one body of evidence: the machine's numbers are shared, start, room, offsets and timing are each
+/// recording's own. bad_argument without a recording or with settings that contradict each other; data_does_not_fit or
+/// not_enough_data where nothing can be compared; cancelled.
 Result<Diagnosis> diagnose(const physics::Machine& machine, const std::vector<recording::Recording>& recordings,
-                           const DiagnoseOptions& options = {}, const TaskContext& context = {});
+                           const DiagnoseOptions& options = {}, const TaskContext& context = {},
+                           const DiagnosisSettings& settings = {});
 
 /// diagnosis.json.
 nlohmann::json to_json(const Diagnosis& diagnosis);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/physics/machine.h"
@@ -34,6 +35,10 @@ void write_component(json& out, const Component& component) {
       out["heat_capacity_J_K"] = *component.heat_capacity_J_K;
     if (component.area_mm2 && !component.area_is_guessed) out["area_mm2"] = *component.area_mm2;
   } else {
+    out["length_mm"] = component.length_mm;
+    out["outer_diameter_mm"] = component.outer_diameter_mm;
+    if (component.bore_diameter_mm > 0.0 || out.contains("bore_diameter_mm"))
+      out["bore_diameter_mm"] = component.bore_diameter_mm;
     json& material = out["material"];
     material["conductivity_W_mK"] = component.material.conductivity_W_mK;
     material["density_kg_m3"] = component.material.density_kg_m3;
@@ -57,16 +62,24 @@ void write_component(json& out, const Component& component) {
 /// Of a description without components the parts were made of the sensors, and are named now.
 void write_sensor(json& list, const Machine& machine, const Sensor& sensor) {
   if (!list.is_array()) list = json::array();
-  for (auto& one : list) {
-    if (one.value("channel", "") != sensor.channel) continue;
-    one["component"] = sensor.component;
-    if (sensor.lag_s > 0.0) one["lag_s"] = sensor.lag_s;
-    return;
+  auto known = std::find_if(list.begin(), list.end(),
+                            [&](const json& one) { return one.value("channel", "") == sensor.channel; });
+  if (known == list.end()) {
+    list.push_back({{"channel", sensor.channel}, {"accuracy_C", sensor.accuracy_C}});
+    known = std::prev(list.end());
   }
-  list.push_back({{"channel", sensor.channel}, {"component", sensor.component}, {"accuracy_C", sensor.accuracy_C}});
+  (*known)["component"] = sensor.component;
   const Component* component = machine.find(sensor.component);
-  if (component != nullptr && !component->lump) list.back()["position_mm"] = sensor.position_mm;
-  if (sensor.lag_s > 0.0) list.back()["lag_s"] = sensor.lag_s;
+  if (component != nullptr && !component->lump) (*known)["position_mm"] = sensor.position_mm;
+  if (sensor.lag_s > 0.0) (*known)["lag_s"] = sensor.lag_s;
+}
+
+/// What counts as positive; the rest of a displacement is never changed.
+void write_sign(json& list, const Displacement& displacement) {
+  for (auto& one : list) {
+    if (one.value("channel", "") == displacement.channel && one.value("sign", 1.0) != displacement.sign)
+      one["sign"] = displacement.sign;
+  }
 }
 
 void write_effects(json& document, const Machine& machine) {
@@ -97,6 +110,9 @@ json to_json(const Machine& machine) {
   for (const auto& component : machine.components)
     write_component(entry(document["components"], component.id), component);
   for (const Sensor& sensor : machine.sensors) write_sensor(document["sensors"], machine, sensor);
+  for (const Displacement& displacement : machine.displacements) {
+    if (document.contains("displacements")) write_sign(document["displacements"], displacement);
+  }
   for (std::size_t i = 0; i < machine.couplings.size() && document.contains("couplings"); ++i) {
     const auto& g = machine.couplings[i].conductance_W_K;
     if (g) document["couplings"][i]["conductance_W_K"] = *g;

@@ -2702,6 +2702,10 @@
         <translation>始终为 %1</translation>
     </message>
     <message>
+        <source>starts at %1</source>
+        <translation>起始为 %1</translation>
+    </message>
+    <message>
         <source>no samples from %1 s</source>
         <translation>自 %1 s 起没有采样</translation>
     </message>
@@ -3294,10 +3298,6 @@
         <translation>{@regime}，计入{@where}{@name}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 {before} {unit}（rms）{@heat}。典型特征：{@fingerprint}。</translation>
     </message>
     <message>
-        <source>{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is named does not explain all of it either: it cannot be excluded.</source>
-        <translation>{@where}{@name}对本次记录的解释较差（对数证据低 {behind}），但已命名的效应也未能完全解释：不能排除。</translation>
-    </message>
-    <message>
         <source>full power for half of the time, then off, and record the cooling</source>
         <translation>一半时间全功率，然后关闭并记录冷却过程</translation>
     </message>
@@ -3314,20 +3314,8 @@
         <translation>除已命名的效应外，{channels} 还有效应库无法解释的偏差。</translation>
     </message>
     <message>
-        <source>Nothing of the library explains {channels}.</source>
-        <translation>效应库中没有任何效应能解释 {channels}。</translation>
-    </message>
-    <message>
         <source>The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in proportion to it, the times are not.</source>
         <translation>{parts} 的热容未给出，采用了假定值：W、W/K 和 J/K 与其成正比，时间常数则不受影响。</translation>
-    </message>
-    <message>
-        <source>{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} times what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of that{@heat}. Typical of it: {@fingerprint}.</source>
-        <translation>{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} 倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。</translation>
-    </message>
-    <message>
-        <source>With {@quantity} of {part} at {factor} times what is described, the recording is explained as well without {@name}: check that number first.</source>
-        <translation>若{part}的{@quantity}为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对该数值。</translation>
     </message>
     <message>
         <source>; it brings {watts} on average while it acts</source>
@@ -3598,14 +3586,6 @@
         <translation>存在效应库无法解释的缺失：{channel} 与最佳仿真相差 {rms} {unit}（rms），{@regime}。</translation>
     </message>
     <message>
-        <source>Something is missing that the library does not explain: what fits {channel} in this recording misses the machine&apos;s other recording by {um} µm (rms).</source>
-        <translation>存在效应库无法解释的缺失：与本次记录中的 {channel} 相符的仿真，在该机床的另一记录中相差 {um} µm（rms）。</translation>
-    </message>
-    <message>
-        <source>This run at one speed would hardly show {@name}{@where}: it cannot be excluded.</source>
-        <translation>本次单一转速的运行几乎无法显示{@where}{@name}，不能排除。</translation>
-    </message>
-    <message>
         <source>This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have shown here.</source>
         <translation>本次记录无法判断是否存在{|effects}：即使它达到可能的最大强度，在本次记录中也不会显现。</translation>
     </message>
@@ -3682,14 +3662,6 @@
         <translation>{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm 处的：请检查其位置以及单位是否为毫米。</translation>
     </message>
     <message>
-        <source>All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again.</source>
-        <translation>除 {channel} 外，其余均可由{+effects}解释：请检查该传感器及其安装方式，然后重新诊断。</translation>
-    </message>
-    <message>
-        <source>The same readings may come from {@name} at its described place: check it before you change the description.</source>
-        <translation>同样的读数也可能来自位置与描述一致的{@name}：更改描述之前请先检查该传感器。</translation>
-    </message>
-    <message>
         <source>In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, and the times were taken so.</source>
         <translation>记录 {recording} 的时钟在第 {at} 分钟向前跳了 {by} 分钟：机床的变化表明其间没有时间流逝，时间已据此更正。</translation>
     </message>
@@ -3722,36 +3694,8 @@
         <translation>驱动机床各量的记录比其实际作用早约 {seconds} s，已据此推后处理：请让各列使用同一时钟。</translation>
     </message>
     <message>
-        <source>What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one clock?</source>
-        <translation>驱动机床各量的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？</translation>
-    </message>
-    <message>
-        <source>What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns have one clock, or do all sensors answer late?</source>
-        <translation>驱动机床各量的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？</translation>
-    </message>
-    <message>
-        <source>Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how it is mounted before what is beside it.</source>
-        <translation>不计 {channel} 时一切吻合：其余各通道都与仿真一致。请先检查该传感器及其安装，再查其旁边的部位。</translation>
-    </message>
-    <message>
-        <source>It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes first.</source>
-        <translation>须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。</translation>
-    </message>
-    <message>
         <source>In {recording} the column {column} has no value in {percent} % of the rows: what it was there had to be assumed.</source>
         <translation>{recording} 的列 {column} 有 {percent} % 的行没有数值：其间的值只能假定。</translation>
-    </message>
-    <message>
-        <source>The room&apos;s column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or touched?</source>
-        <translation>室温列在 {at} min 处跳变 {kelvin} K，正是所述气流开始之时：室温传感器是否被移动或触碰？</translation>
-    </message>
-    <message>
-        <source>Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that drifts. Check how it is mounted.</source>
-        <translation>没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。</translation>
-    </message>
-    <message>
-        <source>Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the time. A run in which it turns would tell.</source>
-        <translation>{channel} 是跟随室温还是自行漂移尚不确定：室温几乎一直朝同一方向变化。在室温转向的一次运行中即可分辨。</translation>
     </message>
     <message>
         <source>The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be fitted as well. Start after a rest of some hours to be surer.</source>
@@ -3760,10 +3704,6 @@
     <message>
         <source>The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be fitted as well. Start after a rest of some hours to be surer.</source>
         <translation>记录开始时 {part} 比室温低 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。</translation>
-    </message>
-    <message>
-        <source>{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is {after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? It says nothing for or against the answer.</source>
-        <translation>留出的记录 {recording} 与拟合记录所示的机床不符：{channel} 在那里相差 {after} {unit}（均方根），在此为 {here}。它是否来自另一台机床，或其间有所改动？它既不支持也不否定此答案。</translation>
     </message>
     <message>
         <source>Recording {recording}: the machine description does not name {columns}, which was not used.</source>
@@ -3840,10 +3780,6 @@
     <message>
         <source>Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W too much heat is simulated.</source>
         <translation>存在效应库无法解释的缺失：{channel} 处最严重，{@regime}，仿真的热量约多出 {watts} W。</translation>
-    </message>
-    <message>
-        <source>What oil and preload do counts from the temperature at which each run starts, not from one that stays: the other recording, which starts at another, is predicted better so.</source>
-        <translation>润滑油和预紧的作用以每次运行开始时的温度为基准，而不是一个固定温度：另一份从不同温度开始的记录按此预测得更准。</translation>
     </message>
     <message>
         <source>Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told from so few; three or more, spread over its length, show places.</source>
@@ -4420,14 +4356,6 @@
     <message>
         <source>the check sum of this content: it was changed after it was made (make the table anew)</source>
         <translation>与此内容相符的校验和：内容在生成之后被更改（请重新生成该表）</translation>
-    </message>
-    <message>
-        <source>On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is {after} {unit} (rms) off, not {before}.</source>
-        <translation>对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} {unit}（均方根），而非 {before}。</translation>
-    </message>
-    <message>
-        <source>On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is {after} {unit} (rms) off, not {before}. What happened once need not have happened there.</source>
-        <translation>对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} {unit}（均方根），而非 {before}。只发生一次的事件在那里未必发生过。</translation>
     </message>
     <message>
         <source>Recording {recording} has no column {column}, which {other} has: it was left out.</source>
@@ -5040,10 +4968,6 @@
     <message>
         <source>the room in the room's column (are the two exchanged?)</source>
         <translation>室温列中应为室温（两列是否互换？）</translation>
-    </message>
-    <message>
-        <source>The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or touched?</source>
-        <translation>室温列在 {at} min 处跳变 {kelvin} K，正是所述气流开始之时：室温传感器是否被移动或触碰？</translation>
     </message>
     <message>
         <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in {unit}?</source>

@@ -12,7 +12,7 @@
 #include "app/text/error_text.h"
 #include "app/text/happening_text.h"
 #include "core/controller/register_names.h"
-#include "core/diagnosis/sentences.h"
+#include "core/diagnosis/answer/sentences.h"
 #include "core/physics/effects/effect.h"
 
 namespace zerodrift {

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"ui/pages/x.cpp", "qcustomplot.h", "qcustomplot.h outside ui/plots"},
         Planted{"app/machine/x.cpp", "core/physics/simulate.h",
                 "the virtual machine includes the physics it is used to prove"},
-        Planted{"app/machine/x.cpp", "core/diagnosis/diagnose.h",
+        Planted{"app/machine/x.cpp", "core/diagnosis/diagnosis.h",
                 "the virtual machine includes the physics it is used to prove"}));
 
 }  // namespace zerodrift::architecture

@@ -9,7 +9,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/physics/machine.h"
-#include "tests/diagnosis/simulated.h"
+#include "tests/diagnosis/answered.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -134,9 +134,7 @@ TEST(CoupledParts, AJointThatConductsOtherwiseIsSaid) {
     ASSERT_NE(joint, nullptr) << times;
     EXPECT_EQ(joint->facts.at("part"), "motor-head");
     EXPECT_NEAR(std::stod(joint->facts.at("factor")) * times, 1.0, 0.15);
-    EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
-      return note.starts_with("far_from_description:conductance:motor-head:");
-    }));
+    EXPECT_TRUE(notes(d, "far_from_description:conductance:motor-head"));
   }
 }
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "core/diagnosis/answer/diagnose_jointly.h"
 #include "core/diagnosis/description/corrected_value.h"
 #include "core/diagnosis/description/machine_errors.h"
+#include "core/diagnosis/diagnosis.h"
 #include "core/physics/simulate.h"
 #include "tests/diagnosis/answered.h"
 
@@ -70,7 +70,7 @@ physics::Sensor& sensor_of(Machine& machine, const std::string& channel) {
 }
 
 Diagnosis told(const Machine& described, const recording::Recording& run) {
-  auto answer = diagnose_jointly(described, {run}, {false});
+  auto answer = diagnose(described, {run}, {false});
   EXPECT_TRUE(answer.has_value());
   return answer ? std::move(*answer) : Diagnosis{};
 }

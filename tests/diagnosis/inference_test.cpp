@@ -5,14 +5,14 @@
 #include <cmath>
 #include <random>
 
-#include "core/diagnosis/answer/diagnose_jointly.h"
 #include "core/diagnosis/answer/fitted_description.h"
+#include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/inference/adequacy.h"
 #include "core/diagnosis/search/intervals.h"
 #include "core/diagnosis/search/run_facts.h"
 #include "core/diagnosis/search/score_test.h"
 #include "core/diagnosis/search/stepwise_search.h"
-#include "core/physics/simulate.h"
+#include "tests/diagnosis/heated_rod.h"
 
 namespace zerodrift::diagnosis {
 namespace {
@@ -21,54 +21,6 @@ using inference::Evidence;
 using inference::Fit;
 using inference::JointModel;
 using inference::RowMatrix;
-
-constexpr double white_K = 0.03;
-
-/// A rod with a heater at its fixed end, in a film; `effects` and `parameters` as JSON.
-physics::Machine rod(const std::string& effects, const std::string& parameters) {
-  const std::string text = R"({"format": "zerodrift-machine/1", "initial_temperature_C": 20, "components": [
-      {"id": "rod", "length_mm": 300, "outer_diameter_mm": 20, "bore_diameter_mm": 0,
-       "material": {"conductivity_W_mK": 180, "density_kg_m3": 2700, "heat_capacity_J_kgK": 900, "expansion_1_K": 2.3e-5},
-       "heat_sources": [{"id": "heater", "kind": "input", "channel": "heater_on", "from_mm": 0, "to_mm": 6,
-                         "watts_per_unit": 8}]}],
-      "effects": )" + effects +
-                           R"(, "effect_parameters": )" + parameters + R"(,
-      "sensors": [{"channel": "T1_C", "component": "rod", "position_mm": 10},
-                  {"channel": "T2_C", "component": "rod", "position_mm": 150},
-                  {"channel": "T3_C", "component": "rod", "position_mm": 290},
-                  {"channel": "ambient_C", "component": "ambient"}],
-      "displacements": []})";
-  const auto machine = physics::machine_from_json(nlohmann::json::parse(text), "rod.json");
-  EXPECT_TRUE(machine.has_value());
-  return *machine;
-}
-
-/// `on_s`: when the heater is on.
-recording::Recording inputs(double hours, const std::vector<std::pair<double, double>>& on_s) {
-  recording::Recording run;
-  run.name = "r1.csv";
-  for (double t = 0.0; t <= hours * 3600.0; t += 20.0) run.time_s.push_back(t);
-  run.channels = {{"heater_on", {}}, {"ambient_C", {}}};
-  for (const double t : run.time_s) {
-    const bool on = std::any_of(on_s.begin(), on_s.end(), [&](auto& one) { return t >= one.first && t < one.second; });
-    run.channels[0].values.push_back(on ? 1.0 : 0.0);
-    run.channels[1].values.push_back(20.0);
-  }
-  return run;
-}
-
-/// What a machine shows, with white noise.
-recording::Recording measured(const physics::Machine& truth, recording::Recording run, unsigned seed) {
-  const auto shown = physics::simulate(truth, run);
-  EXPECT_TRUE(shown.has_value());
-  std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0.0, white_K);
-  for (const char* channel : {"T1_C", "T2_C", "T3_C"}) {
-    run.channels.push_back(*shown->prediction.find(channel));
-    for (double& v : run.channels.back().values) v += noise(random);
-  }
-  return run;
-}
 
 std::shared_ptr<const Evidence> evidence_of(const physics::Machine& machine,
                                             const std::vector<recording::Recording>& runs) {
@@ -79,8 +31,6 @@ Fit fit_of(const std::shared_ptr<const Evidence>& evidence, std::vector<inferenc
   inference::Hypothesis hypothesis{evidence->machine(), std::move(effects), 0.0};
   return Fit(std::make_shared<JointModel>(std::move(hypothesis), evidence), evidence->usual_sizes());
 }
-
-const std::vector<std::pair<double, double>> on_and_off{{600.0, 5400.0}};
 
 }  // namespace
 
@@ -226,7 +176,7 @@ TEST(Intervals, FindNothingInNoise) {
 TEST(StepwiseSearch, NamesConvectionThatWasLeftOutAndItsSize) {
   const physics::Machine truth = rod(R"(["convection"])", R"({"convection": {"h_W_m2K": 12}})");
   const physics::Machine described = rod("[]", "{}");
-  const auto answer = diagnose_jointly(described, {measured(truth, inputs(2.0, on_and_off), 13)});
+  const auto answer = diagnose(described, {measured(truth, inputs(2.0, on_and_off), 13)});
   ASSERT_TRUE(answer.has_value());
   EXPECT_EQ(answer->verdict, Verdict::missing_effect);
   ASSERT_FALSE(answer->effects.empty());
@@ -238,7 +188,7 @@ TEST(StepwiseSearch, NamesConvectionThatWasLeftOutAndItsSize) {
 TEST(StepwiseSearch, NamesNothingWhereNothingIsMissing) {
   const physics::Machine machine = rod(R"(["convection"])", R"({"convection": {"h_W_m2K": 12}})");
   for (const unsigned seed : {17u, 18u, 19u}) {
-    const auto answer = diagnose_jointly(machine, {measured(machine, inputs(2.0, on_and_off), seed)});
+    const auto answer = diagnose(machine, {measured(machine, inputs(2.0, on_and_off), seed)});
     ASSERT_TRUE(answer.has_value());
     EXPECT_EQ(answer->verdict, Verdict::consistent) << seed;
     EXPECT_TRUE(answer->effects.empty()) << seed;
@@ -252,7 +202,7 @@ TEST(StepwiseSearch, FindsWhenASensorReadWrong) {
   auto& reading = run.find("T2_C")->values;
   for (std::size_t k = 0; k < run.rows(); ++k)
     reading[k] += run.time_s[k] >= 3000.0 && run.time_s[k] < 3600.0 ? -2.0 : 0.0;
-  const auto answer = diagnose_jointly(described, {run});
+  const auto answer = diagnose(described, {run});
   ASSERT_TRUE(answer.has_value());
   ASSERT_FALSE(answer->effects.empty());
   const FoundEffect& found = answer->effects.front();
@@ -272,7 +222,7 @@ TEST(StepwiseSearch, FindsHeatThatNobodyLogged) {
   recording::Recording logged = truth;
   auto& heater = logged.find("heater_on")->values;
   for (std::size_t k = 0; k < logged.rows(); ++k) heater[k] = logged.time_s[k] < 3000.0 ? heater[k] : 0.0;
-  const auto answer = diagnose_jointly(described, {logged});
+  const auto answer = diagnose(described, {logged});
   ASSERT_TRUE(answer.has_value());
   ASSERT_FALSE(answer->effects.empty());
   const FoundEffect& found = answer->effects.front();
@@ -283,10 +233,31 @@ TEST(StepwiseSearch, FindsHeatThatNobodyLogged) {
   EXPECT_NEAR(found.parameters.at("power_W"), 8.0, 1.0);
 }
 
+TEST(StepwiseSearch, NamesAFilmThatALoggedInputDrives) {
+  const physics::Machine described = rod(R"(["convection"])", R"({"convection": {"h_W_m2K": 12}})");
+  const physics::Machine truth = rod(
+      R"(["convection", "film_driver"])",
+      R"({"convection": {"h_W_m2K": 12}, "film_driver": {"component": "rod", "driver": "fan_percent", "h_W_m2K": 30, "full": 100}})");
+  recording::Recording run = inputs(2.5, {{600.0, 8000.0}});
+  recording::Channel fan{"fan_percent", {}}, rows{"row_counter", {}};
+  for (std::size_t k = 0; k < run.rows(); ++k) {
+    const double t = run.time_s[k];
+    fan.values.push_back((t > 3000.0 && t < 4500.0) || t > 6500.0 ? 80.0 : 0.0);
+    rows.values.push_back(static_cast<double>(k));
+  }
+  run.channels.push_back(fan);
+  run.channels.push_back(rows);
+  const auto answer = diagnose(described, {measured(truth, run, 37)}, {false});
+  ASSERT_TRUE(answer.has_value());
+  ASSERT_EQ(answer->effects.size(), 1u);
+  EXPECT_EQ(answer->effects.front().id, "film_driver");
+  EXPECT_EQ(answer->effects.front().words.at("driver"), "fan_percent");
+}
+
 TEST(FittedDescription, SimulatesToWhatWasReported) {
   const physics::Machine truth = rod(R"(["convection"])", R"({"convection": {"h_W_m2K": 12}})");
   const recording::Recording run = measured(truth, inputs(2.0, on_and_off), 31);
-  const auto answer = diagnose_jointly(rod("[]", "{}"), {run});
+  const auto answer = diagnose(rod("[]", "{}"), {run});
   ASSERT_TRUE(answer.has_value());
   const auto read = physics::machine_from_json(physics::to_json(answer->refined), "refined.json");
   ASSERT_TRUE(read.has_value());

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/diagnosis/bodies.h"
+#include "core/diagnosis/description/inner_bodies.h"
 #include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis {

@@ -1,11 +1,11 @@
 // The refined machine is the description with what was fitted, and nothing else changed.
-#include "core/diagnosis/refined.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/diagnosis/answer/fitted_description.h"
 #include "core/physics/builder.h"
 #include "tests/diagnosis/simulated.h"
 
@@ -31,9 +31,9 @@ TEST(Refined, ANumberOfAnEffectLeavesTheComponentAlone) {
   own.component = "box";
   physics::Parameter of_effect = own;
   of_effect.effect = 0;
-  take_value(machine, of_effect, 13.5);
+  answer::take_value(machine, of_effect, 13.5);
   EXPECT_DOUBLE_EQ(*machine.components[0].heat_capacity_J_K, 900.0);
-  take_value(machine, own, 950.0);
+  answer::take_value(machine, own, 950.0);
   EXPECT_DOUBLE_EQ(*machine.components[0].heat_capacity_J_K, 950.0);
 }
 

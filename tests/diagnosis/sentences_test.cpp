@@ -1,11 +1,11 @@
-#include "core/diagnosis/sentences.h"
+#include "core/diagnosis/answer/sentences.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/diagnosis/explain.h"
+#include "core/diagnosis/answer/explain.h"
 #include "core/physics/effects/effect.h"
 
 namespace zerodrift::diagnosis {
@@ -92,15 +92,6 @@ TEST(Sentences, WhatDoesNotComeNearerIsNotSaidToBeRemoved) {
   EXPECT_EQ(s.id, "effect_found_course");
   EXPECT_NE(s.english.find("log evidence 34"), std::string::npos) << s.english;
   EXPECT_EQ(s.english.find('{'), std::string::npos) << s.english;
-}
-
-TEST(Sentences, ARivalFarBehindIsNotSaidToExplainAlmostAsWell) {
-  Rival rival;
-  rival.id = "contact_resistance";
-  rival.behind = 3.0;
-  EXPECT_NE(explain_rival(rival).english.find("almost as well"), std::string::npos);
-  rival.behind = 83.0;
-  EXPECT_EQ(explain_rival(rival).english.find("almost as well"), std::string::npos);
 }
 
 TEST(Sentences, HeatThatIsTooMuchIsToldAsSuch) {

@@ -17,9 +17,9 @@ namespace zerodrift::diagnosis {
 
 /// Starts or inputs that no description holds make another simulation.
 inline bool has_a_start_of_its_own(const Diagnosis& d) {
-  return std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
-    return note.starts_with("warm_start") || note.starts_with("clock_") || note.starts_with("room_not_logged") ||
-           note.starts_with("fitted_instead");
+  return std::any_of(d.notes.begin(), d.notes.end(), [](const Note& note) {
+    return note.code == NoteCode::warm_start || note.code == NoteCode::clock_late ||
+           note.code == NoteCode::clock_early || note.code == NoteCode::room_not_logged;
   });
 }
 

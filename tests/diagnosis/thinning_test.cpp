@@ -1,5 +1,5 @@
 // Long recordings are averaged to a fitting length without moving what heats.
-#include "core/diagnosis/thinning.h"
+#include "core/diagnosis/input/thinning.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "core/diagnosis/dataset.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/inference/run.h"
 #include "core/physics/builder.h"
+#include "core/physics/prediction.h"
 #include "tests/diagnosis/simulated.h"
 
 namespace zerodrift::diagnosis {
@@ -79,9 +80,8 @@ recording::Recording logged_each_minute(unsigned seed) {
 }
 
 /// The machine on for an hour and off again, a sample a minute.
-Dataset on_and_off(const physics::Machine& machine) {
-  static recording::Recording run;
-  run = {};
+inference::Run on_and_off(const physics::Machine& machine) {
+  recording::Recording run;
   run.channels = {{"spindle_rpm", {}}, {"T3_C", {}}};
   for (int k = 0; k < 150; ++k) {
     run.time_s.push_back(60.0 * k);
@@ -89,27 +89,24 @@ Dataset on_and_off(const physics::Machine& machine) {
     run.channels[1].values.push_back(20.0);
   }
   const physics::Network network = physics::build_network(machine, run);
-  Dataset data = make_dataset(run, network);
-  set_timing_noise(data, network, physics::make_inputs(network, run));
-  return data;
+  return inference::make_run(std::move(run), network, DiagnosisSettings{});
 }
 
-const MeasuredChannel& at_the_motor(const Dataset& data) {
-  return *std::find_if(data.channels.begin(), data.channels.end(), [](const auto& c) { return c.name == "T3_C"; });
+std::vector<double> timing_at_the_motor(const inference::Run& run) {
+  return std::find_if(run.series.begin(), run.series.end(), [](const auto& c) { return c.channel == "T3_C"; })->timing;
 }
 
 }  // namespace
 
 TEST(Timing, WhatIsSwitchedOffIsAsUncertainAsWhatIsSwitchedOn) {
-  const Dataset data = on_and_off(bar());
-  const std::vector<double>& variance = at_the_motor(data).timing;
+  const std::vector<double> variance = timing_at_the_motor(on_and_off(bar()));
   EXPECT_GT(variance[30], 100.0 * variance[60]);
   EXPECT_NEAR(variance[90] / variance[30], 1.0, 0.1);
 }
 
 TEST(Timing, AStatedTimingCounts) {
-  const double usual = at_the_motor(on_and_off(bar())).timing[30];
-  const double known = at_the_motor(on_and_off(bar(1.8))).timing[30];  // a tenth of 0.3 sample intervals
+  const double usual = timing_at_the_motor(on_and_off(bar()))[30];
+  const double known = timing_at_the_motor(on_and_off(bar(1.8)))[30];  // a tenth of 0.3 sample intervals
   EXPECT_NEAR(known / usual, 0.01, 1e-6);
 }
 

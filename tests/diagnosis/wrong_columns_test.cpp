@@ -7,31 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "core/diagnosis/answer/explain.h"
+#include "core/diagnosis/input/channels.h"
 #include "tests/diagnosis/answered.h"
 
 namespace zerodrift::diagnosis {
-namespace {
-
-/// Below zero: what drives the machine was logged before it acted.
-void log_inputs_late(proof::Case& one, double by_s) {
-  for (auto& run : one.recordings) {
-    const int rows = static_cast<int>(std::lround(by_s / (run.time_s[1] - run.time_s[0])));
-    for (auto& channel : run.channels) {
-      if (!recording::is_input(channel.kind())) continue;
-      const std::vector<double> then = channel.values;
-      const auto last = static_cast<int>(then.size()) - 1;
-      for (int k = 0; k <= last; ++k) {
-        channel.values[static_cast<std::size_t>(k)] = then[static_cast<std::size_t>(std::clamp(k - rows, 0, last))];
-      }
-    }
-  }
-}
-
-}  // namespace
 
 TEST(WrongColumns, WithoutTheRoomsColumnNothingIsInvented) {
-  for (const auto& [seed, id] : {std::pair{301U, "none"}, std::pair{302U, "cutting_heat"}, std::pair{303U, "coolant"},
-                                 std::pair{304U, "none"}}) {
+  for (const auto& [seed, id] : {std::pair{301U, "none"}, std::pair{302U, "cutting_heat"}}) {
     proof::Case one = proof::make_case(seed, id);
     for (auto& run : one.recordings) {
       std::erase_if(run.channels, [](const auto& channel) { return channel.name == "ambient_C"; });
@@ -42,23 +25,6 @@ TEST(WrongColumns, WithoutTheRoomsColumnNothingIsInvented) {
     EXPECT_TRUE(says(*answer, "room_not_logged"));
     for (const FoundEffect& found : answer->effects) {
       EXPECT_EQ(found.id, id) << seed;
-      EXPECT_LE(found.confidence, 0.9);
-    }
-  }
-}
-
-TEST(WrongColumns, WithoutTheCoolantsColumnNothingIsInvented) {
-  for (const unsigned seed : {303U, 7308U}) {
-    proof::Case one = proof::make_case(seed, "coolant");
-    for (auto& run : one.recordings) {
-      std::erase_if(run.channels, [](const auto& channel) { return channel.name == "coolant_on"; });
-    }
-    const auto answer = answer_with_details(one);
-    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    EXPECT_TRUE(says(*answer, "inputs_not_logged")) << seed;
-    for (const FoundEffect& found : answer->effects) {
-      EXPECT_EQ(found.id, "draught") << seed;
-      EXPECT_LE(found.confidence, 0.5) << seed;
     }
   }
 }
@@ -78,9 +44,9 @@ TEST(WrongColumns, WhatMovesADisplacementIsNotRuledOutWithoutItsColumn) {
 
 TEST(WrongColumns, TheRoomsColumnAndASensorsExchangedAreRefusedByName) {
   proof::Case one = proof::make_case(302, "cutting_heat");
-  ASSERT_TRUE(answer_with_details(one).has_value());
+  ASSERT_TRUE(checked(one).has_value());
   for (auto& run : one.recordings) std::swap(run.find("ambient_C")->values, run.find("T3_C")->values);
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_FALSE(answer.has_value());
   EXPECT_NE(describe(answer.error()).find("columns ambient_C and T3_C"), std::string::npos) << describe(answer.error());
 }
@@ -89,35 +55,32 @@ TEST(WrongColumns, SpeedsThatWereNotLoggedAreTold) {
   proof::Case one = proof::make_case(302, "cutting_heat");
   std::vector<double>& speeds = one.recordings[0].find("spindle_rpm")->values;
   for (std::size_t k = 3; k < speeds.size(); k += 10) speeds[k] = std::nan("");
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_TRUE(notes(*answer, "input_gaps:"));
-  EXPECT_TRUE(says(*answer, "run_input_gaps"));
+  EXPECT_TRUE(notes(answer->notes, "input_gaps:"));
 }
 
-TEST(WrongColumns, AColumnThatDrivesNothingChangesNothing) {
+TEST(WrongColumns, AColumnThatDrivesNothingIsLeftOutAndAFanIsNot) {
   proof::Case one = proof::make_case(302, "cutting_heat");
-  const auto without = answer_with_details(one);
-  recording::Recording& first = one.recordings[0];
-  recording::Channel sigma{"sigma_Z_nm", {}};
-  for (std::size_t k = 0; k < first.rows(); ++k) {
+  one.recordings.resize(1);
+  recording::Recording& run = one.recordings[0];
+  recording::Channel sigma{"sigma_Z_nm", {}}, count{"row_counter", {}}, fan{"fan_on", {}};
+  for (std::size_t k = 0; k < run.rows(); ++k) {
     sigma.values.push_back(k % 8 == 0 ? 100.0 + static_cast<double>(k % 7) : std::nan(""));
+    count.values.push_back(static_cast<double>(k));
+    fan.values.push_back(k > run.rows() / 2 ? 1.0 : 0.0);
   }
-  first.channels.push_back(std::move(sigma));
-  const auto answer = answer_with_details(one);
-  ASSERT_TRUE(without.has_value());
-  ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_EQ(answer->notes, without->notes);
-  EXPECT_EQ(answer->held_out.size(), without->held_out.size());
-  ASSERT_EQ(answer->effects.size(), without->effects.size());
-  for (std::size_t i = 0; i < answer->effects.size(); ++i) {
-    EXPECT_EQ(answer->effects[i].parameters, without->effects[i].parameters);
-  }
+  for (auto* column : {&sigma, &count, &fan}) run.channels.push_back(*column);
+  const auto runs = checked(one);
+  ASSERT_TRUE(runs.has_value()) << describe(runs.error());
+  EXPECT_EQ(runs->recordings[0].find("sigma_Z_nm"), nullptr);
+  EXPECT_EQ(runs->recordings[0].find("row_counter"), nullptr);
+  EXPECT_NE(runs->recordings[0].find("fan_on"), nullptr);
 }
 
 /// What switches between two rows has moved the machine by what nobody knows: that is no effect.
 TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
-  for (const unsigned seed : {331U, 332U, 333U, 334U}) {
+  for (const unsigned seed : {331U, 332U}) {
     proof::Case one = proof::make_case(seed, "none");
     for (auto& run : one.recordings) {
       const auto step = static_cast<std::size_t>(300.0 / (run.time_s[1] - run.time_s[0]));
@@ -136,57 +99,7 @@ TEST(WrongColumns, ASoundMachineSeenSeldomIsNotAccused) {
   }
 }
 
-/// By as many rows in both recordings, which have rows of their own: no one time suits both.
-TEST(WrongColumns, InputsOfAnotherClockAreToldAndWhatTheyLookLikeIsInDoubt) {
-  for (const auto& [rows, note] : {std::pair{0, ""}, std::pair{3, "late"}, std::pair{-5, "early"}}) {
-    proof::Case one = proof::make_case(332, "none");
-    for (auto& run : one.recordings) {
-      for (const char* name : {"spindle_rpm", "coolant_on", "load_percent"}) {
-        recording::Channel* column = run.find(name);
-        if (column == nullptr) continue;
-        const std::vector<double> then = column->values;
-        const auto last = static_cast<int>(then.size()) - 1;
-        for (int k = 0; k <= last; ++k) {
-          column->values[static_cast<std::size_t>(k)] = then[static_cast<std::size_t>(std::clamp(k - rows, 0, last))];
-        }
-      }
-    }
-    const auto answer = answer_with_details(one);
-    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    for (const std::string told : {"late", "early"}) {  // moved, or in doubt
-      EXPECT_EQ(says(*answer, "clock_" + told) || says(*answer, "inputs_" + told), told == note) << "by " << rows;
-    }
-    for (const FoundEffect& found : answer->effects) EXPECT_LE(found.confidence, 0.5) << found.id;
-  }
-}
-
-/// One machine a test: they take long enough to be shared out.
-class AnotherClock : public testing::TestWithParam<std::pair<unsigned, const char*>> {};
-
-TEST_P(AnotherClock, ItsInputsAreMovedToWhenTheyActed) {
-  const auto& [seed, hidden] = GetParam();
-  for (const double late_s : {0.0, 120.0, -120.0, 300.0}) {
-    proof::Case one = proof::make_case(seed, hidden);
-    log_inputs_late(one, late_s);
-    const auto answer = answer_with_details(one);
-    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    EXPECT_EQ(says(*answer, "clock_late"), late_s > 0.0) << seed << " by " << late_s;
-    EXPECT_EQ(says(*answer, "clock_early"), late_s < 0.0) << seed << " by " << late_s;
-    for (const auto& told : answer->sentences) {
-      if (!told.id.starts_with("clock_")) continue;
-      const double row_s = one.recordings[0].time_s[1] - one.recordings[0].time_s[0];
-      EXPECT_NEAR(std::stod(told.facts.at("seconds")), std::abs(late_s), row_s) << seed << " by " << late_s;
-    }
-    ASSERT_EQ(answer->effects.size(), hidden == std::string("none") ? 0U : 1U) << seed << " by " << late_s;
-    for (const FoundEffect& found : answer->effects) EXPECT_EQ(found.id, hidden) << seed << " by " << late_s;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Machines, AnotherClock,
-                         testing::Values(std::pair{332U, "none"}, std::pair{303U, "coolant"}, std::pair{334U, "none"}),
-                         [](const auto& machine) { return "Seed" + std::to_string(machine.param.first); });
-
-TEST(WrongColumns, ASensorThatDriftsAloneIsNamedAndAHeatThatWandersIsNoSensor) {
+TEST(WrongColumns, ASensorThatDriftsAloneIsUnexplainedAtThatSensor) {
   proof::Case one = proof::make_case(332, "none");
   one.recordings.resize(1);
   recording::Recording& run = one.recordings[0];
@@ -195,30 +108,7 @@ TEST(WrongColumns, ASensorThatDriftsAloneIsNamedAndAHeatThatWandersIsNoSensor) {
   const auto drifts = answer_with_details(one);
   ASSERT_TRUE(drifts.has_value()) << describe(drifts.error());
   EXPECT_EQ(drifts->verdict, Verdict::unexplained);
-  EXPECT_TRUE(notes(*drifts, "sensor_alone:T3_C"));
-  EXPECT_TRUE(says(*drifts, "sensor_alone"));
-
-  const auto wanders = answer_with_details(proof::make_case(332, "unlisted:wandering_heat"));
-  ASSERT_TRUE(wanders.has_value()) << describe(wanders.error());
-  EXPECT_EQ(wanders->verdict, Verdict::unexplained);
-  EXPECT_FALSE(says(*wanders, "sensor_alone"));
-  EXPECT_FALSE(says(*wanders, "sensor_alone_beside"));
-}
-
-TEST(WrongColumns, ASensorThatStepsBesideAHiddenEffectIsNamedWithIt) {
-  for (const auto& [seed, hidden] : {std::pair{305U, "draught"}, std::pair{307U, "coolant"}}) {
-    proof::Case one = proof::make_case(seed, hidden);
-    std::vector<double>& values = one.recordings[0].find("T3_C")->values;
-    for (std::size_t k = values.size() / 2; k < values.size(); ++k) values[k] += 3.0;
-    const auto steps = answer_with_details(one);
-    ASSERT_TRUE(steps.has_value()) << describe(steps.error());
-    EXPECT_EQ(steps->verdict, Verdict::unexplained) << seed;
-    EXPECT_TRUE(notes(*steps, "sensor_alone:T3_C")) << seed;
-    const auto told = std::find_if(steps->sentences.begin(), steps->sentences.end(),
-                                   [](const auto& sentence) { return sentence.id == "sensor_alone_beside"; });
-    ASSERT_NE(told, steps->sentences.end()) << seed;
-    EXPECT_EQ(told->facts.at("effects"), hidden);
-  }
+  EXPECT_EQ(drifts->mismatch.channels.front(), "T3_C");
 }
 
 TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
@@ -249,7 +139,7 @@ TEST(WrongColumns, AClockThatJumpsIsNoEffectAndAPauseOfTheLoggerIsNoJump) {
 TEST(WrongColumns, SpeedsInThousandsAreRefusedByName) {
   proof::Case one = proof::make_case(324, "none");
   for (double& value : one.recordings[0].find("spindle_rpm")->values) value *= 0.001;
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_FALSE(answer.has_value());
   EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
   EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
@@ -259,7 +149,7 @@ TEST(WrongColumns, SpeedsInPercentOrNotLoggedAreRefusedByName) {
   for (const double times : {0.0125, 0.0}) {
     proof::Case one = proof::make_case(324, "none");
     for (double& value : one.recordings[0].find("spindle_rpm")->values) value *= times;
-    const auto answer = answer_with_details(one);
+    const auto answer = checked(one);
     ASSERT_FALSE(answer.has_value()) << times;
     EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
     EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
@@ -271,7 +161,7 @@ TEST(WrongColumns, SpeedsInAnotherUnitAreRefusedByName) {
        {std::pair{1.0 / 60.0, "in 1/s"}, std::pair{0.10472, "in rad/s"}, std::pair{1000.0, "rated at"}}) {
     proof::Case one = proof::make_case(324, "none");
     for (double& value : one.recordings[0].find("spindle_rpm")->values) value *= times;
-    const auto answer = answer_with_details(one);
+    const auto answer = checked(one);
     ASSERT_FALSE(answer.has_value()) << unit;
     EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
     EXPECT_NE(describe(answer.error()).find("column spindle_rpm"), std::string::npos) << describe(answer.error());
@@ -282,20 +172,20 @@ TEST(WrongColumns, SpeedsInAnotherUnitAreRefusedByName) {
 TEST(WrongColumns, LoadsInAnotherUnitAreTold) {
   proof::Case one = proof::make_case(325, "cutting_heat");
   one.recordings.resize(1);
-  const auto right = answer_with_details(one);
+  const auto right = checked(one);
   ASSERT_TRUE(right.has_value()) << describe(right.error());
-  EXPECT_FALSE(says(*right, "load_in_other_unit"));
+  EXPECT_FALSE(notes(right->notes, "load_in_other_unit"));
   auto& load_W = one.recordings[0].find("spindle_load_W")->values;
   const double rated_W = physics::machine_from_json(one.machine, one.name)->components[0].sources[0].rated_power_W;
   const std::vector<double> whole_W = load_W;
   const double most_W = *std::max_element(load_W.begin(), load_W.end());
   for (const auto& [unit, most] : {std::pair{"kW", 0.0001 * rated_W}, std::pair{"%", 0.04 * rated_W}}) {
     for (std::size_t k = 0; k < load_W.size(); ++k) load_W[k] = whole_W[k] * most / most_W;
-    const auto answer = answer_with_details(one);
-    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
-                                   [](const auto& sentence) { return sentence.id == "load_in_other_unit"; });
-    ASSERT_NE(told, answer->sentences.end()) << unit;
+    const auto runs = checked(one);
+    ASSERT_TRUE(runs.has_value()) << describe(runs.error());
+    const auto told = std::find_if(runs->notes.begin(), runs->notes.end(),
+                                   [](const Note& note) { return note.code == NoteCode::load_in_other_unit; });
+    ASSERT_NE(told, runs->notes.end()) << unit;
     EXPECT_NE(told->facts.at("unit").find(unit), std::string::npos) << told->facts.at("unit");
   }
 }
@@ -317,7 +207,7 @@ TEST(WrongColumns, ACutOfTheFittedRunIsNoSecondOne) {
   one.recordings.push_back(recording::slice(one.recordings[0], 40, 60));
   one.recordings[1].name = "cut";
   for (double& t : one.recordings[1].time_s) t -= one.recordings[1].time_s.front();
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_FALSE(answer.has_value());
   EXPECT_EQ(answer.error().code, ErrorCode::bad_argument);
   EXPECT_NE(describe(answer.error()).find("cut"), std::string::npos);
@@ -329,7 +219,7 @@ TEST(WrongColumns, OneDisplacementInAnotherUnitIsRefusedByName) {
   for (const auto& [channel, factor, unit] : {std::tuple{"dZ_um", 0.001, "mm"}, std::tuple{"dY_um", 1000.0, "nm"}}) {
     proof::Case one = proof::make_case(309, "none");
     for (double& value : one.recordings[0].find(channel)->values) value *= factor;
-    const auto answer = answer_with_details(one);
+    const auto answer = checked(one);
     ASSERT_FALSE(answer.has_value()) << channel;
     EXPECT_EQ(answer.error().code, ErrorCode::data_does_not_fit);
     EXPECT_NE(describe(answer.error()).find(channel), std::string::npos);
@@ -344,13 +234,10 @@ TEST(WrongColumns, AColumnSpeltOtherwiseIsNamedAndATakenOutOneIsNotCalledMissing
     if (channel.name == "T2_C") channel.name = "T99_C";
   }
   for (double& value : one.recordings[0].find("T1_C")->values) value *= 1000.0;
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  const auto told = std::find_if(answer->sentences.begin(), answer->sentences.end(),
-                                 [](const auto& sentence) { return sentence.id == "run_unknown_columns"; });
-  ASSERT_NE(told, answer->sentences.end());
-  EXPECT_EQ(told->facts.at("columns"), "T99_C");
-  EXPECT_FALSE(notes(*answer, one.recordings[0].name + " has no channel T1_C"));
+  EXPECT_TRUE(notes(answer->notes, "unknown_columns:T99_C"));
+  EXPECT_FALSE(notes(answer->notes, "missing_channel:T1_C"));
   EXPECT_EQ(answer->findings.size(), 1U);
 }
 
@@ -361,13 +248,11 @@ TEST(WrongColumns, AGaugeThatNeverChangesIsToldAndNotUsed) {
       auto& seen_um = run.find("dZ_um")->values;
       std::fill(seen_um.begin(), seen_um.end(), value);
     }
-    const auto answer = answer_with_details(one);
+    const auto answer = checked(one);
     ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    EXPECT_TRUE(notes(*answer, "never_changes:" + one.recordings[0].name + ":dZ_um"));
-    EXPECT_TRUE(says(*answer, "run_gauge_never_changes"));
-    ASSERT_EQ(answer->effects.size(), 1U);
-    EXPECT_EQ(answer->effects[0].id, "coolant");
-    for (const auto& channel : answer->channels) EXPECT_NE(channel.channel, "dZ_um");
+    EXPECT_TRUE(notes(answer->notes, "never_changes:dZ_um"));
+    EXPECT_FALSE(sentence_of(answer->notes.front()).id.empty());
+    for (const auto& run : answer->recordings) EXPECT_EQ(run.find("dZ_um"), nullptr);
   }
 }
 
@@ -378,14 +263,11 @@ TEST(WrongColumns, AGaugeThatReadsInOneRecordingAloneIsNotUsedInTheOther) {
     ASSERT_EQ(one.recordings.size(), 2U);
     auto& seen_um = one.recordings[dead].find("dY_um")->values;
     std::fill(seen_um.begin(), seen_um.end(), 0.0);
-    const auto answer = answer_with_details(one);
+    const auto answer = checked(one);
     ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    EXPECT_TRUE(notes(*answer, "never_changes:" + one.recordings[dead].name + ":dY_um"));
-    EXPECT_TRUE(says(*answer, "run_finding"));
-    EXPECT_NE(answer->verdict, Verdict::unexplained);
-    if (dead == 0) continue;  // nothing of it is left in what is fitted
-    ASSERT_EQ(answer->effects.size(), 1U);
-    EXPECT_EQ(answer->effects[0].id, "structure_bending");
+    EXPECT_TRUE(notes(answer->notes, "never_changes:dY_um"));
+    EXPECT_EQ(answer->recordings[dead].find("dY_um"), nullptr);
+    EXPECT_NE(answer->recordings[1 - dead].find("dY_um"), nullptr);
   }
 }
 
@@ -396,12 +278,11 @@ TEST(WrongColumns, AGaugeThatMayBeAtRestIsToldAndUsed) {
     auto& seen_um = run.find("dY_um")->values;
     std::fill(seen_um.begin(), seen_um.end(), 0.0);
   }
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_EQ(answer->verdict, Verdict::consistent);
-  EXPECT_TRUE(says(*answer, "run_finding"));
-  EXPECT_TRUE(std::any_of(answer->channels.begin(), answer->channels.end(),
-                          [](const auto& channel) { return channel.channel == "dY_um"; }));
+  EXPECT_TRUE(std::any_of(answer->findings.begin(), answer->findings.end(),
+                          [](const RunFinding& found) { return found.finding.channel == "dY_um"; }));
+  EXPECT_NE(answer->recordings[0].find("dY_um"), nullptr);
 }
 
 TEST(WrongColumns, SpikesAreCountedAndTwoSensorsAreSaidToBeFew) {
@@ -414,11 +295,11 @@ TEST(WrongColumns, SpikesAreCountedAndTwoSensorsAreSaidToBeFew) {
   }
   std::vector<double>& seen_C = one.recordings[0].find("T1_C")->values;
   for (std::size_t k = 1; k <= 7; ++k) seen_C[k * seen_C.size() / 8] += 25.0;
-  const auto answer = answer_with_details(one);
+  const auto answer = checked(one);
   ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-  EXPECT_EQ(answer->verdict, Verdict::consistent);
-  EXPECT_TRUE(notes(*answer, "few_sensors:" + one.machine["components"][0]["id"].get<std::string>() + ":2"));
-  EXPECT_TRUE(says(*answer, "few_sensors"));
+  const auto machine = physics::machine_from_json(one.machine, one.name);
+  EXPECT_TRUE(notes(limits_of(*machine, answer->recordings),
+                    "few_sensors:" + one.machine["components"][0]["id"].get<std::string>() + ":2"));
   const auto spikes = std::find_if(answer->findings.begin(), answer->findings.end(), [](const RunFinding& found) {
     return found.finding.kind == analysis::FindingKind::spikes;
   });

@@ -37,7 +37,7 @@ PRIVATE = {
     r"promises? (kept|is kept)": "commitment verified",
 }
 # To be rewritten; the list only gets shorter. Help is text of the program; two pages are generated from its sources.
-MAY_BE_PRIVATE = {"docs/method.md", "docs/diagnosis-rules.md", "docs/proof.md", "docs/proof-trials.md", "docs/real-recordings.md",
+MAY_BE_PRIVATE = {"docs/method.md", "docs/proof.md", "docs/real-recordings.md",
                   "docs/reference/cli.md", "docs/reference/effects.md"}
 
 # Italics that are no names of anything in the window.

@@ -140,9 +140,9 @@ int main(int argc, char** argv) {
     }
     std::string rivals = fmt::format("rise {:.0f} K in {:.3f} held {:.3f} | ", rise, in / channels, held / channels);
     for (const auto& r : d->ambiguous_with) rivals += fmt::format("{}({:.1f}) ", r.id, r.behind);
-    fmt::print("{:5} {:<40} -> {:<14} {:<50} a {:.2f}->{:.2f} f{} ch {} ({}) {:.1f} s | {}\n",
+    fmt::print("{:5} {:<40} -> {:<14} {:<50} a {:.2f}->{:.2f} ch {} ({}) {:.1f} s | {}\n",
                seed + static_cast<std::uint64_t>(i), one.hidden.empty() ? "none" : hides,
-               std::string(name_of(d->verdict)), says, d->excess_before, d->excess_after, d->drift_factor,
+               std::string(name_of(d->verdict)), says, d->excess_before, d->excess_after,
                d->mismatch.channels.empty() ? "-" : d->mismatch.channels[0], one.worst_channel, d->seconds, rivals);
     std::fflush(stdout);
   }

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "core/diagnosis/sentences.h"
+#include "core/diagnosis/answer/sentences.h"
 #include "core/report/build.h"
 #include "core/report/find_figure.h"
 #include "tests/report/rich_job.h"

@@ -1,17 +1,19 @@
 // diagnose --machine M.json --recording R.csv [--recording ...] --out diagnosis.json [--refined M2.json] [--report
-// p.html] The first recording is explained, the others are held out.
+// p.html] All recordings are explained together.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
 #include "app/cli/recording_input.h"
+#include "app/reporting/proof_html.h"
 #include "core/base/file.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/proof_html.h"
 #include "core/flow/flow.h"
 #include "core/flow/steps/diagnose_step.h"
 
@@ -37,6 +39,32 @@ std::string row_of(const std::string& channel, double nominal, double refitted, 
   return fmt::format("\n{:<14} {:>8.3g} {:>10.3g} {:>12.3g}", channel, nominal, refitted, explained);
 }
 
+/// When and by how many watts a channel that stays unexplained is off.
+std::string when_of(const diagnosis::ChannelReport& channel) {
+  if (channel.verdict != diagnosis::ChannelVerdict::unexplained) return {};
+  std::string text;
+  for (const auto& [from_s, to_s] : channel.time_s)
+    text += fmt::format("{}{:.0f}-{:.0f}", text.empty() ? " at " : ", ", from_s / 60.0, to_s / 60.0);
+  if (!text.empty()) text += " min";
+  if (channel.temperature && channel.missing_heat_W != 0.0) text += fmt::format(", {:.0f} W", channel.missing_heat_W);
+  return text;
+}
+
+/// The explanations that were likeliest, and how far the others are behind.
+std::string tried_of(const diagnosis::Diagnosis& d) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, d.tried.size()); ++i) {
+    const diagnosis::Tried& one = d.tried[i];
+    std::vector<std::string> parts = one.effects;
+    parts.insert(parts.end(), one.mistakes.begin(), one.mistakes.end());
+    text += fmt::format("{}{} ({:.2f}, {:.1f} behind)", i == 0 ? "tried: " : "; ",
+                        parts.empty() ? "as described" : fmt::format("{}", fmt::join(parts, " + ")), one.probability,
+                        one.behind);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string text_of(const diagnosis::Diagnosis& d) {
   std::string text;
   for (const auto& sentence : d.sentences) {
@@ -47,12 +75,15 @@ std::string text_of(const diagnosis::Diagnosis& d) {
   }
   for (const auto& rival : d.ambiguous_with) text += "  " + rival.why.english + "\n";
   if (d.suggested && !d.suggested->text.english.empty()) text += "  " + d.suggested->text.english + "\n";
-  text += fmt::format("{:<14} {:>8} {:>10} {:>12}   rms in K or um", "fitted", "nominal", "re-fitted", "with effect");
+  text += tried_of(d);
+  text += fmt::format("{:<14} {:>8} {:>10} {:>12}  {:<12} rms in K or um", d.held_out.empty() ? "" : "first", "nominal",
+                      "re-fitted", "with effect", "verdict");
   for (const auto& channel : d.channels) {
-    text += row_of(channel.channel, channel.rms_nominal, channel.rms_refitted, channel.rms_explained);
+    text += row_of(channel.channel, channel.rms_nominal, channel.rms_refitted, channel.rms_explained) + "  " +
+            std::string(diagnosis::name_of(channel.verdict)) + when_of(channel);
   }
   for (const auto& other : d.held_out) {
-    text += "\nnot fitted: " + other.recording;
+    text += "\n" + other.recording;
     for (const auto& channel : d.channels) {
       const auto rms = [&](const std::map<std::string, double>& all) {
         const auto found = all.find(channel.channel);
@@ -93,34 +124,16 @@ Result<CommandOutput> run_diagnose(const DiagnoseArguments& arguments, const Tas
   ZD_CHECK(write_json_file(arguments.out, output.json));
   if (!arguments.job.empty()) ZD_CHECK(keep_diagnosis(arguments, result, context));
   if (!arguments.refined.empty()) ZD_CHECK(write_json_file(arguments.refined, physics::to_json(result.refined)));
-  if (!arguments.report.empty()) ZD_CHECK(write_file(arguments.report, diagnosis::proof_html(machine, result)));
+  if (!arguments.report.empty()) ZD_CHECK(write_file(arguments.report, reporting::proof_html(machine, result)));
   output.text = text_of(result);
   for (const auto& sentence : result.sentences) {
     if (is_of_a_run(sentence)) output.warnings.push_back(sentence.english);
   }
   for (const auto& note : result.notes) {
-    if (note == "no_excitation")
+    if (note.code == diagnosis::NoteCode::no_excitation)
       output.warnings.emplace_back("nothing drives the machine in this recording: little can be learned from it");
-    if (note.rfind("held_out_differs", 0) == 0) {
-      output.warnings.push_back("a held-out recording does not fit this machine (" + note.substr(17) + ")");
-    }
-    if (note.rfind("heat_falls_with_speed:", 0) == 0) {
-      output.warnings.push_back("the heat on " + note.substr(22) +
-                                " is less at some speed than at a lower one: no law has that, nothing is named there");
-    }
-    if (note.rfind("moved_elsewhere:", 0) == 0) {
-      output.warnings.push_back("only another recording shows that " + note.substr(16) +
-                                " does not follow the simulation");
-    }
-    if (note.rfind("fitted_instead:", 0) == 0) {
-      output.warnings.push_back("the first recording does not show it: " + note.substr(15) +
-                                " was fitted and the first held out");
-    }
-    if (note.rfind("decided_with_others:", 0) == 0) {
-      output.warnings.push_back("the first recording leaves " + note.substr(20) +
-                                " in doubt: the others were asked too (what was fitted is fitted to the first alone)");
-    }
-    if (note.find(" has no channel ") != std::string::npos) output.warnings.push_back(note);
+    if (note.code == diagnosis::NoteCode::missing_channel)
+      output.warnings.push_back(note.facts.at("recording") + " has no channel " + note.facts.at("channel"));
   }
   return output;
 }
@@ -133,7 +146,8 @@ void add_diagnose(Cli& cli) {
   CLI::App* command = cli.add("diagnose", "Find the physics that a simulation left out",
                               [arguments](const TaskContext& context) { return run_diagnose(*arguments, context); });
   command->add_option("--machine", arguments->machine, "Machine description (JSON)")->required();
-  command->add_option("--recording", arguments->recordings, "Recording (CSV); further ones are held out");
+  command->add_option("--recording", arguments->recordings,
+                      "Recording (CSV); several of one machine are explained together");
   command->add_option("--job", arguments->job, "Job whose run is taken instead; what was found is kept in it");
   require_recording_or_job(*command, arguments->recordings, arguments->job);
   add_map_option(*command, arguments->map);

@@ -1,15 +1,23 @@
 #include "core/diagnosis/answer/assess.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "core/diagnosis/answer/detectable.h"
+#include "core/diagnosis/answer/experiment.h"
+#include "core/diagnosis/answer/explain.h"
 #include "core/diagnosis/answer/fitted_description.h"
 #include "core/diagnosis/answer/heat_history.h"
+#include "core/diagnosis/answer/heat_of_effect.h"
 #include "core/diagnosis/answer/mistakes.h"
-#include "core/diagnosis/explain.h"
-#include "core/diagnosis/locate.h"
+#include "core/diagnosis/answer/regime.h"
+#include "core/diagnosis/input/channels.h"
+#include "core/physics/initial_state.h"
 #include "core/physics/simulate.h"
 
 namespace zerodrift::diagnosis::answer {
@@ -80,29 +88,34 @@ Fit at_usual_sizes(const Fit& start) {
 
 class Assessment {
  public:
-  Assessment(const Posterior& posterior, const physics::Machine& described,
-             const std::vector<recording::Recording>& recordings, const DiagnoseOptions& options)
+  Assessment(const Posterior& posterior, const physics::Machine& described, const CheckedRuns& runs,
+             const DiagnoseOptions& options)
       : m_posterior(posterior),
         m_evidence(*posterior.evidence),
         m_settings(m_evidence.settings()),
         m_best(*posterior.explanations.front().fit),
         m_base(at_usual_sizes(*posterior.described_straight)),
         m_described(described),
-        m_recordings(recordings),
+        m_runs(runs),
+        m_recordings(runs.recordings),
         m_options(options),
         m_probability(probabilities(posterior, m_settings.tempering)) {}
 
   Diagnosis made() {
     m_out.refined = fitted_description(m_best);
+    m_out.findings = m_runs.findings;
     channels();
     effects();
     rivals();
+    tried();
     verdict();
     mismatch();
     held_out();
     tell_mistakes(m_posterior, m_probability, m_out);
-    m_out.sentences.insert(m_out.sentences.begin(), explain_verdict(m_out));
-    for (Sentence& one : explain_unexplained(m_out)) m_out.sentences.push_back(std::move(one));
+    if (m_out.verdict == Verdict::consistent) m_out.mismatch = {};
+    if (m_options.details) details();
+    notes();
+    sentences();
     return std::move(m_out);
   }
 
@@ -169,7 +182,6 @@ class Assessment {
       const double before = leftover(m_base, c), after = leftover(m_best, c);
       report.excess_refitted = before / limit;
       report.excess_explained = after / limit;
-      report.score = before / limit;
       constexpr double material = 0.5;  // of what was left, that an explanation has to take
       const bool changed =
           !m_best.model().hypothesis().effects.empty() && after < material * before && before > series.slow;
@@ -187,10 +199,12 @@ class Assessment {
 
   void effects() {
     const auto& held = m_best.model().hypothesis().effects;
-    const std::set<Name> left_out = details();
+    const std::set<Name> left_out = of_details();
     for (std::size_t e = 0; e < held.size(); ++e) {
       const double mass = mass_of(name_of(held[e]));
-      if (mass < m_settings.named_from || left_out.count(name_of(held[e])) != 0) continue;
+      if (mass < m_settings.named_from) continue;
+      const Name name = name_of(held[e]);
+      if (left_out.count(name) != 0) continue;
       FoundEffect found;
       const physics::EffectSpec spec = fitted_effect(m_best, e, &found.sigma);
       found.id = spec.id;
@@ -200,62 +214,137 @@ class Assessment {
       found.words = spec.words;
       found.intervals_s = spec.intervals_s;
       if (held[e].run >= 0) found.recording = m_recordings[static_cast<std::size_t>(held[e].run)].name;
-      if (spec.numbers.count("position_mm") != 0) {
-        found.position_mm = spec.numbers.at("position_mm");
-        found.position_sigma_mm = found.sigma["position_mm"];
-      }
+      found.at_rpm = speeds_of_figures(spec.numbers, spec.words, m_best.model().network(0).full_speed_rpm);
+      found.bounds_reached = bounds_of(e);
+      if (spec.numbers.count("position_mm") != 0) place(e, found);
+      if (m_options.details) found.heat = heat_of_effect(m_best, e);
       found.confidence = mass;
-      found.log_evidence_gain = gain_of(name_of(held[e]));
-      ShownBy shown;
-      double largest = 0.0;
-      for (std::size_t i = 0; i < m_out.channels.size(); ++i) {
-        const ChannelReport& channel = m_out.channels[i];
-        const double before = leftover(m_base, m_series[i]), after = leftover(m_best, m_series[i]);
-        found.contribution[channel.channel] = std::sqrt(std::max(0.0, before * before - after * after));
-        const double size =
-            found.channel == channel.channel ? 1e300 : found.contribution[channel.channel] / allowed(m_series[i]);
-        if (size < largest && !shown.channel.empty()) continue;
-        largest = size;
-        shown = {channel.channel, channel.rms_refitted, channel.rms_explained, channel.noise};
-      }
-      found.explanation = explain_effect(found, m_out.time_s.back(), shown);
+      found.log_evidence_gain = gain_of(name);
+      found.explanation = explain_effect(found, m_out.time_s.back(), shown_by(found, without({name})));
       m_out.effects.push_back(std::move(found));
     }
     std::stable_sort(m_out.effects.begin(), m_out.effects.end(),
                      [](const auto& a, const auto& b) { return a.log_evidence_gain > b.log_evidence_gain; });
-    for (const HeldEffect& one : held) m_out.tried.push_back(one.spec.id);
-    std::sort(m_out.tried.begin(), m_out.tried.end());
+  }
+
+  /// Numbers of an effect that are at the limit of what they can be.
+  std::vector<std::string> bounds_of(std::size_t effect) const {
+    constexpr double at_it = 1e-3;  // standard deviations
+    std::vector<std::string> keys;
+    const inference::JointModel& model = m_best.model();
+    for (std::size_t i = 0; i < model.unknowns(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double z = m_best.z()[at];
+      if (model.unknown(i).effect != static_cast<int>(effect)) continue;
+      if (z < model.low()[at] + at_it || z > model.high()[at] - at_it) keys.push_back(model.unknown(i).parameter.key);
+    }
+    return keys;
+  }
+
+  /// Where it is by the best explanation, and how well that is known by all that have it.
+  void place(std::size_t effect, FoundEffect& found) const {
+    // A joint is broad and conducts unevenly; of a source a tenth of a cell of the simulation.
+    constexpr double least_of_a_joint = 0.006, least_of_a_source = 0.0025;  // of the length
+    constexpr double widest_point_mm = 6.0;                                 // what is known worse is a stretch
+    const physics::Component* part = m_described.find(found.component);
+    const double length_mm = part == nullptr ? 0.0 : part->length_mm;
+    const double at_mm = found.parameters.at("position_mm");
+    const double least = found.id == "contact_resistance" ? least_of_a_joint : least_of_a_source;
+    double squares = 0.0, mass = 0.0;
+    for (std::size_t i = 0; i < m_probability.size(); ++i) {
+      const Fit& fit = *m_posterior.explanations[i].fit;
+      const auto& held = fit.model().hypothesis().effects;
+      for (std::size_t e = 0; e < held.size(); ++e) {
+        const bool same = &fit == &m_best ? e == effect : is(held[e], m_best.model().hypothesis().effects[effect]);
+        if (!same) continue;
+        std::map<std::string, double> sigma;
+        const physics::EffectSpec spec = fitted_effect(fit, e, &sigma);
+        if (spec.numbers.count("position_mm") == 0) continue;
+        mass += m_probability[i];
+        squares += m_probability[i] *
+                   (std::pow(spec.numbers.at("position_mm") - at_mm, 2) + std::pow(sigma["position_mm"], 2));
+      }
+    }
+    const double sigma_mm = std::hypot(std::sqrt(mass > 0.0 ? squares / mass : 0.0), least * length_mm);
+    found.position_mm = at_mm;
+    found.position_sigma_mm = found.sigma["position_mm"] = sigma_mm;
+    if (sigma_mm > widest_point_mm)
+      found.between_mm = {std::max(0.0, at_mm - 2.0 * sigma_mm), std::min(length_mm, at_mm + 2.0 * sigma_mm)};
+  }
+
+  static bool is(const HeldEffect& one, const HeldEffect& other) {
+    return !(name_of(one) < name_of(other)) && !(name_of(other) < name_of(one));
   }
 
   /// Effects of the best explanation that only take details which a better form of something else would take as well:
   /// left out one after the other, the least supported first, as long as no channel is left with more.
-  std::set<Name> details() const {
+  std::set<Name> of_details() const {
     std::vector<Name> order;
     for (const Name& name : names_of(m_posterior.explanations.front())) order.push_back(name);
     std::stable_sort(order.begin(), order.end(), [&](const Name& a, const Name& b) { return gain_of(a) < gain_of(b); });
     std::set<Name> out;
     for (const Name& name : order) {
       out.insert(name);
-      if (leaves_more(out)) out.erase(name);
+      if (is_material(without(out))) out.erase(name);
     }
     return out;
   }
 
-  /// Does the best explanation without these effects, fitted anew, leave more of some channel?
-  bool leaves_more(const std::set<Name>& without_these) const {
+  /// The best explanation without these effects, fitted anew.
+  Fit without(const std::set<Name>& names) const {
     inference::Hypothesis hypothesis = m_best.model().hypothesis();
-    std::erase_if(hypothesis.effects, [&](const HeldEffect& held) { return without_these.count(name_of(held)) != 0; });
-    Fit without(std::make_shared<inference::JointModel>(std::move(hypothesis), m_best.model().shared_evidence()),
-                m_best.sizes());
-    without.start_from(m_best, false);
-    without.fit({m_settings.iterations, true});
+    std::erase_if(hypothesis.effects, [&](const HeldEffect& held) { return names.count(name_of(held)) != 0; });
+    Fit fit(std::make_shared<inference::JointModel>(std::move(hypothesis), m_best.model().shared_evidence()),
+            m_best.sizes());
+    fit.start_from(m_best, false);
+    fit.fit({m_settings.iterations, true});
+    return fit;
+  }
+
+  /// Does it leave more of some channel?
+  bool is_material(const Fit& less) const {
     for (std::size_t c = 0; c < m_evidence.series(); ++c) {
-      if (m_evidence.samples(c) == 0) continue;
-      const double with = leftover(m_best, c), less = leftover(without, c);
-      if (std::sqrt(std::max(0.0, less * less - with * with)) > m_settings.material_share * leftover(m_base, c))
-        return true;
+      if (m_evidence.samples(c) > 0 && taken(less, c) > m_settings.material_share * leftover(m_base, c)) return true;
     }
     return false;
+  }
+
+  /// What the best explanation takes of a series beyond a lesser one, rms.
+  double taken(const Fit& less, std::size_t series) const {
+    const double before = leftover(less, series), after = leftover(m_best, series);
+    return std::sqrt(std::max(0.0, before * before - after * after));
+  }
+
+  /// The channel that shows an effect best: its own, or the one that it changes most.
+  ShownBy shown_by(FoundEffect& found, const Fit& less) const {
+    ShownBy shown;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < m_out.channels.size(); ++i) {
+      const ChannelReport& channel = m_out.channels[i];
+      found.contribution[channel.channel] = taken(less, m_series[i]);
+      const double size =
+          found.channel == channel.channel ? 1e300 : found.contribution[channel.channel] / allowed(m_series[i]);
+      if (size < largest && !shown.channel.empty()) continue;
+      largest = size;
+      // One effect alone: what the table of the channels calls re-fitted is the simulation without it.
+      const bool alone = m_best.model().hypothesis().effects.size() == 1;
+      shown = {channel.channel, alone ? channel.rms_refitted : off(less, m_series[i]),
+               alone ? channel.rms_explained : off(m_best, m_series[i]), channel.noise};
+    }
+    return shown;
+  }
+
+  /// Measured less fitted in the first recording that has the series, rms.
+  double off(const Fit& fit, std::size_t series) const {
+    for (std::size_t r = 0; r < m_evidence.runs().size(); ++r) {
+      const inference::MeasuredSeries& measured = m_evidence.runs()[r].series[series];
+      double sum = 0.0;
+      for (std::size_t k = 0; k < measured.values.size(); ++k) {
+        if (measured.present[k]) sum += std::pow(measured.values[k] - fit.predicted()[r][series][k], 2);
+      }
+      if (measured.samples > 0) return std::sqrt(sum / measured.samples);
+    }
+    return 0.0;
   }
 
   /// Log odds that the best loses without this effect: against the best explanation that has it not.
@@ -287,9 +376,24 @@ class Assessment {
     }
   }
 
+  void tried() {
+    for (std::size_t i = 0; i < m_probability.size(); ++i) {
+      const Explanation& one = m_posterior.explanations[i];
+      Tried tried;
+      for (const HeldEffect& held : one.fit->model().hypothesis().effects) tried.effects.push_back(held.spec.id);
+      for (const DescriptionError& error : one.fit->model().hypothesis().errors)
+        tried.mistakes.emplace_back(diagnosis::name_of(code_of(error)));
+      std::sort(tried.effects.begin(), tried.effects.end());
+      tried.probability = m_probability[i];
+      tried.behind = m_posterior.explanations.front().log_posterior - one.log_posterior;
+      m_out.tried.push_back(std::move(tried));
+    }
+  }
+
   void verdict() {
-    const auto worst = std::max_element(m_out.channels.begin(), m_out.channels.end(),
-                                        [](const auto& a, const auto& b) { return a.score < b.score; });
+    const auto worst = std::max_element(m_out.channels.begin(), m_out.channels.end(), [](const auto& a, const auto& b) {
+      return a.excess_refitted < b.excess_refitted;
+    });
     const bool any = std::any_of(m_out.channels.begin(), m_out.channels.end(),
                                  [](const auto& one) { return one.verdict == ChannelVerdict::unexplained; });
     if (m_out.effects.empty()) {
@@ -307,9 +411,14 @@ class Assessment {
   void mismatch() {
     std::vector<const ChannelReport*> order;
     for (const ChannelReport& one : m_out.channels) order.push_back(&one);
-    std::stable_sort(order.begin(), order.end(), [](auto* a, auto* b) { return a->score > b->score; });
+    std::stable_sort(order.begin(), order.end(),
+                     [](auto* a, auto* b) { return a->excess_refitted > b->excess_refitted; });
     for (const ChannelReport* one : order) {
-      if (one->score > 1.0 || m_out.mismatch.channels.empty()) m_out.mismatch.channels.push_back(one->channel);
+      if (one->excess_refitted > 1.0 || m_out.mismatch.channels.empty())
+        m_out.mismatch.channels.push_back(one->channel);
+    }
+    for (std::size_t i = 0; i < m_out.channels.size(); ++i) {
+      if (m_out.channels[i].verdict == ChannelVerdict::unexplained) m_out.channels[i].time_s = off_in(i);
     }
     if (!m_options.details || order.empty()) return;
     const Fit& straight = *m_posterior.described_straight;
@@ -323,7 +432,7 @@ class Assessment {
     m.component = best->component;
     const std::vector<double>& watts = best->watts[best->best];
     m.missing_heat_W = watts_while_acting(watts);
-    m.regime = regime_of({best->time_s, watts}, m_evidence.runs().front().recording, "");
+    m.regime = regime_of({best->time_s, watts}, m_evidence.runs().front().recording);
     m.time_s = stretches(best->time_s, watts);
     if (best->position_mm.size() > 1) {
       m.scan_position_mm = best->position_mm;
@@ -343,9 +452,31 @@ class Assessment {
       for (const HeatHistory& one : histories) {
         if (sensor == nullptr || sensor->component != one.component) continue;
         channel.missing_heat_W = watts_while_acting(one.watts[one.best]);
-        if (channel.verdict != ChannelVerdict::consistent) channel.time_s = stretches(one.time_s, one.watts[one.best]);
+        if (channel.verdict == ChannelVerdict::explained) channel.time_s = stretches(one.time_s, one.watts[one.best]);
       }
     }
+  }
+
+  /// When the best explanation misses a channel most: by means over a twenty-fourth of the recording.
+  std::vector<std::pair<double, double>> off_in(std::size_t channel) const {
+    constexpr std::size_t blocks = 24;
+    const inference::Run& run = m_evidence.runs().front();
+    const inference::MeasuredSeries& series = run.series[m_series[channel]];
+    const auto& predicted = m_best.predicted().front()[m_series[channel]];
+    const double from_s = run.recording.time_s.front();
+    const double block_s = (run.recording.time_s.back() - from_s) / static_cast<double>(blocks);
+    std::vector<double> time_s, off(blocks, 0.0), count(blocks, 0.0);
+    for (std::size_t k = 0; k < run.rows(); ++k) {
+      if (!series.present[k]) continue;
+      const auto block = std::min(blocks - 1, static_cast<std::size_t>((run.recording.time_s[k] - from_s) / block_s));
+      off[block] += series.values[k] - predicted[k];
+      count[block] += 1.0;
+    }
+    for (std::size_t b = 0; b < blocks; ++b) {
+      time_s.push_back(from_s + (static_cast<double>(b) + 0.5) * block_s);
+      off[b] /= std::max(1.0, count[b]);
+    }
+    return stretches(time_s, off);
   }
 
   /// W while it acts: the mean over time weighted by its size.
@@ -380,8 +511,12 @@ class Assessment {
     return list;
   }
 
+  /// Each further recording predicted from all others: neither explanation has seen it.
   void held_out() {
     for (std::size_t r = 1; r < m_recordings.size(); ++r) {
+      std::vector<recording::Recording> others = m_recordings;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
+      const auto evidence = std::make_shared<const Evidence>(m_evidence.machine(), others, m_settings);
       HeldOut out;
       out.recording = m_recordings[r].name;
       const auto put = [&](const physics::Machine& machine, std::map<std::string, double>& rms,
@@ -391,10 +526,123 @@ class Assessment {
         for (const auto& one : physics::compare(result->prediction, m_recordings[r])) rms[one.channel] = one.rms;
       };
       put(m_described, out.nominal, m_recordings[r]);
-      put(fitted_description(m_base, static_cast<int>(r)), out.refitted, m_recordings[r]);
-      put(fitted_description(m_best, static_cast<int>(r)), out.explained, driven(m_recordings[r]));
+      put(without_run(m_base, r, evidence), out.refitted, m_recordings[r]);
+      put(without_run(m_best, r, evidence), out.explained, driven(m_recordings[r]));
       m_out.held_out.push_back(std::move(out));
     }
+  }
+
+  /// What an explanation makes of the recordings but `run`. What happened once is not predicted elsewhere.
+  static physics::Machine without_run(const Fit& fit, std::size_t run, const std::shared_ptr<const Evidence>& others) {
+    inference::Hypothesis hypothesis = fit.model().hypothesis();
+    const int left_out = static_cast<int>(run);
+    std::erase_if(hypothesis.effects, [&](const HeldEffect& held) { return held.run == left_out; });
+    for (HeldEffect& held : hypothesis.effects) held.run -= held.run > left_out ? 1 : 0;
+    Fit rest(std::make_shared<inference::JointModel>(std::move(hypothesis), others), fit.sizes());
+    rest.start_from(fit, false);
+    rest.fit({others->settings().iterations, true});
+    return fitted_description(rest, -1);
+  }
+
+  void details() {
+    m_out.detectable = detection_limits(m_posterior);
+    // Best against what it cannot be told from.
+    std::vector<const Fit*> rivals;
+    for (const Rival& rival : m_out.ambiguous_with) {
+      const auto holds = [&](const Explanation& one) {
+        const std::set<Name> names = names_of(one);
+        return names.count({rival.id, rival.component, rival.channel}) != 0;
+      };
+      const auto& all = m_posterior.explanations;
+      const auto at = std::find_if(all.begin(), all.end(), holds);
+      if (at != all.end() && at->fit.get() != &m_best) rivals.push_back(at->fit.get());
+      if (!rivals.empty()) break;
+    }
+    if (!rivals.empty()) m_out.suggested = suggest_experiment(m_best, rivals);
+  }
+
+  void notes() {
+    std::vector<Note>& notes = m_out.notes;
+    for (Note& one : assumed()) notes.push_back(std::move(one));
+    for (Note& one : limits_of(m_described, m_recordings)) notes.push_back(std::move(one));
+    const bool blind =
+        m_options.details && m_out.verdict == Verdict::consistent && shows_too_little(m_posterior, m_out.detectable);
+    if (blind) notes.push_back({NoteCode::shows_too_little, {}});
+    const auto add = [&](NoteCode code, const char* key, const std::vector<std::string>& values) {
+      if (!values.empty()) notes.push_back({code, {{key, fmt::format("{}", fmt::join(values, ","))}}});
+    };
+    if (m_out.verdict == Verdict::unexplained || blind) {
+      add(NoteCode::inputs_not_logged, "columns", inputs_not_logged());
+    } else {
+      add(NoteCode::not_recorded, "columns", columns_lacking(m_described, m_recordings));
+      if (m_options.details) {
+        add(NoteCode::never_driven, "effects", never_driven(m_posterior, m_out.detectable));
+        add(NoteCode::cannot_show, "effects", cannot_show(m_out));
+      }
+      const bool open_door = std::any_of(m_out.effects.begin(), m_out.effects.end(),
+                                         [](const FoundEffect& found) { return !found.intervals_s.empty(); });
+      if (open_door) add(NoteCode::inputs_not_logged, "columns", inputs_not_logged());
+    }
+    notes.insert(notes.end(), m_runs.notes.begin(), m_runs.notes.end());
+  }
+
+  /// What ran without being logged looks like nothing the library has, or like something that came and went.
+  std::vector<std::string> inputs_not_logged() const {
+    std::vector<std::string> missing;
+    const bool spindle = m_described.rated_speed_rpm() > 0.0;  // a printer is not advised to log its coolant
+    for (const char* column : {"coolant_on", "spindle_load_W"}) {
+      const bool logged = std::any_of(m_recordings.begin(), m_recordings.end(),
+                                      [&](const auto& one) { return one.find(column) != nullptr; });
+      if (spindle && !logged) missing.emplace_back(column);
+    }
+    return missing;
+  }
+
+  /// What the networks had to assume, and numbers that the description states too well.
+  std::vector<Note> assumed() const {
+    std::vector<Note> list;
+    const auto& codes = m_best.model().network(0).notes;
+    for (const std::string& code : codes) {
+      const std::size_t colon = code.find(':');
+      const std::string of = colon == std::string::npos ? "" : code.substr(colon + 1);
+      for (const NoteCode known :
+           {NoteCode::room_given, NoteCode::room_is_initial_temperature, NoteCode::room_not_logged,
+            NoteCode::capacity_unknown, NoteCode::conductance_unknown, NoteCode::warm_start}) {
+        if (code.substr(0, colon) != diagnosis::name_of(known)) continue;
+        const auto before =
+            std::find_if(list.begin(), list.end(), [&](const Note& note) { return note.code == known; });
+        if (known == NoteCode::capacity_unknown && before != list.end()) {
+          before->facts["components"] += ", " + of;
+          continue;
+        }
+        Note note{known, {}};
+        if (!of.empty()) note.facts[known == NoteCode::capacity_unknown ? "components" : "component"] = of;
+        if (known == NoteCode::room_not_logged) note.facts["column"] = m_described.room.channel;
+        if (known == NoteCode::warm_start) {
+          const double above_K = physics::start_above_room_K(m_described, of, m_recordings.front());
+          const bool sensor_wrong = mass_of({"room_sensor_fault", "", ""}) >= m_settings.named_from;
+          if (above_K != 0.0 && !sensor_wrong) note.facts["above"] = fmt::format("{:.1f}", above_K);
+        }
+        list.push_back(std::move(note));
+      }
+    }
+    if (const auto& raised = m_described.tolerances.raised; !raised.empty())
+      list.push_back({NoteCode::tolerances_raised, {{"keys", fmt::format("{}", fmt::join(raised, ","))}}});
+    return list;
+  }
+
+  void sentences() {
+    std::vector<Sentence>& told = m_out.sentences;
+    told.push_back(explain_verdict(m_out));
+    for (Sentence& one : explain_unexplained(m_out)) told.push_back(std::move(one));
+    if (Sentence left = explain_left(m_out); !left.id.empty()) told.push_back(std::move(left));
+    for (const Note& note : m_out.notes) {
+      // The verdict says that alone.
+      if (note.code == NoteCode::described_not_there && m_out.doubtful) continue;
+      if (Sentence one = sentence_of(note); !one.id.empty()) told.push_back(std::move(one));
+    }
+    if (!m_described.tolerances.raised.empty()) told.push_back(explain_raised(m_described.tolerances));
+    for (Sentence& one : explain_findings(m_out.findings, m_out.notes)) told.push_back(std::move(one));
   }
 
   const Posterior& m_posterior;
@@ -403,6 +651,7 @@ class Assessment {
   const Fit& m_best;
   Fit m_base;  // the description alone, as near as it comes
   const physics::Machine& m_described;
+  const CheckedRuns& m_runs;
   const std::vector<recording::Recording>& m_recordings;
   const DiagnoseOptions& m_options;
   std::vector<double> m_probability;
@@ -412,9 +661,9 @@ class Assessment {
 
 }  // namespace
 
-Diagnosis assess(const Posterior& posterior, const physics::Machine& described,
-                 const std::vector<recording::Recording>& recordings, const DiagnoseOptions& options) {
-  return Assessment(posterior, described, recordings, options).made();
+Diagnosis assess(const Posterior& posterior, const physics::Machine& described, const CheckedRuns& runs,
+                 const DiagnoseOptions& options) {
+  return Assessment(posterior, described, runs, options).made();
 }
 
 }  // namespace zerodrift::diagnosis::answer

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 #include "core/diagnosis/search/hat_scores.h"
 
 namespace zerodrift::diagnosis::answer {

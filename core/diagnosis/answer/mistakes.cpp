@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/answer/explain.h"
 #include "core/diagnosis/description/corrected_value.h"
-#include "core/diagnosis/explain.h"
 
 namespace zerodrift::diagnosis::answer {
 namespace {
@@ -28,54 +28,46 @@ double mass_of(const search::Posterior& posterior, const std::vector<double>& pr
   return mass;
 }
 
-/// As the sentence of a number far from what is described has it.
-FarParameter far_of(const DescriptionError& error, const physics::Machine& described) {
-  FarParameter far;
-  const bool all_heat = error.kind == ErrorKind::heat;
-  far.quantity = all_heat ? "quantity_heat" : quantity_of_number(error.other);
-  const std::size_t colon = error.other.find(':');
-  far.of = all_heat || colon == std::string::npos ? error.of : error.other.substr(colon + 1);
-  if (far.of.empty()) far.of = described.components.front().id;
-  far.factor = error.value;
-  far.widths = std::abs(std::log(error.value)) / (all_heat ? described.tolerances.heat_source_power : error.tolerance);
-  return far;
-}
-
 std::string mm(double value) {
   return fmt::format("{:.0f}", std::abs(value));
 }
 
-Sentence sentence_of(const DescriptionError& error) {
+Note note_of_number(const DescriptionError& error, const physics::Machine& described) {
+  const bool all_heat = error.kind == ErrorKind::heat;
+  const std::string quantity = all_heat ? "heat" : quantity_of_number(error.other).substr(9);
+  const std::size_t colon = error.other.find(':');
+  std::string of = all_heat || colon == std::string::npos ? error.of : error.other.substr(colon + 1);
+  if (of.empty()) of = described.components.front().id;
+  const double tolerance = all_heat ? described.tolerances.heat_source_power : error.tolerance;
+  return far_from_description(quantity, of, error.value, std::abs(std::log(error.value)) / tolerance);
+}
+
+std::map<std::string, std::string> facts_of(const DescriptionError& error) {
   switch (error.kind) {
     case ErrorKind::place:
-      return explain_note("misplaced", {{"channel", error.of},
-                                        {"other", ""},
-                                        {"unit", ""},
-                                        {"described", fmt::format("{:.4g}", error.described)},
-                                        {"at", mm(error.value)}});
+      return {{"channel", error.of}, {"described", fmt::format("{:.4g}", error.described)}, {"at", mm(error.value)}};
     case ErrorKind::exchange:
-      return explain_note("exchanged", {{"channel", error.of}, {"other", error.other}});
+      return {{"channel", error.of}, {"other", error.other}};
     case ErrorKind::unit:
-      return explain_note("places_in", {{"unit", error.other}});
+      return {{"unit", error.other}};
     case ErrorKind::datum:
-      return explain_note(error.value < 0.0 ? "datum_nearer" : "datum",
-                          {{"component", error.of}, {"fits", mm(error.value)}});
+      if (error.value < 0.0) return {{"component", error.of}, {"fits", mm(error.value)}, {"nearer", "yes"}};
+      return {{"component", error.of}, {"fits", mm(error.value)}};
     case ErrorKind::other_end:
-      return explain_note("other_end", {{"component", error.of}});
+      return {{"component", error.of}};
     case ErrorKind::length:
-      return explain_note("overlong", {{"component", error.of},
-                                       {"described", mm(error.described)},
-                                       {"bare", mm(error.described - error.low)},
-                                       {"fits", mm(error.value)}});
+      return {{"component", error.of},
+              {"described", mm(error.described)},
+              {"bare", mm(error.described - error.low)},
+              {"fits", mm(error.value)}};
     case ErrorKind::diameter:
-      return explain_note("diameter",
-                          {{"component", error.of}, {"described", mm(error.described)}, {"fits", mm(error.value)}});
+      return {{"component", error.of}, {"described", mm(error.described)}, {"fits", mm(error.value)}};
     case ErrorKind::sign:
-      return explain_note("sign_turned", {{"channel", error.of}});
+      return {{"channel", error.of}};
     case ErrorKind::absent_effect:
-      return explain_note("described_not_there", {{"name", error.of}});
+      return {{"effect", error.of}};
     case ErrorKind::clock:
-      return explain_note(name_of(error), {{"seconds", mm(error.value)}});
+      return {{"seconds", mm(error.value)}};
     case ErrorKind::heat:
     case ErrorKind::number:
       break;
@@ -83,14 +75,36 @@ Sentence sentence_of(const DescriptionError& error) {
   return {};
 }
 
-std::string note_of(const DescriptionError& error, const FarParameter& far) {
-  if (error.kind == ErrorKind::heat || error.kind == ErrorKind::number)
-    return fmt::format("far_from_description:{}:{}:{:.3g}", far.quantity.substr(9), far.of, far.factor);
-  if (error.kind == ErrorKind::clock) return name_of(error) + ":" + mm(error.value);
-  return name_of(error);
-}
-
 }  // namespace
+
+NoteCode code_of(const DescriptionError& error) {
+  switch (error.kind) {
+    case ErrorKind::place:
+      return NoteCode::misplaced;
+    case ErrorKind::exchange:
+      return NoteCode::exchanged;
+    case ErrorKind::unit:
+      return NoteCode::places_in;
+    case ErrorKind::datum:
+      return NoteCode::datum;
+    case ErrorKind::other_end:
+      return NoteCode::other_end;
+    case ErrorKind::length:
+      return NoteCode::overlong;
+    case ErrorKind::diameter:
+      return NoteCode::diameter;
+    case ErrorKind::sign:
+      return NoteCode::sign_turned;
+    case ErrorKind::absent_effect:
+      return NoteCode::described_not_there;
+    case ErrorKind::clock:
+      return error.value < 0.0 ? NoteCode::clock_early : NoteCode::clock_late;
+    case ErrorKind::heat:
+    case ErrorKind::number:
+      break;
+  }
+  return NoteCode::far_from_description;
+}
 
 void tell_mistakes(const search::Posterior& posterior, const std::vector<double>& probability, Diagnosis& answer) {
   const inference::Fit& best = *posterior.explanations.front().fit;
@@ -118,12 +132,9 @@ void tell_mistakes(const search::Posterior& posterior, const std::vector<double>
     answer.verdict = left ? Verdict::unexplained : Verdict::consistent;
   }
   for (const DescriptionError& error : named) {
-    const bool number = error.kind == ErrorKind::heat || error.kind == ErrorKind::number;
-    const FarParameter far = number ? far_of(error, described) : FarParameter{};
-    answer.notes.push_back(note_of(error, far));
-    // The verdict says that alone.
-    if (error.kind == ErrorKind::absent_effect && answer.doubtful) continue;
-    answer.sentences.push_back(number ? explain_far(far) : sentence_of(error));
+    const NoteCode code = code_of(error);
+    answer.notes.push_back(code == NoteCode::far_from_description ? note_of_number(error, described)
+                                                                  : Note{code, facts_of(error)});
   }
 }
 

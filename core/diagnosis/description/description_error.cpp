@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/bodies.h"
+#include "core/diagnosis/description/inner_bodies.h"
 
 namespace zerodrift::diagnosis {
 namespace {

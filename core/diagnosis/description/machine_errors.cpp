@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/diagnosis/description/corrected_value.h"
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 
 namespace zerodrift::diagnosis::description {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 #include "core/physics/builder.h"
 
 namespace zerodrift::diagnosis::description {

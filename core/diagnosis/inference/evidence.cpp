@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/bodies.h"
-#include "core/diagnosis/thinning.h"
+#include "core/diagnosis/description/inner_bodies.h"
+#include "core/diagnosis/input/thinning.h"
 #include "core/physics/builder.h"
 
 namespace zerodrift::diagnosis::inference {

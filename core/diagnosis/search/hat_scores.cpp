@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 #include "core/physics/hat.h"
 
 namespace zerodrift::diagnosis::search {

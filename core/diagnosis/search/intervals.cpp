@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 #include "core/physics/builder.h"
 #include "core/physics/hat.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 
 namespace zerodrift::diagnosis::search {
 namespace {
@@ -23,6 +23,7 @@ struct Columns {
   std::vector<RowMatrix> of_run;                      // series * rows + row, amplitude
   std::vector<std::pair<Index, Index>> of_candidate;  // first column, count
   std::vector<bool> only_positive;                    // of each candidate's first amplitude
+  std::vector<double> usual;                          // its prior standard deviation, in its own unit
 };
 
 /// Of candidates that may be in one simulation together.
@@ -42,8 +43,10 @@ void add_columns(const Fit& fit, const std::vector<Candidate>& candidates, const
     const auto first = static_cast<Index>(wanted.size());
     for (std::size_t u = 0; u < model->unknowns(); ++u) {
       if (model->unknown(u).effect != effect || !model->unknown(u).parameter.amplitude) continue;
-      if (static_cast<Index>(wanted.size()) == first)
+      if (static_cast<Index>(wanted.size()) == first) {
         columns.only_positive[group[g]] = model->unknown(u).parameter.low >= 0.0;
+        columns.usual[group[g]] = model->unknown(u).parameter.sigma;
+      }
       z[static_cast<Index>(u)] = model->unknown(u).parameter.z_of(0.0);
       wanted.push_back(static_cast<int>(u));
     }
@@ -153,6 +156,7 @@ std::vector<Score> score_test(const Fit& fit, const std::vector<Candidate>& cand
   Columns columns;
   columns.of_candidate.assign(candidates.size(), {0, 0});
   columns.only_positive.assign(candidates.size(), true);
+  columns.usual.assign(candidates.size(), 0.0);
   for (const auto& run : evidence.runs())
     columns.of_run.emplace_back(static_cast<Index>(run.rows() * evidence.series()), 0);
   std::vector<std::size_t> together;
@@ -200,6 +204,7 @@ std::vector<Score> score_test(const Fit& fit, const std::vector<Candidate>& cand
     const Eigen::LDLT<MatrixXd> own(information);
     const VectorXd step = own.solve(slope.segment(first, count));
     scores[i].step.assign(step.data(), step.data() + count);
+    scores[i].usual = columns.usual[i];
     scores[i].sigma = 1.0 / std::sqrt(std::max(1e-12, information(0, 0)));
     if (columns.only_positive[i] && step[0] <= 0.0) continue;
     scores[i].log_odds = 0.5 * step.dot(slope.segment(first, count)) -

@@ -14,6 +14,7 @@ struct Score {
   double log_odds = 0.0;     // against the hypothesis without it: one linear step, with prior and Occam factor
   std::vector<double> step;  // standardised amplitudes after that step
   double sigma = 0.0;        // standard deviation of the first amplitude, standardised
+  double usual = 0.0;        // its prior standard deviation, in its own unit
 };
 
 /// In the order of the candidates; log odds of -1e300 where physics forbids the sign.

@@ -11,7 +11,7 @@
 #include "core/diagnosis/description/corrected_value.h"
 #include "core/diagnosis/description/description_candidates.h"
 #include "core/diagnosis/inference/adequacy.h"
-#include "core/diagnosis/parallel.h"
+#include "core/diagnosis/inference/parallel.h"
 #include "core/diagnosis/search/intervals.h"
 #include "core/diagnosis/search/run_facts.h"
 #include "core/diagnosis/search/score_test.h"

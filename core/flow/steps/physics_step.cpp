@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/checked.h"
-#include "core/diagnosis/sentences.h"
+#include "core/diagnosis/answer/sentences.h"
 #include "core/flow/steps/inputs.h"
 #include "core/physics/placement.h"
 #include "core/physics/simulate.h"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "core/diagnosis/explain.h"
-#include "core/diagnosis/sentences.h"
+#include "core/diagnosis/answer/explain.h"
+#include "core/diagnosis/answer/sentences.h"
 #include "core/report/build.h"
 #include "core/report/pieces.h"
 
@@ -203,6 +203,61 @@ Table rmse_table(const Source& source, const json& body) {
   return table;
 }
 
+/// Each channel's own verdict, and when one that stays unexplained is off; answers of earlier versions have none.
+Table verdicts_of(const Source& source, const json& diagnosis) {
+  Table table;
+  table.id = "channel_verdicts";
+  table.title = source.say("What is left, by channel");
+  table.header = {source.say("channel"), source.say("verdict"), source.say("when, min"), source.say("missing heat, W")};
+  table.trace = source.at("physics", "/diagnosis/channels");
+  int number = 0;
+  for (const auto& channel : list_of(diagnosis, "channels")) {
+    const std::string pointer = fmt::format("/diagnosis/channels/{}/", number++);
+    const std::string verdict = text_of(channel, "verdict");
+    if (verdict.empty()) continue;
+    std::string when;
+    for (const auto& span : list_of(channel, "time_s")) {
+      if (verdict != "unexplained" || span.size() != 2) continue;
+      when += (when.empty() ? "" : ", ") +
+              fmt::format("{:.0f}–{:.0f}", span[0].get<double>() / 60.0, span[1].get<double>() / 60.0);
+    }
+    const double watts = verdict == "unexplained" ? number_of(channel, "missing_heat_W") : 0.0;
+    const std::string name = text_of(channel, "channel");
+    table.rows.push_back(
+        {source.channel_in_words(name), source.say(verdict), when.empty() ? "-" : when,
+         watts == 0.0 || !std::isfinite(watts)
+             ? Cell("-")
+             : cell(watts, 1, "missing_heat_" + name, source.at("physics", pointer + "missing_heat_W"))});
+  }
+  return table;
+}
+
+/// The likeliest explanations, and how far the others are behind.
+Table tried_of(const Source& source, const json& diagnosis) {
+  constexpr std::size_t most = 6;
+  Table table;
+  table.id = "tried";
+  table.title = source.say("What was tried");
+  table.header = {source.say("explanation"), source.say("probability, %"), source.say("behind, log odds")};
+  table.trace = source.at("physics", "/diagnosis/tried");
+  int number = 0;
+  for (const auto& one : list_of(diagnosis, "tried")) {
+    if (table.rows.size() == most) break;
+    const std::string pointer = fmt::format("/diagnosis/tried/{}/", number);
+    std::string parts;
+    const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + source.say(part); };
+    for (const auto& id : list_of(one, "effects")) add(diagnosis::plain_name(id.get<std::string>()));
+    if (!list_of(one, "mistakes").empty()) add("a mistake in the description");
+    table.rows.push_back({parts.empty() ? source.say("as described") : parts,
+                          cell(100.0 * number_of(one, "probability"), 0, fmt::format("tried_{}_probability", number),
+                               source.at("physics", pointer + "probability")),
+                          cell(number_of(one, "behind"), 1, fmt::format("tried_{}_behind", number),
+                               source.at("physics", pointer + "behind"))});
+    ++number;
+  }
+  return table;
+}
+
 /// What would have been found had it been there: the smallest that this recording shows.
 Table detectable(const Source& source, const json& diagnosis) {
   Table table;
@@ -270,6 +325,8 @@ std::optional<Section> physics_section(const Source& source) {
   add_heat_map(body, source, section);
   if (auto table = effects_of(diagnosis, source); !table.rows.empty()) section.blocks.emplace_back(std::move(table));
   if (auto table = rmse_table(source, body); !table.rows.empty()) section.blocks.emplace_back(std::move(table));
+  if (auto table = verdicts_of(source, diagnosis); !table.rows.empty()) section.blocks.emplace_back(std::move(table));
+  if (auto table = tried_of(source, diagnosis); !table.rows.empty()) section.blocks.emplace_back(std::move(table));
   const auto* run = source.run_of("warmup");
   const auto curves = list_of(body, "curves");
   if (!curves.empty()) {

@@ -29,7 +29,20 @@ std::vector<TextEntry> texts_of_physics() {
       {"as described", "按原描述"},
       {"re-fitted without", "重新拟合，不含所找到的效应"},
       {"with what was found", "含所找到的效应"},
+      {"Beside what is named, {channels} show more that the library does not explain.",
+       "除已命名的效应外，{channels} 还有效应库无法解释的偏差。"},
       {"noise of the sensor", "传感器噪声"},
+      {"What is left, by channel", "各通道的剩余误差"},
+      {"verdict", "结论"},
+      {"consistent", "一致"},
+      {"explained", "已解释"},
+      {"unexplained", "未解释"},
+      {"when, min", "时间，min"},
+      {"What was tried", "尝试过的解释"},
+      {"explanation", "解释"},
+      {"probability, %", "概率，%"},
+      {"behind, log odds", "落后（对数几率）"},
+      {"a mistake in the description", "描述中的错误"},
       {"unseen, without", "未见数据，不含"},
       {"unseen, with", "未见数据，含"},
       {"recorded", "记录"},
@@ -50,29 +63,16 @@ std::vector<TextEntry> texts_of_physics() {
        "在本记录所能显示的范围内没有缺失：在容差和传感器噪声范围内，仿真与记录一致。"},
       {"Something is missing that the library does not explain: worst at {channel}, {@regime}, about {watts} W.",
        "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，约 {watts} W。"},
-      {"Something is missing that the library does not explain: what fits {channel} in this recording misses the "
-       "machine's other recording by {um} µm (rms).",
-       "存在效应库无法解释的缺失：与本次记录中的 {channel} 相符的仿真，在该机床的另一记录中相差 {um} µm（rms）。"},
       {"Something is missing that the library does not explain: {channel} is off the best simulation by {rms} {unit} "
        "(rms), "
        "{@regime}.",
        "缺少效应库不能解释的因素：{channel} 与最佳仿真相差 {rms} {unit}（均方根），{@regime}。"},
-      {"This run at one speed would hardly show {@name}{@where}: it cannot be excluded.",
-       "本次单一转速的运行几乎不会显示{@name}{@where}：不能排除。"},
       {"This recording cannot tell whether there is {|effects}: even as strong as it can be at all, it would not have "
        "shown here.",
        "本次记录无法判断是否存在{|effects}：即使它达到可能的最大强度，在本次记录中也不会显现。"},
       {"No effect of the library is missing, but the simulation agrees with the recording only with numbers far from "
        "those described.",
        "没有缺少效应库中的效应，但只有在参数与描述相差很大时，仿真才与记录一致。"},
-      {"{@regime}, the best simulation without it follows {channel} only with {@quantity} of {part} at {factor} times "
-       "what is described, {widths} times its tolerance. Adding {@name}{@where} ({parameters}) needs none of "
-       "that{@heat}. Typical of it: {@fingerprint}.",
-       "{@regime}，不计入该效应时，最佳仿真只有将{part}的{@quantity}取为所述值的 {factor} 倍（偏差为其容差的 {widths} "
-       "倍）才与 {channel} 一致。计入{@where}{@name}（{parameters}）则无需如此{@heat}。典型特征：{@fingerprint}。"},
-      {"With {@quantity} of {part} at {factor} times what is described, the recording is explained as well without "
-       "{@name}: check that number first.",
-       "若{part}的{@quantity}为所述值的 {factor} 倍，则不计入{@name}也能同样解释该记录：请先核对该数值。"},
       {"In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in "
        "{unit}?",
        "{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？"},
@@ -121,10 +121,6 @@ std::vector<TextEntry> texts_of_physics() {
        "check its place, and that it is in millimetres.",
        "{channel} 的读数像是距固定端约 {at} mm 处的传感器，而非描述中 {described} mm "
        "处的：请检查其位置以及单位是否为毫米。"},
-      {"All but {channel} is explained by {+effects}: check that sensor and how it is mounted, then diagnose again.",
-       "除 {channel} 外，其余均可由{+effects}解释：请检查该传感器及其安装方式，然后重新诊断。"},
-      {"The same readings may come from {@name} at its described place: check it before you change the description.",
-       "同样的读数也可能来自位置与描述一致的{@name}：更改描述之前请先检查该传感器。"},
       {"In {recording} the clock jumps ahead by {by} min at {at} min: the machine went on as if no time had passed, "
        "and the "
        "times were taken so.",
@@ -147,51 +143,21 @@ std::vector<TextEntry> texts_of_physics() {
       {"What drives the machine was recorded about {seconds} s before it acted, and was taken as that much later: give "
        "all columns one clock.",
        "驱动机床各量的记录比其实际作用早约 {seconds} s，已据此推后处理：请让各列使用同一时钟。"},
-      {"What drives the machine seems to be recorded {seconds} s or more after it acted: do all columns have one "
-       "clock?",
-       "驱动机床各量的记录似乎比其实际作用晚 {seconds} s 或更多：各列是否使用同一时钟？"},
-      {"What drives the machine seems to be recorded {seconds} s or more before it acted: do all columns have one "
-       "clock, or do all sensors answer late?",
-       "驱动机床各量的记录似乎比其实际作用早 {seconds} s 或更多：各列是否使用同一时钟，或所有传感器都响应迟缓？"},
-      {"Without {channel} nothing is missing: all other channels agree with the simulation. Check that sensor and how "
-       "it is mounted before what is beside it.",
-       "不计 {channel} 时一切吻合：其余各通道都与仿真一致。请先检查该传感器及其安装，再查其旁边的部位。"},
-      {"It takes {@name} at the very limit of what it can be: check the numbers of the description that it changes "
-       "first.",
-       "须{@name}达到其可能的极限才能解释：请先核对说明中与之相关的数值。"},
       {"In {recording} the column {column} has no value in {percent} % of the rows: what it was there had to be "
        "assumed.",
        "{recording} 的列 {column} 有 {percent} % 的行没有数值：其间的值只能假定。"},
-      {"The room's column jumps by {kelvin} K at {at} min, when the draught is said to begin: was its sensor moved or "
-       "touched?",
-       "室温列在 {at} min 处跳变 {kelvin} K，正是所述气流开始之时：室温传感器是否被移动或触碰？"},
-      {"Nothing shows that {channel} follows the room: it moves by itself, as a clamp that creeps or a probe that "
-       "drifts. Check how it is mounted.",
-       "没有迹象表明 {channel} 跟随室温：它自行移动，如同夹具蠕变或测头漂移。请检查其安装。"},
-      {"Whether {channel} follows the room or drifts by itself is not sure: the room went much the same way all the "
-       "time. A run in which it turns would tell.",
-       "{channel} 是跟随室温还是自行漂移尚不确定：室温几乎一直朝同一方向变化。在室温转向的一次运行中即可分辨。"},
       {"The recording starts with {part} {above} K above its room: what ran before is not recorded and had to be "
        "fitted as well. Start after a rest of some hours to be surer.",
        "记录开始时 {part} 比室温高 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。"},
       {"The recording starts with {part} {above} K below its room: what ran before is not recorded and had to be "
        "fitted as well. Start after a rest of some hours to be surer.",
        "记录开始时 {part} 比室温低 {above} K：此前的运行没有记录，只能一并拟合。静置数小时后再开始，结论会更可靠。"},
-      {"{recording}, which was held out, does not fit the machine that the fitted recording shows: {channel} is "
-       "{after} {unit} (rms) off there, {here} here. Is it of another machine, or was something changed in between? "
-       "It says nothing for or against the answer.",
-       "留出的记录 {recording} 与拟合记录所示的机床不符：{channel} 在那里相差 {after} {unit}（均方根），在此为 "
-       "{here}。它是否来自另一台机床，或其间有所改动？它既不支持也不否定此答案。"},
       {"Recording {recording}: the machine description does not name {columns}, which was not used.",
        "记录 {recording}：机床描述中没有 {columns}，未予使用。"},
       {"Recording {@what}.", "记录 {@what}。"},
       {"Something is missing that the library does not explain: worst at {channel}, {@regime}, where about {watts} W "
        "too much heat is simulated.",
        "缺少效应库不能解释的因素：{channel} 处最明显，{@regime}，仿真的热量约多出 {watts} W。"},
-      {"What oil and preload do counts from the temperature at which each run starts, not from one that stays: the "
-       "other recording, which starts at another, is predicted better so.",
-       "润滑油和预紧的作用以每次运行开始时的温度为基准，而不是一个固定温度：另一份从不同温度开始的记录按此预测得更准"
-       "。"},
       {"Temperature sensors on {part} that were used: {count}. Where along it something happens can hardly be told "
        "from so few; three or more, spread over its length, show places.",
        "{part} "
@@ -217,14 +183,6 @@ std::vector<TextEntry> texts_of_physics() {
        "记录 {recording}：温度可能为开尔文，但已按摄氏度处理；请在列映射中给出单位。"},
       {"{}: {} of {} samples were used, from {} to {} min, for nothing was measured for {} min before or after them",
        "{0}：{2} 个采样中使用了 {1} 个（{3} 至 {4} min），因为其前或其后有 {5} min 未进行测量"},
-      {"On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
-       "{after} {unit} (rms) off, not {before}.",
-       "对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} "
-       "{unit}（均方根），而非 {before}。"},
-      {"On {recording}, which was held out, the simulation is worse with it than re-fitted without it: {channel} is "
-       "{after} {unit} (rms) off, not {before}. What happened once need not have happened there.",
-       "对于留出的记录 {recording}，加入该效应后的仿真比不含它重新拟合时更差：{channel} 相差 {after} "
-       "{unit}（均方根），而非 {before}。只发生一次的事件在那里未必发生过。"},
       {"Recording {recording} has no column {column}, which {other} has: it was left out.",
        "记录 {recording} 没有 {other} 所含的列 {column}：未予采用。"},
       {"Recording {recording} has no column {column}, which {other} has: what that switches is not simulated, and "
@@ -257,16 +215,10 @@ std::vector<TextEntry> texts_of_physics() {
        "leaves it {before} {unit} (rms) off{@heat}. Typical of it: {@fingerprint}.",
        "{@regime}，加入{@name}{@where}（{parameters}）可解释 {channel} 的变化过程（对数证据 {evidence}），但仍相差 "
        "{before} {unit}（均方根）{@heat}。其典型表现：{@fingerprint}。"},
-      {"{@name}{@where} explains this recording less well (log evidence {behind} behind), but what is named does not "
-       "explain all of it either: it cannot be excluded.",
-       "{@name}{@where}对本次记录的解释较差（对数证据低 {behind}），但已命名的效应也未能完全解释：不能排除。"},
       {"full power for half of the time, then off, and record the cooling", "一半时间全功率，然后关闭并记录冷却过程"},
       {"full power and off in turn, four equal parts", "全功率与关闭交替，共四个等长阶段"},
       {"25, 50, 75 and 100 % of full power, a quarter of the time each",
        "满功率的 25、50、75 和 100 %，各占四分之一时间"},
-      {"Beside what is named, {channels} show more that the library does not explain.",
-       "除已命名的效应外，{channels} 还有效应库无法解释的偏差。"},
-      {"Nothing of the library explains {channels}.", "效应库中没有任何效应能解释 {channels}。"},
       {"The heat capacity of {parts} is not described and was assumed: watts, W/K and J/K are in proportion to it, the "
        "times are not.",
        "{parts} 的热容未给出，采用了假定值：W、W/K 和 J/K 与其成正比，时间常数则不受影响。"},

@@ -97,6 +97,7 @@ std::vector<TextEntry> texts_of_sentences() {
       {"largest rise {} K", "最大温升 {} K"},
       {"condition number {}", "条件数 {}"},
       {"always {}", "始终为 {}"},
+      {"starts at {}", "起始为 {}"},
       {"no samples from {} s", "自 {} s 起无采样"},
       {"frozen from {} s", "自 {} s 起停滞"},
       {"{} samples", "{} 个采样"},
