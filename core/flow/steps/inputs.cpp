@@ -48,10 +48,41 @@ Status same_machine(const commissioning::Job& job, const std::string& step, std:
   return {};
 }
 
-std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {
+namespace {
+
+std::map<std::string, std::string> assigned(const nlohmann::json& warmup, const char* what) {
+  std::map<std::string, std::string> out;
+  const auto how = warmup.find("import");
+  if (how == warmup.end() || !how->is_object()) return out;
+  for (const auto& column : how->value("columns", nlohmann::json::array())) {
+    const std::string value = column.value(what, "");
+    if (!value.empty()) out[column.value("channel", "")] = value;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> assigned_axes(const nlohmann::json& warmup) {
+  return assigned(warmup, "axis");
+}
+
+std::map<std::string, std::string> assigned_locations(const nlohmann::json& warmup) {
+  return assigned(warmup, "location");
+}
+
+std::string error_by_axis(const std::string& channel, const std::map<std::string, std::string>& axes) {
+  const auto at = axes.find(channel);
+  return at == axes.end() ? channel : "d" + at->second + "_um";
+}
+
+std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run,
+                                             const std::map<std::string, std::string>& axes) {
   std::map<std::string, ErrorSize> sizes;
   for (const auto& channel : run.channels) {
-    if (channel.kind() != recording::ChannelKind::error || channel.name.size() < 2 || channel.name[0] != 'd') continue;
+    if (channel.kind() != recording::ChannelKind::error) continue;
+    const std::string name = error_by_axis(channel.name, axes);
+    if (name.size() < 2 || name[0] != 'd') continue;
     ErrorSize size;
     double squares = 0.0;
     double count = 0.0;
@@ -66,7 +97,7 @@ std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {
     }
     if (count == 0.0) continue;
     size.rms_um = std::sqrt(squares / count);
-    sizes[channel.name.substr(1, channel.name.find('_') - 1)] = size;
+    sizes[name.substr(1, name.find('_') - 1)] = size;
   }
   return sizes;
 }

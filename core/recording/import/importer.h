@@ -28,6 +28,8 @@ struct ColumnFate {
   std::string unit_from;  // "name", "units-row", "block", "map"; empty: no unit is known
   double scale = 1.0;     // channel = scale * value + offset
   double offset = 0.0;
+  std::string axis;                    // that a displacement or tilt is of, by the map
+  std::string location;                // of the sensor, by the map
   std::string proposal;                // a channel that it may be; never taken by itself
   std::map<std::string, int> missing;  // words for missing samples, and how often
 };
