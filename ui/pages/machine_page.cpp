@@ -43,6 +43,7 @@ MachinePage::MachinePage(QWidget* parent) : Page("machine", parent) {
   m_views = new QStackedWidget(this);
   m_start = new MachineStart(this);
   connect(m_start, &MachineStart::newJobRequested, this, &MachinePage::newJobRequested);
+  connect(m_start, &MachineStart::ownRecordingRequested, this, &MachinePage::ownRecordingRequested);
   connect(m_start, &MachineStart::openJobRequested, this, &MachinePage::openJobRequested);
   connect(m_start, &MachineStart::sampleRequested, this, &MachinePage::sampleRequested);
   connect(m_start, &MachineStart::virtualMachineRequested, this, &MachinePage::virtualMachineRequested);

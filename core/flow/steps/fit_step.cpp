@@ -52,7 +52,7 @@ json number(double value) {
 Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, const std::string& alternative,
                                                const controller::Profile& profile, bool has_machine, const json& warmup,
                                                std::vector<commissioning::ArtefactId> inputs) {
-  const auto table = table_of_model(model, profile, warmup);
+  const auto table = compensation::table_from_model(by_axes(model, warmup), controller::table_options(profile));
   // A job from files only may have errors of any name: without a controller nothing asks for a table.
   if (!table && has_machine) return fail(table.error());
   json figures = json::array();
@@ -83,11 +83,27 @@ Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, con
 
 }  // namespace
 
-Result<compensation::Table> table_of_model(analysis::Model model, const controller::Profile& profile,
-                                           const json& warmup) {
+analysis::Model by_axes(analysis::Model model, const json& warmup) {
   const auto axes = assigned_axes(warmup);
+  for (auto& error : model.errors) error.error = error_by_axis(error.error, axes);
   for (auto& error : model.table) error.error = error_by_axis(error.error, axes);
-  return compensation::table_from_model(model, controller::table_options(profile));
+  return model;
+}
+
+Result<compensation::Table> table_of_job(const commissioning::Job& job) {
+  ZD_TRY(const auto artefact, job.latest("model"));
+  if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
+  ZD_TRY(auto model, model_of(*artefact));
+  ZD_TRY(const Input warmup, need(job, "upload", "warmup"));
+  ZD_TRY(const auto machine, job.latest("machine"));
+  controller::Profile profile;
+  if (machine) {
+    ZD_TRY(profile, profile_of(job, "upload"));
+  } else {
+    ZD_TRY(const auto header, job.header());
+    profile.name = header.machine;
+  }
+  return compensation::table_from_model(by_axes(std::move(model), warmup.body), controller::table_options(profile));
 }
 
 Result<analysis::Model> model_of(const commissioning::Artefact& artefact) {

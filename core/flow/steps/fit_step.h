@@ -31,9 +31,12 @@ Result<FitStepOptions> fit_asked_for(const commissioning::Job& job);
 /// the run does not excite stays as it was.
 Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, const recording::Recording& run);
 
-/// The table of a model, by the axes that the warm-up run's channels are of (body of the artefact "warmup").
-Result<compensation::Table> table_of_model(analysis::Model model, const controller::Profile& profile,
-                                           const nlohmann::json& warmup);
+/// The model with its errors called by the axes that the channels of the warm-up run are of (body of the artefact
+/// "warmup"): what a table and the host compensator are made from.
+analysis::Model by_axes(analysis::Model model, const nlohmann::json& warmup);
+
+/// The table of the job's latest model. step_blocked without one.
+Result<compensation::Table> table_of_job(const commissioning::Job& job);
 
 /// The model of an artefact "model".
 Result<analysis::Model> model_of(const commissioning::Artefact& artefact);

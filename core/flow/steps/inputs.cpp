@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/json.h"
+#include "core/recording/import/importer.h"
 
 namespace zerodrift::flow {
 
@@ -48,27 +49,8 @@ Status same_machine(const commissioning::Job& job, const std::string& step, std:
   return {};
 }
 
-namespace {
-
-std::map<std::string, std::string> assigned(const nlohmann::json& warmup, const char* what) {
-  std::map<std::string, std::string> out;
-  const auto how = warmup.find("import");
-  if (how == warmup.end() || !how->is_object()) return out;
-  for (const auto& column : how->value("columns", nlohmann::json::array())) {
-    const std::string value = column.value(what, "");
-    if (!value.empty()) out[column.value("channel", "")] = value;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::map<std::string, std::string> assigned_axes(const nlohmann::json& warmup) {
-  return assigned(warmup, "axis");
-}
-
-std::map<std::string, std::string> assigned_locations(const nlohmann::json& warmup) {
-  return assigned(warmup, "location");
+  return recording::assigned_in(warmup.value("import", nlohmann::json())).axes;
 }
 
 std::string error_by_axis(const std::string& channel, const std::map<std::string, std::string>& axes) {

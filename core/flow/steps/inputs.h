@@ -38,10 +38,9 @@ struct ErrorSize {
 std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run,
                                              const std::map<std::string, std::string>& axes = {});
 
-/// What the map of an imported run says of its channels (body of the artefact "warmup"): the axis of each displacement
-/// that is not called by it, the location of each sensor.
+/// The axis of each displacement that is not called by it, as the map of an imported run says (body of the artefact
+/// "warmup").
 std::map<std::string, std::string> assigned_axes(const nlohmann::json& warmup);
-std::map<std::string, std::string> assigned_locations(const nlohmann::json& warmup);
 /// What an assigned axis is called in a table: "dZ_um" for Z; the channel's own name where none is assigned.
 std::string error_by_axis(const std::string& channel, const std::map<std::string, std::string>& axes);
 

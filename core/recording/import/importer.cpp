@@ -453,6 +453,19 @@ nlohmann::json map_of(const Imported& imported, const HeaderMap& given) {
   return out;
 }
 
+Assigned assigned_in(const nlohmann::json& kept) {
+  Assigned out;
+  if (!kept.is_object()) return out;
+  for (const auto& column : kept.value("columns", nlohmann::json::array())) {
+    const std::string channel = column.value("channel", "");
+    if (channel.empty()) continue;
+    out.channels.push_back(channel);
+    if (column.contains("axis")) out.axes[channel] = column.value("axis", "");
+    if (column.contains("location")) out.locations[channel] = column.value("location", "");
+  }
+  return out;
+}
+
 nlohmann::json to_json(const Imported& imported) {
   nlohmann::json columns = nlohmann::json::array();
   nlohmann::json all_missing = nlohmann::json::object();

@@ -48,6 +48,13 @@ Result<Imported> import_file(const std::filesystem::path& path, const HeaderMap&
 
 /// The map that reads such a file again the same way, each column named; with proposals beside.
 nlohmann::json map_of(const Imported& imported, const HeaderMap& given);
+/// What the map said of the channels of an import that was kept as to_json().
+struct Assigned {
+  std::map<std::string, std::string> axes;       // channel of a displacement or tilt -> X, Y, Z, A, B
+  std::map<std::string, std::string> locations;  // channel -> where its sensor is
+  std::vector<std::string> channels;             // all of them
+};
+Assigned assigned_in(const nlohmann::json& kept);
 /// {"encoding", "separator", "decimal", "time": {...}, "columns": [...]}; warnings are the caller's to put into words.
 nlohmann::json to_json(const Imported& imported);
 
