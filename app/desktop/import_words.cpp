@@ -121,7 +121,8 @@ void fill_from_rule(const HeaderMap& map, const ImportReading& reading, std::siz
 void fill_unread(const HeaderMap& map, const ImportReading& reading, std::size_t at, ImportColumn& column) {
   const auto& times = map.time.columns;
   const auto* rule = map.rule_for(reading.names[at], {}, at);
-  if (std::find(times.begin(), times.end(), reading.keys[at]) != times.end()) {
+  const bool read = std::find(reading.times.begin(), reading.times.end(), at) != reading.times.end();
+  if (read || std::find(times.begin(), times.end(), reading.keys[at]) != times.end()) {
     column.role = ImportRole::time;
   } else if (rule != nullptr && *rule) {
     column.channel = QString::fromStdString((*rule)->channel);
@@ -201,6 +202,9 @@ ImportReading read_for_import(const std::string& bytes, const std::string& file,
     for (std::size_t c = 0; c < table->columns(); ++c) row.emplace_back(table->cell(r, c));
     reading.rows.push_back(std::move(row));
   }
+  if (const auto time = recording::read_time(*table, map, std::vector<std::string>(table->columns()))) {
+    reading.times = time->columns;
+  }
   auto imported = recording::import_recording(bytes, file, map);
   if (imported) {
     reading.imported = std::move(*imported);
@@ -216,9 +220,10 @@ ImportReading read_for_import(const std::string& bytes, const std::string& file,
 ui::ImportState import_state(const ImportReading& reading, const HeaderMap& map) {
   ui::ImportState state;
   state.form = form_words(reading);
-  state.decimal = QString::fromStdString(map.table.decimal);
-  state.separator = QString::fromStdString(map.table.separator);
-  state.sheet = QString::fromStdString(map.table.sheet);
+  state.table.decimal = QString::fromStdString(map.table.decimal);
+  state.table.separator = QString::fromStdString(map.table.separator);
+  state.table.sheet = QString::fromStdString(map.table.sheet);
+  for (const auto& word : map.missing) state.table.missing << QString::fromStdString(word);
   state.workbook = reading.form.encoding == "xlsx";
   std::string bad;
   if (reading.problem) {

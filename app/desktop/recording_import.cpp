@@ -130,10 +130,12 @@ void RecordingImport::editColumn(int row, const ui::ImportColumn& before, const 
   read();
 }
 
-void RecordingImport::editTable(const QString& decimal, const QString& separator, const QString& sheet) {
-  m_map.table.decimal = decimal.toStdString();
-  m_map.table.separator = separator.toStdString();
-  m_map.table.sheet = sheet.toStdString();
+void RecordingImport::editTable(const ui::ImportTable& table) {
+  m_map.table.decimal = table.decimal.toStdString();
+  m_map.table.separator = table.separator.toStdString();
+  m_map.table.sheet = table.sheet.toStdString();
+  m_map.missing.clear();
+  for (const QString& word : table.missing) m_map.missing.push_back(word.toStdString());
   read();
 }
 

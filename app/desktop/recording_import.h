@@ -21,6 +21,7 @@ struct ImportReading {
   std::vector<std::string> names;              // of the columns; "" where there is none
   std::vector<std::string> keys;               // by which a map calls them
   std::vector<std::vector<std::string>> rows;  // the first
+  std::vector<std::size_t> times;              // columns of the time, where it could be read
   std::optional<recording::Imported> imported;
   std::optional<Error> problem;
 };
@@ -48,7 +49,7 @@ class RecordingImport : public QObject {
   bool reuseMap();
   void refresh();
   void editColumn(int row, const ui::ImportColumn& before, const ui::ImportColumn& column);
-  void editTable(const QString& decimal, const QString& separator, const QString& sheet);
+  void editTable(const ui::ImportTable& table);
   void loadMap();
   void saveMap();
   void take();

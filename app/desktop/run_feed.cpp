@@ -62,6 +62,7 @@ RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject
 void RunFeed::nameChannels() {
   m_named = true;
   if (m_imported) return nameImported();
+  m_view->setCameraShown(true);
   QVector<ui::RunChannel> temperatures;
   QVector<ui::RunChannel> errors;
   QVector<ui::RunChannel> inputs;

@@ -85,6 +85,7 @@ void RunFeed::nameImported() {
     }
   }
   m_view->setChannels(temperatures, errors, inputs);
+  m_view->setCameraShown(false);  // nobody watched
 }
 
 void RunFeed::showMarks(const std::vector<commissioning::Event>& events) {

@@ -33,7 +33,7 @@ Result<JobKind> kind_of(const Job& job) {
     if (name == name_of(kind)) return kind;
   }
   return fail(ErrorCode::job_damaged,
-              {{"file", job.path().string()}, {"detail", "the kind of the job is \"" + name + "\""}});
+              {{"file", job.path().string()}, {"detail", "the kind of the job is " + (name.empty() ? "-" : name)}});
 }
 
 Status set_kind(Job& job, JobKind kind) {

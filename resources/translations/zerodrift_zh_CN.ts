@@ -5208,6 +5208,30 @@
         <source>values other than 0 for this format</source>
         <translation>此格式中不为 0 的数值</translation>
     </message>
+    <message>
+        <source>X, Y or Z of a channel in um; A or B of one in urad</source>
+        <translation>以 um 计的通道用 X、Y 或 Z；以 urad 计的用 A 或 B</translation>
+    </message>
+    <message>
+        <source>axis %1, as column %2</source>
+        <translation>轴 %1，与列 %2 相同</translation>
+    </message>
+    <message>
+        <source>one column for each axis</source>
+        <translation>每个轴一列</translation>
+    </message>
+    <message>
+        <source>sensors %1</source>
+        <translation>传感器 %1</translation>
+    </message>
+    <message>
+        <source>sensors of the recording: %1</source>
+        <translation>记录中的传感器：%1</translation>
+    </message>
+    <message>
+        <source>the kind of the job is %1</source>
+        <translation>作业的种类是 %1</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -8979,6 +9003,18 @@
         <source>Cancel</source>
         <translation>取消</translation>
     </message>
+    <message>
+        <source>Missing</source>
+        <translation>缺失</translation>
+    </message>
+    <message>
+        <source>further words</source>
+        <translation>其他字样</translation>
+    </message>
+    <message>
+        <source>Words that stand for a missing sample in this file, with commas between them</source>
+        <translation>在此文件中表示缺失采样的字样，以逗号分隔</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::LegendRow</name>
@@ -9876,6 +9912,10 @@
     <message>
         <source>Open a machine.json: its parts, heat sources and where each sensor sits. Without a drawing begin with a lump for each sensor.</source>
         <translation>打开 machine.json：其中有部件、热源和每个传感器的位置。没有图纸时，先为每个传感器用一个集总体。</translation>
+    </message>
+    <message>
+        <source>The description has no rod: see the channels.</source>
+        <translation>描述中没有杆件：请看通道。</translation>
     </message>
 </context>
 <context>

@@ -215,7 +215,8 @@ class FilesOnlyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(!dialog->state().remedy.isEmpty());
     QVERIFY(dialog->state().columns[1].problem);
     QVERIFY(!dialog->findChild<QPushButton*>("take")->isEnabled());
-    QVERIFY(choose(dialog, "role1", ImportDialog::roleNames()[static_cast<int>(ImportRole::unused)]));
+    QCOMPARE(dialog->state().columns[0].role, ImportRole::time);
+    QVERIFY(type(dialog, "missing", QStringLiteral("2O")));
     QVERIFY(!dialog->state().columns[1].problem);
   }
 

@@ -159,7 +159,9 @@ void FitPage::render() {
     m_direction->setItems(names);
   }
   const bool residuals = m_views->currentIndex() == 1;
-  m_plotCard->setTitle(residuals ? tr("Residuals") : tr("Measured and predicted"));
+  // More directions than the axes need the room of the heading.
+  const bool crowded = m_state.series.size() > 3;
+  m_plotCard->setTitle(crowded ? QString() : residuals ? tr("Residuals") : tr("Measured and predicted"));
   const int index =
       std::clamp(m_direction->currentIndex(), 0, std::max(0, static_cast<int>(m_state.series.size()) - 1));
   m_plotCard->setSubtitle(names.isEmpty() ? QStringLiteral("µm") : QStringLiteral("%1, µm").arg(names[index]));

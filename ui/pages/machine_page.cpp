@@ -294,6 +294,8 @@ Figure MachinePage::restFigure() const {
 
 void MachinePage::render() {
   setFigures(figures());
+  // The start page is as high as its list; the machine's need not be.
+  m_start->setSizePolicy(QSizePolicy::Preferred, m_state.jobOpen ? QSizePolicy::Ignored : QSizePolicy::Preferred);
   m_views->setCurrentWidget(m_state.jobOpen ? m_machine : m_start);
   m_start->setState(m_state.recent, m_state.sampleAvailable);
   renderMachine();

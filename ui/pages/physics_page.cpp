@@ -259,6 +259,8 @@ void PhysicsPage::render() {
   showContent();
   setFigures(figures());
   m_view->setItems({tr("Where"), tr("Channels"), tr("Blind trial")});
+  // Lumps have no length over which anything could be drawn.
+  if (m_state.components.isEmpty() && m_views->currentIndex() == 0 && !m_state.channels.isEmpty()) showView(1);
   QStringList names;
   for (const DrawnComponent& component : m_state.components) names.append(component.name);
   {
@@ -286,7 +288,8 @@ void PhysicsPage::render() {
 void PhysicsPage::renderMap() {
   m_region->setText(m_state.region);
   m_region->setVisible(!m_state.region.isEmpty());
-  m_map->setPlaceholder(tr("Drawn when the search is done"));
+  m_map->setPlaceholder(m_state.components.isEmpty() ? tr("The description has no rod: see the channels.")
+                                                     : tr("Drawn when the search is done"));
   if (m_state.components.isEmpty()) {
     m_drawing->setComponent({});
     m_map->setSensors({});

@@ -321,7 +321,7 @@ void SensorsPage::renderTable() {
   }
   columns.append(
       {{tr("Sum"), 44, true, tr("Largest in its cluster: thermally sensitive point")},
-       {tr("Lag"), 58, true, tr("The error follows this sensor after so many minutes")},
+       {tr("Lag"), 66, true, tr("The error follows this sensor after so many minutes")},
        {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
        {tr("Price"), 72, true,
         tr("Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better")}});

@@ -102,13 +102,16 @@ ImportDialog::ImportDialog(QWidget* parent) : QDialog(parent) {
   m_decimal->setObjectName("decimal");
   m_separator = new QComboBox(this);
   m_separator->setObjectName("separator");
+  m_missing = new QLineEdit(this);
+  m_missing->setObjectName("missing");
+  m_missing->setMaximumWidth(140);
   m_sheet = new QLineEdit(this);
   m_sheet->setObjectName("sheet");
-  m_sheet->setMaximumWidth(160);
+  m_sheet->setMaximumWidth(140);
   auto* options = new QHBoxLayout;
   options->setSpacing(8);
-  for (QWidget* field :
-       {static_cast<QWidget*>(m_decimal), static_cast<QWidget*>(m_separator), static_cast<QWidget*>(m_sheet)}) {
+  for (QWidget* field : {static_cast<QWidget*>(m_decimal), static_cast<QWidget*>(m_separator),
+                         static_cast<QWidget*>(m_missing), static_cast<QWidget*>(m_sheet)}) {
     auto* name = new QLabel(this);
     name->setProperty("role", "muted");
     name->setBuddy(field);
@@ -157,6 +160,7 @@ ImportDialog::ImportDialog(QWidget* parent) : QDialog(parent) {
   connect(m_save, &QPushButton::clicked, this, &ImportDialog::mapSaveRequested);
   connect(m_decimal, &QComboBox::activated, this, &ImportDialog::tableTouched);
   connect(m_separator, &QComboBox::activated, this, &ImportDialog::tableTouched);
+  connect(m_missing, &QLineEdit::editingFinished, this, &ImportDialog::tableTouched);
   connect(m_sheet, &QLineEdit::editingFinished, this, &ImportDialog::tableTouched);
   retranslate();
 }
@@ -252,9 +256,10 @@ void ImportDialog::setState(const ImportState& state) {
   if (preview) fillPreview();
   if (m_rows.size() != state.columns.size()) makeRows(static_cast<int>(state.columns.size()));
   for (int i = 0; i < m_rows.size(); ++i) fillRow(i);
-  m_decimal->setCurrentIndex(std::max(0, m_decimal->findData(state.decimal)));
-  m_separator->setCurrentIndex(std::max(0, m_separator->findData(state.separator)));
-  setLine(m_sheet, state.sheet);
+  m_decimal->setCurrentIndex(std::max(0, m_decimal->findData(state.table.decimal)));
+  m_separator->setCurrentIndex(std::max(0, m_separator->findData(state.table.separator)));
+  setLine(m_missing, state.table.missing.join(QStringLiteral(", ")));
+  setLine(m_sheet, state.table.sheet);
   for (QWidget* field : {static_cast<QWidget*>(m_sheet), static_cast<QWidget*>(m_names.last())}) {
     field->setVisible(state.workbook);
   }
@@ -298,11 +303,14 @@ void ImportDialog::edited(int number) {
 
 void ImportDialog::tableTouched() {
   if (m_filling) return;
-  const QString decimal = m_decimal->currentData().toString();
-  const QString separator = m_separator->currentData().toString();
-  const QString sheet = m_sheet->text().trimmed();
-  if (decimal == m_state.decimal && separator == m_state.separator && sheet == m_state.sheet) return;
-  Q_EMIT tableEdited(decimal, separator, sheet);
+  ImportTable table{
+      m_decimal->currentData().toString(), m_separator->currentData().toString(), m_sheet->text().trimmed(), {}};
+  for (const QString& word : m_missing->text().split(QLatin1Char(','), Qt::SkipEmptyParts)) {
+    if (!word.trimmed().isEmpty()) table.missing << word.trimmed();
+  }
+  if (table == m_state.table) return;
+  m_state.table = table;
+  Q_EMIT tableEdited(table);
 }
 
 void ImportDialog::retranslate() {
@@ -310,7 +318,7 @@ void ImportDialog::retranslate() {
   setWindowTitle(tr("Import a recording"));
   m_table->setHorizontalHeaderLabels({tr("Column of the file"), tr("is"), tr("Channel"), tr("Unit"), tr("Scale"),
                                       tr("Axis"), tr("Location or format")});
-  const QStringList names = {tr("Decimal sign"), tr("Separator"), tr("Sheet")};
+  const QStringList names = {tr("Decimal sign"), tr("Separator"), tr("Missing"), tr("Sheet")};
   for (int i = 0; i < names.size(); ++i) m_names[i]->setText(names[i]);
   m_decimal->clear();
   m_decimal->addItem(tr("as found"), QString());
@@ -322,6 +330,8 @@ void ImportDialog::retranslate() {
   m_separator->addItem(tr("semicolon"), QStringLiteral(";"));
   m_separator->addItem(tr("tab"), QStringLiteral("tab"));
   m_separator->addItem(tr("blanks"), QStringLiteral("blanks"));
+  m_missing->setPlaceholderText(tr("further words"));
+  m_missing->setToolTip(tr("Words that stand for a missing sample in this file, with commas between them"));
   m_load->setText(tr("Load map"));
   m_load->setToolTip(tr("What the columns are, from a file that was saved for another recording of this logger"));
   m_save->setText(tr("Save map"));

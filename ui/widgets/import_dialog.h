@@ -46,6 +46,16 @@ struct ImportColumn {
   bool problem = false;
 };
 
+/// How the table is read; empty: as found from the file.
+struct ImportTable {
+  QString decimal{};
+  QString separator{};
+  QString sheet{};
+  QStringList missing{};  // further words for a missing sample
+
+  bool operator==(const ImportTable& other) const = default;
+};
+
 struct ImportState {
   QString file{};
   QString form{};  // "UTF-8, separated by comma, decimal point; time in s; 1201 rows over 5 h"
@@ -55,9 +65,7 @@ struct ImportState {
   QString sentence{};  // what stands in the way; empty: nothing
   QString remedy{};
   QStringList notes{};  // what the import has to say
-  QString decimal{};    // as set; empty: found from the file
-  QString separator{};
-  QString sheet{};
+  ImportTable table{};
   bool workbook = false;
   bool reading = false;
   bool ready = false;
@@ -77,7 +85,7 @@ class ImportDialog : public QDialog {
 
  Q_SIGNALS:
   void columnEdited(int row, const zerodrift::ui::ImportColumn& before, const zerodrift::ui::ImportColumn& column);
-  void tableEdited(const QString& decimal, const QString& separator, const QString& sheet);
+  void tableEdited(const zerodrift::ui::ImportTable& table);
   void mapLoadRequested();
   void mapSaveRequested();
 
@@ -111,6 +119,7 @@ class ImportDialog : public QDialog {
   QVector<QLabel*> m_names;  // of the options
   QComboBox* m_decimal;
   QComboBox* m_separator;
+  QLineEdit* m_missing;
   QLineEdit* m_sheet;
   QLabel* m_notes;
   QPushButton* m_load;

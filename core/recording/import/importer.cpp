@@ -331,7 +331,8 @@ class Importer {
       const bool named = fate.channel.size() == 5 && fate.channel.starts_with("d") && fate.channel.ends_with("_um");
       const std::string axis = fate.axis.empty() && named ? fate.channel.substr(1, 1) : fate.axis;
       if (axis.empty() || column_of.emplace(axis, fate.name).second) continue;
-      return fail(ErrorCode::data_does_not_fit, {{"what", m_table.form.file + ", column " + fate.name},
+      return fail(ErrorCode::data_does_not_fit, {{"what", m_table.form.file},
+                                                 {"column", fate.name},
                                                  {"found", "axis " + axis + ", as column " + column_of[axis]},
                                                  {"expected", "one column for each axis"}});
     }
