@@ -237,7 +237,7 @@ void FitPage::renderMethods() {
   m_methods->setColumns(
       {{tr("Method"), 0, false, {}},
        {tr("rms"), 62, true, tr("Root mean square of what is left")},
-       {tr("Peak"), 62, true, {}},
+       {tr("Peak"), 70, true, {}},
        {tr("Band"), 52, true, tr("Share of the measurements inside the stated band")},
        {tr("Runs on"), 80, false,
         tr("Controller: it can compute the model itself. Host: this computer must stay connected.")}});
