@@ -134,6 +134,7 @@ void Application::wire() {
   });
   for (auto* presenter : m_presenters) {
     connect(presenter, &Presenter::nextRequested, this, [this, presenter] { openNext(presenter->id()); });
+    connect(presenter->page(), &ui::Page::goOnTriggered, this, [this, presenter] { openNext(presenter->id()); });
     connect(presenter, &Presenter::pageRequested, this, &Application::openPage);
     connect(presenter, &Presenter::standingChanged, this, &Application::updateSteps);
   }
@@ -148,6 +149,8 @@ void Application::wireSteps() {
   auto* verify = qobject_cast<VerifyPresenter*>(find("verify"));
   auto* machine = qobject_cast<MachinePresenter*>(find("machine"));
   connect(machine, &MachinePresenter::sampleWanted, this, &Application::openSample);
+  connect(machine, &MachinePresenter::ownRecordingWanted, m_opener, &FileOpener::chooseRecording);
+  connect(warmup, &WarmupPresenter::importWanted, m_opener, &FileOpener::chooseRecording);
   connect(physics, &PhysicsPresenter::planProposed, this, [this, warmup](const acquisition::Plan& plan) {
     warmup->propose(plan);
     openPage(warmup->id());
@@ -268,11 +271,10 @@ void Application::openPage(const QString& id) {
 }
 
 void Application::openNext(const QString& after) {
-  for (std::size_t i = 0; i + 1 < m_presenters.size(); ++i) {
-    if (m_presenters[i]->id() == after) {
-      openPage(m_presenters[i + 1]->id());
-      return;
-    }
+  bool behind = false;
+  for (const auto* presenter : m_presenters) {
+    if (behind && !presenter->page()->isNotNeeded()) return openPage(presenter->id());
+    behind = behind || presenter->id() == after;
   }
 }
 
@@ -399,6 +401,7 @@ void Application::offerCommands() {
   QVector<ui::Command> commands = {
       {QStringLiteral("new"), tr("New job"), job, {}, true},
       {QStringLiteral("open"), tr("Open job"), job, QStringLiteral("Ctrl+O"), true},
+      {QStringLiteral("recording"), tr("Import a recording"), job, {}, true},
       {QStringLiteral("sample"), tr("Open the sample job"), job, {}, true},
       {QStringLiteral("virtual"), tr("Connect to the virtual machine"), job, {}, true},
       {QStringLiteral("undo"), tr("Undo the last choice"), window, QStringLiteral("Ctrl+Z"), true}};
@@ -412,6 +415,7 @@ void Application::runCommand(const QString& id) {
   auto* machine = qobject_cast<MachinePresenter*>(m_presenters.front());
   if (id == QStringLiteral("new")) machine->chooseNewJob();
   if (id == QStringLiteral("open")) machine->chooseJob();
+  if (id == QStringLiteral("recording")) m_opener->chooseRecording();
   if (id == QStringLiteral("sample")) openSample();
   if (id == QStringLiteral("virtual")) machine->useVirtualMachine({});
   if (id == QStringLiteral("undo")) undo();

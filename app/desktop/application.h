@@ -63,6 +63,8 @@ class Application : public QObject {
   /// How each step stands, into the rail.
   void updateSteps();
   QString wordsOf(const flow::StepStatus& status) const;
+  /// Tells the page whether it makes sense in this job, and why not.
+  void tellNeed(Presenter& presenter, bool needed);
   void updateLamps();
   void lightController();
   void lightCamera();

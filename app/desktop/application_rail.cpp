@@ -19,6 +19,8 @@ ui::StepState shown(flow::StepState state) {
       return ui::StepState::current;
     case flow::StepState::stale:
       return ui::StepState::stale;
+    case flow::StepState::not_needed:
+      return ui::StepState::notNeeded;
   }
   return ui::StepState::blocked;
 }
@@ -35,8 +37,35 @@ QString Application::wordsOf(const flow::StepStatus& status) const {
       return tr("Done");
     case flow::StepState::stale:
       return tr("Out of date: %1 changed").arg(stepName(status.reason));
+    case flow::StepState::not_needed:
+      return tr("Not needed");
   }
   return {};
+}
+
+void Application::tellNeed(Presenter& presenter, bool needed) {
+  const QString id = presenter.id();
+  QString reason;
+  QStringList kept;
+  QString action;
+  if (needed) {
+  } else if (id == QStringLiteral("machine")) {
+    reason = tr("This job is made from files: no machine is connected, and nothing is written to one.");
+    kept << QStringLiteral("job");
+    action = tr("Use a machine with this job");
+  } else if (id == QStringLiteral("calibrate")) {
+    reason = tr("The errors of an imported recording are measured already: there is no camera to calibrate.");
+  } else if (id == QStringLiteral("upload")) {
+    reason = tr("There is no controller to write to. Export gives the table as a file that a controller loads.");
+    kept << QStringLiteral("export");
+  } else if (id == QStringLiteral("verify")) {
+    reason =
+        tr("What is left can only be measured on the machine, with the table active. The Fit page says what to "
+           "expect on data that the model has not seen.");
+  } else {
+    reason = tr("Compensating from this computer needs a connected machine.");
+  }
+  presenter.page()->setNotNeeded(reason, kept, action);
 }
 
 void Application::updateSteps() {
@@ -44,6 +73,7 @@ void Application::updateSteps() {
   if (job == nullptr) {
     for (auto* presenter : m_presenters) {
       m_window->setStepState(presenter->id(), ui::StepState::blocked, tr("Not started"));
+      tellNeed(*presenter, true);
     }
     m_window->setJob(tr("No job"), {});
     return;
@@ -60,13 +90,18 @@ void Application::updateSteps() {
       step = at != all->end();
       if (step) status = *at;
     }
+    // The compensator on this computer is no step: it needs a machine all the same.
+    const bool from_files = m_bench->kind() == commissioning::JobKind::files;
+    if (from_files && id == "compensator") status.state = flow::StepState::not_needed;
+    const bool needed = status.state != flow::StepState::not_needed;
+    tellNeed(*presenter, needed);
     const bool made = status.state == flow::StepState::current || status.state == flow::StepState::stale;
     if (presenter->working()) {
       m_window->setStepState(presenter->id(), ui::StepState::running,
                              step || standing.words.isEmpty() ? tr("Running") : standing.words);
     } else if (!all || (made && m_bench->damage())) {  // what of it still holds nobody can say
       m_window->setStepState(presenter->id(), ui::StepState::failed, tr("The job is damaged"));
-    } else if (!standing.words.isEmpty()) {
+    } else if (needed && !standing.words.isEmpty()) {
       m_window->setStepState(presenter->id(), standing.state, standing.words);
     } else {
       m_window->setStepState(presenter->id(), shown(status.state), wordsOf(status));

@@ -10,8 +10,9 @@ enum class FileKind {
   job,        // .zdj
   profile,    // JSON: connection profile
   plan,       // JSON: warm-up plan
-  laser,      // .rtl, .REN, .pos, or a CSV that is no recording
-  recording,  // CSV with time_s and channels
+  machine,    // JSON: description of a machine
+  laser,      // .rtl, .REN, .pos, or a table that is no recording
+  recording,  // a table with a time, of any logger
   unknown,
 };
 

@@ -2,20 +2,20 @@
 
 #include <QDir>
 #include <QFile>
+#include <QFileDialog>
 #include <QFileInfo>
 
 #include "app/desktop/application.h"
-#include "app/desktop/ask.h"
 #include "app/desktop/file_kind.h"
+#include "app/desktop/import_words.h"
 #include "app/desktop/steps/axis_errors_presenter.h"
 #include "app/desktop/steps/machine_presenter.h"
+#include "app/desktop/steps/physics_presenter.h"
 #include "app/desktop/steps/warmup_presenter.h"
 #include "app/text/error_text.h"
 #include "core/base/resources.h"
 #include "core/flow/steps/import_step.h"
-#include "core/recording/csv.h"
-#include "ui/widgets/number_text.h"
-#include "ui/widgets/progress_strip.h"
+#include "core/recording/import/importer.h"
 
 namespace zerodrift::desktop {
 namespace {
@@ -57,18 +57,16 @@ void FileOpener::openOne(const QString& path) {
       return openProfile(path);
     case FileKind::plan:
       return openPlan(path);
-    case FileKind::laser: {
-      auto* axes = qobject_cast<AxisErrorsPresenter*>(m_application.presenter(QStringLiteral("axis_errors")));
-      m_application.openPage(axes->id());
-      axes->load(path);
-      return;
-    }
+    case FileKind::machine:
+      return openMachine(path);
+    case FileKind::laser:
+      return openTable(path);
     case FileKind::recording:
       return openRecording(path);
     case FileKind::unknown:
       return say(tr("%1 is none of the files that can be opened here.").arg(QFileInfo(path).fileName()),
-                 tr("Jobs (.zdj), connection profiles and plans (.json), laser reports (.csv, .rtl, .REN, .pos) and "
-                    "recordings (.csv with time_s) can."));
+                 tr("Jobs (.zdj), connection profiles, plans and machine descriptions (.json), laser reports (.csv, "
+                    ".rtl, .REN, .pos) and recordings (.csv, .txt, .lvm, .xlsx) can."));
   }
 }
 
@@ -86,30 +84,63 @@ void FileOpener::openPlan(const QString& path) {
   warmup->propose(*plan);
 }
 
+void FileOpener::openMachine(const QString& path) {
+  auto* physics = qobject_cast<PhysicsPresenter*>(m_application.presenter(QStringLiteral("physics")));
+  m_application.openPage(physics->id());
+  physics->describe(path);
+}
+
+/// A table without a time is a laser's. On the page that waits for a recording it is one.
+void FileOpener::openTable(const QString& path) {
+  if (m_application.window().currentPage()->id() == QStringLiteral("warmup")) return openRecording(path);
+  auto* axes = qobject_cast<AxisErrorsPresenter*>(m_application.presenter(QStringLiteral("axis_errors")));
+  m_application.openPage(axes->id());
+  axes->load(path);
+}
+
+void FileOpener::chooseRecording() {
+  auto& window = m_application.window();
+  const QString path =
+      QFileDialog::getOpenFileName(&window, tr("Import a recording"), QDir::homePath(),
+                                   tr("Recordings (*.csv *.txt *.tsv *.dat *.lvm *.xlsx);;All files (*)"));
+  if (!path.isEmpty()) openRecording(path);
+}
+
 void FileOpener::openRecording(const QString& path) {
   auto& bench = m_application.bench();
-  const auto run = recording::read_recording(path.toStdString());
-  if (!run) return show(run.error());
-  const QString name = QFileInfo(path).fileName();
-  if (const Status fit = flow::fit_for_warmup(*run, name.toStdString()); !fit) return show(fit.error());
-  const QString size =
-      tr("%1 rows over %2.").arg(run->rows()).arg(ui::durationText(run->time_s.back() - run->time_s.front()));
-  const QString where = bench.job() == nullptr ? tr("A new job is made for it.")
-                        : bench.has("warmup")  ? tr("It takes the place of the warm-up run that this job has.")
-                                               : QString();
-  if (m_asking && !ask(&m_application.window(), tr("Use %1 as the warm-up run?").arg(name),
-                       ui::sentencesText({size, where, tr("It must have been recorded with the compensation off.")}),
-                       tr("Use it"))) {
+  const auto& kept = bench.body("warmup");
+  if (m_asking) {
+    const QString deed = bench.job() == nullptr ? tr("Use in a new job")
+                         : kept.is_object()     ? tr("Replace the run")
+                                                : tr("Use this recording");
+    if (m_import == nullptr) {
+      m_import = new RecordingImport(&m_application.window());
+      connect(m_import, &RecordingImport::taken, this, &FileOpener::take);
+    }
+    const bool mapped = kept.is_object() && kept.contains("import");
+    m_import->open(path, mapped ? kept["import"].value("map", nlohmann::json()) : nlohmann::json(), deed);
     return;
   }
+  const auto imported = recording::import_file(path.toStdString());
+  if (!imported) return show(imported.error());
+  const QString name = QFileInfo(path).fileName();
+  if (const Status fit = flow::fit_for_warmup(imported->recording, name.toStdString(), false); !fit) {
+    return show(fit.error());
+  }
+  take(imported->recording, name, how_imported(*imported, {}));
+}
+
+void FileOpener::take(const recording::Recording& run, const QString& name, const nlohmann::json& how) {
+  auto& bench = m_application.bench();
   if (bench.job() == nullptr) {
     auto* machine = qobject_cast<MachinePresenter*>(m_application.presenter(QStringLiteral("machine")));
-    machine->newJob(free_job_path(QFileInfo(path).completeBaseName()));
+    machine->newJob(free_job_path(QFileInfo(name).completeBaseName()));
     if (bench.job() == nullptr) return;
+    if (const Status said = bench.setKind(commissioning::JobKind::files); !said) return show(said.error());
   }
   m_application.openPage(QStringLiteral("warmup"));
   const auto kept = bench.takeIn("warmup", [&](commissioning::Job& job, const TaskContext&) {
-    return flow::import_warmup(job, *run, name.toStdString());
+    return flow::import_warmup(job, run, name.toStdString(), how);
   });
   if (!kept) show(kept.error());
 }

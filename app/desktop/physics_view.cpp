@@ -343,7 +343,7 @@ QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const
   return drawn;
 }
 
-QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller::Profile& profile, const json& body) {
+QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const physics::Machine& machine, const json& body) {
   QVector<ui::SimulatedChannel> channels;
   const bool adopted = body.is_object() && !body.value("adopted", json::array()).empty();
   const json diagnosis = body.is_object() ? body.value("diagnosis", json::object()) : json::object();
@@ -362,9 +362,9 @@ QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller
     channel.rmse = rms_difference(channel.recorded, channel.refined.isEmpty() ? channel.simulated : channel.refined);
     channel.noise = number_of(noise, simulated.name);
     if (std::isnan(channel.noise)) {
-      const auto sensor = std::find_if(profile.sensors.begin(), profile.sensors.end(),
+      const auto sensor = std::find_if(machine.sensors.begin(), machine.sensors.end(),
                                        [&](const auto& s) { return s.channel == simulated.name; });
-      channel.noise = temperature && sensor != profile.sensors.end() ? sensor->accuracy_C : 1.0;
+      channel.noise = temperature && sensor != machine.sensors.end() ? sensor->accuracy_C : 1.0;
     }
     channels.append(channel);
   }

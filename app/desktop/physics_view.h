@@ -22,7 +22,7 @@ Compared compared_of(const commissioning::Job& job, const recording::Recording& 
 
 /// The rods of the machine with sources and sensors; `body` adds the recommended region and the place of the mismatch.
 QVector<ui::DrawnComponent> components_of(const physics::Machine& machine, const nlohmann::json& body);
-QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const controller::Profile& profile,
+QVector<ui::SimulatedChannel> channels_of(const Compared& runs, const physics::Machine& machine,
                                           const nlohmann::json& body);
 /// What the search located, in W; before it, and again when effects were adopted, recorded minus simulated at the
 /// sensors, in K, linear between them.

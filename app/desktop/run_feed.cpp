@@ -37,6 +37,8 @@ int decimals_of(recording::ChannelKind kind) {
   }
 }
 
+}  // namespace
+
 ui::RunChannel channel_of(const std::string& name, const QString& label) {
   const auto kind = recording::kind_of(name);
   ui::RunChannel channel;
@@ -52,8 +54,6 @@ ui::RunChannel channel_of(const std::string& name, const QString& label) {
   return channel;
 }
 
-}  // namespace
-
 RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject(parent), m_bench(bench), m_view(view) {
   m_timer.setInterval(1000 / drains_per_s);
   connect(&m_timer, &QTimer::timeout, this, &RunFeed::drain);
@@ -61,6 +61,8 @@ RunFeed::RunFeed(Workbench& bench, ui::RunView* view, QObject* parent) : QObject
 
 void RunFeed::nameChannels() {
   m_named = true;
+  if (m_imported) return nameImported();
+  m_view->setCameraShown(true);
   QVector<ui::RunChannel> temperatures;
   QVector<ui::RunChannel> errors;
   QVector<ui::RunChannel> inputs;
@@ -132,6 +134,7 @@ void RunFeed::forget() {
 
 void RunFeed::begin() {
   forget();
+  m_imported = false;
   nameChannels();
   m_timer.start();
 }
@@ -147,10 +150,12 @@ void RunFeed::noteRow(double time_s) {
 }
 
 void RunFeed::noteErrors(const std::string& channel, double value) {
-  if (recording::kind_of(channel) != recording::ChannelKind::error || channel[0] != 'd') return;
+  if (recording::kind_of(channel) != recording::ChannelKind::error || (!m_imported && channel[0] != 'd')) {
+    return;
+  }
   if (!(std::abs(value) > m_largest_um)) return;
   m_largest_um = std::abs(value);
-  m_largestAxis = QString::fromStdString(channel.substr(1, 1));
+  m_largestAxis = m_imported ? m_bench.tagOf(channel) : QString::fromStdString(channel.substr(1, 1));
 }
 
 void RunFeed::appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,

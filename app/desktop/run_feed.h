@@ -34,6 +34,8 @@ class RunFeed : public QObject {
   void begin();
   /// A compensated run: beside what is left, what is applied and what there would be without it.
   void setCompensated(bool compensated) { m_compensated = compensated; }
+  /// The kept run that is shown comes from a file: it has other channels than the machine.
+  void setImported(bool imported) { m_imported = imported; }
   /// A run that is in the job already.
   void showRecording(const recording::Recording& run, const std::vector<commissioning::Event>& events);
   /// What went wrong in a run that is over: of so many measurements so many with a direction missing.
@@ -90,6 +92,7 @@ class RunFeed : public QObject {
   void noteErrors(const std::string& channel, double value);
   void appendCompensation(const std::vector<std::string>& names, const QVector<double>& times,
                           const std::vector<QVector<double>>& values);
+  void nameImported();
   void showRegimes(const recording::Recording& run);
   void showMarks(const std::vector<commissioning::Event>& events);
   void mark(double at_s, const QString& text);
@@ -113,6 +116,7 @@ class RunFeed : public QObject {
   bool m_received = false;
   bool m_named = false;
   bool m_compensated = false;
+  bool m_imported = false;
   std::map<std::string, QString> m_badSensors;  // now: channel -> what is wrong with it
 };
 

@@ -9,7 +9,6 @@
 #include "ui/pages/run_view.h"
 
 namespace zerodrift::desktop {
-
 void RunFeed::showRecording(const recording::Recording& run, const std::vector<commissioning::Event>& events) {
   m_view->clear();
   m_marks.clear();
@@ -61,6 +60,32 @@ void RunFeed::showRecording(const recording::Recording& run, const std::vector<c
     values.emplace_back(channel.values.begin(), channel.values.end());
   }
   appendCompensation(names, QVector<double>(run.time_s.begin(), run.time_s.end()), values);
+}
+
+/// The channels of a run from a file are its own, called as they were assigned.
+void RunFeed::nameImported() {
+  QVector<ui::RunChannel> temperatures;
+  QVector<ui::RunChannel> errors;
+  QVector<ui::RunChannel> inputs;
+  const auto& run = m_bench.warmupRun();
+  const bool speed = run.find("spindle_rpm") != nullptr;
+  for (const auto& channel : run.channels) {
+    if (recording::present_count(channel) == 0) continue;
+    ui::RunChannel named = channel_of(channel.name, m_bench.channelInWords(channel.name));
+    named.tag = m_bench.tagOf(channel.name);
+    const auto kind = channel.kind();
+    if (kind == recording::ChannelKind::temperature || kind == recording::ChannelKind::ambient) {
+      temperatures.append(named);
+    } else if (kind == recording::ChannelKind::error || kind == recording::ChannelKind::tilt) {
+      const auto axis = QStringLiteral("XYZ").indexOf(named.tag);
+      if (axis >= 0 && named.tag.size() == 1) named.color = ui::axisColor(static_cast<int>(axis));
+      errors.append(named);
+    } else if (!speed || channel.name == "spindle_rpm") {  // other inputs have another scale
+      inputs.append(named);
+    }
+  }
+  m_view->setChannels(temperatures, errors, inputs);
+  m_view->setCameraShown(false);  // nobody watched
 }
 
 void RunFeed::showMarks(const std::vector<commissioning::Event>& events) {

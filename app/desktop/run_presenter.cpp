@@ -135,7 +135,9 @@ void RunPresenter::forgetRun() {
 }
 
 void RunPresenter::showKept(const nlohmann::json& body) {
-  if (!body.is_object() || !showSeries(body.at("series").get<long long>())) return;
+  if (!body.is_object()) return;
+  m_feed->setImported(body.value("source", "") == "file");
+  if (!showSeries(body.at("series").get<long long>())) return;
   m_feed->showHappened(acquisition::happenings_from_json(body.value("happened", nlohmann::json())),
                        body.value("measurements", 0), body.value("refused", 0));
 }

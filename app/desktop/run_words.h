@@ -5,7 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "ui/pages/run_view.h"
+
 namespace zerodrift::desktop {
+
+/// A channel as the run's plots and tables show it.
+ui::RunChannel channel_of(const std::string& name, const QString& label);
 
 /// The channel with the standard uncertainty of an error: sigma_X_nm of dX_um; none of the others.
 inline std::string sigma_channel(const std::string& error) {

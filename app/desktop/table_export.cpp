@@ -26,8 +26,8 @@ QString id_of(const ExportFormat& format) {
 
 Status write_one(const ExportFormat& format, const compensation::Table& table, const controller::ExportOptions& options,
                  const QString& path, bool one_point, WrittenExport& out) {
-  ZD_TRY(const auto made,
-         one_point ? controller::write_one_point(format, table, options) : format.write(table, options));
+  ZD_TRY(const auto made, one_point ? controller::write_one_point(format, table, options)
+                                    : controller::write_table(format, table, options));
   for (const auto& file : made.files) {
     const std::string name = path.toStdString() + file.suffix;
     ZD_CHECK(write_file(name, file.text));

@@ -167,6 +167,19 @@ Status Workbench::closeJob() {
   return {};
 }
 
+commissioning::JobKind Workbench::kind() const {
+  if (!m_job) return commissioning::JobKind::machine;
+  return commissioning::kind_of(*m_job).value_or(commissioning::JobKind::machine);
+}
+
+Status Workbench::setKind(commissioning::JobKind kind) {
+  ZD_CHECK(idle());
+  if (!m_job) return fail(ErrorCode::step_blocked, {{"step", "machine"}, {"needs", "a job"}});
+  ZD_CHECK(commissioning::set_kind(*m_job, kind));
+  Q_EMIT artefactsChanged();
+  return {};
+}
+
 Result<commissioning::Artefact> Workbench::takeIn(const std::string& step, const flow::StepRun& run) {
   if (!m_job) return fail(ErrorCode::step_blocked, {{"step", step}, {"needs", "a job"}});
   ZD_TRY(auto made, flow::Flow().take_in(*m_job, step, run, {}));
@@ -215,6 +228,13 @@ const recording::Recording& Workbench::warmupRun() const {
     m_warmupSeries = series;
   }
   return m_warmupRun;
+}
+
+bool Workbench::hasErrors() const {
+  const auto& channels = warmupRun().channels;
+  return std::any_of(channels.begin(), channels.end(), [](const auto& channel) {
+    return channel.kind() == recording::ChannelKind::error && recording::present_count(channel) > 0;
+  });
 }
 
 Status Workbench::loadProfile(const std::filesystem::path& path) {
@@ -288,15 +308,19 @@ report::Labels Workbench::labels() const {
   if (m_profile) {
     for (const auto& sensor : m_profile->sensors) labels[sensor.channel] = coreText(sensor.label).toStdString();
   }
+  if (const auto& warmup = body("warmup"); warmup.is_object()) {
+    report::add_imported(labels, warmup.value("import", nlohmann::json()));
+  }
   return labels;
 }
 
 QString Workbench::inWords(const std::string& text) const {
   const QString said = coreText(text);
   const QString room = QStringLiteral("Room");
-  if (coreText(room) == room) return QString::fromStdString(report::readable(text, labels()));
+  const report::Labels known = labels();
+  if (coreText(room) == room) return QString::fromStdString(report::readable(text, known));
   static const QRegularExpression channels(QStringLiteral(
-      "(?<![A-Za-z0-9_])(T\\d+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)(?![A-Za-z0-9_])"));
+      "(?<![A-Za-z0-9_])([A-Za-z]\\w*_(?:C|um|urad)|spindle_rpm|coolant_on|spindle_load_W)(?![A-Za-z0-9_])"));
   // The sentences leave a space beside a channel, as beside any word of another script; between Chinese ones is none.
   const auto chinese = [](const QString& of, qsizetype at) {
     return at >= 0 && at < of.size() && of[at].script() == QChar::Script_Han;
@@ -305,6 +329,7 @@ QString Workbench::inWords(const std::string& text) const {
   qsizetype from = 0;
   for (auto at = channels.globalMatch(said); at.hasNext();) {
     const auto found = at.next();
+    if (!report::is_channel(found.captured().toStdString(), known)) continue;
     const QString channel = channelInWords(found.captured().toStdString());
     words += said.mid(from, found.capturedStart() - from);
     if (words.endsWith(QLatin1Char(' ')) && chinese(words, words.size() - 2) && chinese(channel, 0)) words.chop(1);
@@ -320,6 +345,16 @@ QString Workbench::inWords(const std::string& text) const {
 
 QString Workbench::channelInWords(const std::string& channel) const {
   return coreText(report::channel_in_words(channel, labels()));
+}
+
+QString Workbench::tagOf(const std::string& channel) const {
+  return coreText(report::tag_of(channel, labels()));
+}
+
+QString Workbench::labelOf(const std::string& channel) const {
+  const auto names = labels();
+  const auto at = names.find(channel);
+  return at == names.end() ? QString() : coreText(at->second);
 }
 
 void Workbench::tellController(bool answers, std::optional<bool> switch_on) {

@@ -14,7 +14,7 @@
 #include "app/desktop/machine_monitor.h"
 #include "app/tasks/task_runner.h"
 #include "core/access/access.h"
-#include "core/commissioning/job.h"
+#include "core/commissioning/job_kind.h"
 #include "core/controller/profile.h"
 #include "core/flow/step.h"
 #include "core/recording/recording.h"
@@ -55,6 +55,10 @@ class Workbench : public QObject {
   Status closeJob();
   /// What the check of the whole file has found since it was opened; the job works on with what can be read.
   const std::optional<Error>& damage() const { return m_damage; }
+  /// Of the open job; with a machine where none is open.
+  commissioning::JobKind kind() const;
+  /// Says how the open job comes to its data, and tells everybody.
+  Status setKind(commissioning::JobKind kind);
   /// Null: none is open. Work beside the window takes the pointer with it, never the address.
   const std::shared_ptr<commissioning::Job>& job() { return m_job; }
   std::shared_ptr<const commissioning::Job> job() const { return m_job; }
@@ -69,6 +73,8 @@ class Workbench : public QObject {
   const nlohmann::json& body(const std::string& kind) const;
   /// The warm-up run, until another one is kept; without rows when there is none.
   const recording::Recording& warmupRun() const;
+  /// Whether it holds errors: without them nothing can be fitted.
+  bool hasErrors() const;
 
   // The machine
   Status loadProfile(const std::filesystem::path& path);
@@ -101,6 +107,10 @@ class Workbench : public QObject {
   /// A sentence or a channel of core as people read it: units, places of the sensors (core/report/wording.h).
   QString inWords(const std::string& text) const;
   QString channelInWords(const std::string& channel) const;
+  /// What a channel of the warm-up run is called where there is little room: "T1", "X", "Room", "probe2".
+  QString tagOf(const std::string& channel) const;
+  /// Where the sensor of the run is, as the machine's profile or the import's map says; "" where none says it.
+  QString labelOf(const std::string& channel) const;
 
   // Work: one task at a time; the monitor is paused meanwhile.
   TaskRunner& tasks() { return m_tasks; }

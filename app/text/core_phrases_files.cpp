@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 63> files = {{
+constexpr std::array<const char*, 69> files = {{
     QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
     QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
     QT_TRANSLATE_NOOP("core", "no random numbers"),
@@ -71,6 +71,12 @@ constexpr std::array<const char*, 63> files = {{
     QT_TRANSLATE_NOOP("core", "an archive without a workbook"),
     QT_TRANSLATE_NOOP("core", "damaged XML"),
     QT_TRANSLATE_NOOP("core", "%1, scale %2"),
+    QT_TRANSLATE_NOOP("core", "X, Y or Z of a channel in um; A or B of one in urad"),
+    QT_TRANSLATE_NOOP("core", "axis %1, as column %2"),
+    QT_TRANSLATE_NOOP("core", "one column for each axis"),
+    QT_TRANSLATE_NOOP("core", "sensors %1"),
+    QT_TRANSLATE_NOOP("core", "sensors of the recording: %1"),
+    QT_TRANSLATE_NOOP("core", "the kind of the job is %1"),
     QT_TRANSLATE_NOOP("core", "; "),
 }};
 

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 90> tables = {{
+constexpr std::array<const char*, 91> tables = {{
     QT_TRANSLATE_NOOP("core", "a report of a rotary axis"),
     QT_TRANSLATE_NOOP("core", "one of a linear axis; rotary axes are not compensated"),
     QT_TRANSLATE_NOOP("core", "of a rotary axis (column %1 is in %2)"),
@@ -95,6 +95,7 @@ constexpr std::array<const char*, 90> tables = {{
     QT_TRANSLATE_NOOP("core", "each element once, none left out"),
     QT_TRANSLATE_NOOP("core", "%1 behind element %2: an array's elements follow each other (from 0: %3)"),
     QT_TRANSLATE_NOOP("core", "type, scale and the like as those of the first element"),
+    QT_TRANSLATE_NOOP("core", "values other than 0 for this format"),
     QT_TRANSLATE_NOOP("core", "File type:"),
     QT_TRANSLATE_NOOP("core", "Axis position"),
     QT_TRANSLATE_NOOP("core", "one for each element"),

@@ -401,7 +401,7 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Nothing was written; check the axis direction and the calibration.")},
 };
 
-constexpr std::array<std::pair<const char*, const char*>, 16> steps = {{
+constexpr std::array<std::pair<const char*, const char*>, 18> steps = {{
     {"machine", QT_TRANSLATE_NOOP("steps", "machine")},
     {"calibrate", QT_TRANSLATE_NOOP("steps", "calibrate")},
     {"calibration", QT_TRANSLATE_NOOP("steps", "calibration")},
@@ -418,6 +418,8 @@ constexpr std::array<std::pair<const char*, const char*>, 16> steps = {{
     {"axis_table", QT_TRANSLATE_NOOP("steps", "axis table")},
     {"correction", QT_TRANSLATE_NOOP("steps", "correction")},
     {"job", QT_TRANSLATE_NOOP("steps", "job")},
+    {"describe", QT_TRANSLATE_NOOP("steps", "description")},
+    {"description", QT_TRANSLATE_NOOP("steps", "description")},
 }};
 
 QString factInWords(const std::string& key, const std::string& value) {

@@ -44,6 +44,8 @@ std::string_view name_of(StepState state) {
       return "current";
     case StepState::stale:
       return "stale";
+    case StepState::not_needed:
+      return "not_needed";
   }
   return "";
 }
@@ -56,16 +58,26 @@ std::string Flow::maker_of(std::string_view kind) const {
   return at == m_steps.end() ? std::string() : at->id;
 }
 
+bool Flow::spares(std::string_view kind, commissioning::JobKind job) const {
+  return job == commissioning::JobKind::files && std::any_of(m_steps.begin(), m_steps.end(), [&](const StepInfo& step) {
+           return step.makes == kind && step.controller;
+         });
+}
+
 StepStatus Flow::status_of(const StepInfo& step, const LatestOf& latest, const StateOf& made_by) const {
   StepStatus status;
   status.step = &step;
+  const auto spared = [&](const std::string& kind) {
+    const auto at = made_by.find(kind);
+    return at != made_by.end() && at->second == StepState::not_needed;
+  };
   const auto& made = latest.at(step.makes);
   if (made) status.artefact = made->id;
   bool blocked = false;
   const auto look = [&](const std::string& kind, bool optional) {
     const auto at = latest.find(kind);
     if (at == latest.end() || !at->second) {
-      if (optional) return;
+      if (optional || spared(kind)) return;
       blocked = true;
       status.reasons.push_back({Cause::missing, kind, maker_of(kind), 0, 0});
       return;
@@ -97,9 +109,11 @@ Result<std::vector<StepStatus>> Flow::status(const Job& job) const {
     ZD_TRY(latest[step.makes], job.latest(step.makes));
   }
   StateOf made_by;
+  ZD_TRY(const commissioning::JobKind kind, commissioning::kind_of(job));
   std::vector<StepStatus> all;
   for (const StepInfo& step : m_steps) {
     all.push_back(status_of(step, latest, made_by));
+    if (spares(step.makes, kind)) all.back() = {&step, StepState::not_needed, {}, {}, all.back().artefact};
     made_by[step.makes] = all.back().state;
   }
   return all;
@@ -107,7 +121,7 @@ Result<std::vector<StepStatus>> Flow::status(const Job& job) const {
 
 const StepStatus* Flow::next(const std::vector<StepStatus>& status) {
   const auto at = std::find_if(status.begin(), status.end(), [](const StepStatus& one) {
-    return !one.step->branch && one.state != StepState::current;
+    return !one.step->branch && one.state != StepState::current && one.state != StepState::not_needed;
   });
   return at == status.end() ? nullptr : &*at;
 }
@@ -128,6 +142,7 @@ Result<Artefact> Flow::take_in(Job& job, std::string_view id, const StepRun& run
 
 Result<Artefact> Flow::perform(Job& job, std::string_view id, const StepRun& run, const TaskContext& context) const {
   ZD_TRY(const StepInfo* step, find(id));
+  ZD_TRY(const commissioning::JobKind kind_of_job, commissioning::kind_of(job));
   std::vector<InputRef> held;
   std::string missing;
   const auto hold = [&](const std::string& kind, bool optional) -> Status {
@@ -139,7 +154,7 @@ Result<Artefact> Flow::perform(Job& job, std::string_view id, const StepRun& run
     }
     return {};
   };
-  for (const std::string& kind : step->needs) ZD_CHECK(hold(kind, false));
+  for (const std::string& kind : step->needs) ZD_CHECK(hold(kind, spares(kind, kind_of_job)));
   for (const std::string& kind : step->uses) ZD_CHECK(hold(kind, true));
   if (!missing.empty()) return fail(ErrorCode::step_blocked, {{"step", std::string(id)}, {"needs", missing}});
 

@@ -8,15 +8,17 @@
 #include <string>
 #include <vector>
 
+#include "core/commissioning/job_kind.h"
 #include "core/flow/step.h"
 
 namespace zerodrift::flow {
 
 enum class StepState {
-  blocked,  // a needed artefact was never made
-  ready,    // can be done, and was not yet
-  current,  // done, from what the job holds now
-  stale,    // done, but from something else
+  blocked,     // a needed artefact was never made
+  ready,       // can be done, and was not yet
+  current,     // done, from what the job holds now
+  stale,       // done, but from something else
+  not_needed,  // it is about a controller, and the job is one from files only
 };
 std::string_view name_of(StepState state);
 
@@ -50,7 +52,7 @@ class Flow {
 
   /// In the order of the steps; they point into this flow.
   Result<std::vector<StepStatus>> status(const commissioning::Job& job) const;
-  /// The first step of the main line that is not current; null when all are.
+  /// The first step of the main line that is needed and not current; null when all are.
   static const StepStatus* next(const std::vector<StepStatus>& status);
 
   /// Runs a step and keeps what it made, with what the job held when it began as its inputs. step_blocked when
@@ -66,6 +68,8 @@ class Flow {
   using LatestOf = std::map<std::string, std::optional<commissioning::Artefact>, std::less<>>;
   using StateOf = std::map<std::string, StepState, std::less<>>;
   StepStatus status_of(const StepInfo& step, const LatestOf& latest, const StateOf& made_by) const;
+  /// Of what an unneeded step would make, nothing waits.
+  bool spares(std::string_view kind, commissioning::JobKind job) const;
   std::string maker_of(std::string_view kind) const;
   Result<const StepInfo*> find(std::string_view step) const;
 

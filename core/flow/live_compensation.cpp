@@ -38,6 +38,8 @@ Result<analysis::Model> running_model(const commissioning::Job& job) {
   ZD_TRY(const auto artefact, job.latest("model"));
   if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "compensator"}, {"needs", "model"}});
   ZD_TRY(auto model, flow::model_of(*artefact));
+  ZD_TRY(const Input warmup, need(job, "compensator", "warmup"));
+  model = by_axes(std::move(model), warmup.body);
   if (model.method != analysis::Method::physics) return model;
   return fail(ErrorCode::bad_argument, {{"what", "the job's model"},
                                         {"found", "a physics model, which predicts recordings"},

@@ -6,16 +6,17 @@ namespace zerodrift::flow {
 
 std::span<const StepInfo> standard_steps() {
   static const std::vector<StepInfo> steps = {
-      {"machine", "step.machine.title", {}, {}, "machine", false},
-      {"calibrate", "step.calibrate.title", {"machine"}, {}, "calibration", false},
-      {"warmup", "step.warmup.title", {"machine", "calibration"}, {}, "warmup", false},
-      {"sensors", "step.sensors.title", {"warmup"}, {}, "sensors", false},
-      {"fit", "step.fit.title", {"warmup", "sensors"}, {}, "model", false},
-      {"physics", "step.physics.title", {"machine", "warmup"}, {}, "physics", false},
+      {"machine", "step.machine.title", {}, {}, "machine", false, true},
+      {"calibrate", "step.calibrate.title", {"machine"}, {}, "calibration", false, true},
+      {"warmup", "step.warmup.title", {"machine", "calibration"}, {}, "warmup"},
+      {"sensors", "step.sensors.title", {"warmup"}, {}, "sensors"},
+      {"fit", "step.fit.title", {"warmup", "sensors"}, {}, "model"},
+      {"describe", "step.describe.title", {}, {}, "description", true},
+      {"physics", "step.physics.title", {"machine", "warmup"}, {"description"}, "physics"},
       {"axis", "step.axis.title", {}, {}, "axis_table", true},
-      {"upload", "step.upload.title", {"machine", "model"}, {"axis_table"}, "upload", false},
-      {"verify", "step.verify.title", {"warmup", "calibration", "upload"}, {}, "verification", false},
-      {"report", "step.report.title", {"verification"}, {"physics", "axis_table"}, "report", false},
+      {"upload", "step.upload.title", {"machine", "model"}, {"axis_table"}, "upload", false, true},
+      {"verify", "step.verify.title", {"warmup", "calibration", "upload"}, {}, "verification", false, true},
+      {"report", "step.report.title", {"verification", "warmup"}, {"model", "physics", "axis_table"}, "report"},
   };
   return steps;
 }

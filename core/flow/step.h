@@ -25,9 +25,10 @@ struct StepInfo {
   std::vector<std::string> uses;   // kinds it takes in when they are there
   std::string makes;               // kind
   bool branch = false;             // beside the main line: the job is complete without it
+  bool controller = false;         // reads from a controller or writes to one: not needed in a job from files only
 };
 
-/// machine, calibrate, warmup, sensors, fit, physics, upload, verify, report; axis as a branch. Every step
+/// machine, calibrate, warmup, sensors, fit, physics, upload, verify, report; describe and axis as branches. Every step
 /// stands after those it needs.
 std::span<const StepInfo> standard_steps();
 /// Null when there is no such step.

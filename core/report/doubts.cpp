@@ -240,7 +240,9 @@ void about_model(const Source& source, Doubts& doubts) {
   for (const auto& finding : model.value("findings", json::array())) {
     std::string text = source.in_words(text_of(finding, "text"));
     if (text.empty()) continue;
-    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    const std::string stored = text_of(finding, "text");
+    const bool named = is_channel(stored.substr(0, stored.find(' ')), source.labels());  // as its maker wrote it
+    if (!named) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
     doubts.add(Verdict::doubtful, "findings", "{}", text.ends_with(stop) ? text : text + stop);
   }
 }

@@ -42,6 +42,9 @@ Result<Source> Source::load(const commissioning::Job& job, Words words) {
       source.m_labels[text_of(sensor, "channel")] = source.say(sensor.value("label", ""));
     }
   }
+  if (const LoadedArtefact* warmup = source.find("warmup")) {
+    add_imported(source.m_labels, warmup->body.value("import", json()));
+  }
   ZD_TRY(source.m_audit, job.audit_trail());
   source.m_audit_is_whole = job.verify_audit().has_value();
   return source;
@@ -152,27 +155,27 @@ std::string minute_of(const std::string& utc) {
 }
 
 /// For legends: "T14", "X", "Room".
-static std::string short_name(const std::string& channel) {
+static std::string short_name(const std::string& channel, const Labels& labels) {
   const auto kind = recording::kind_of(channel);
-  std::string tag = channel.substr(0, channel.find('_'));
-  if (kind == recording::ChannelKind::temperature) return tag;
-  if (kind == recording::ChannelKind::error && tag.size() == 2 && tag[0] == 'd') return tag.substr(1);
-  return channel_in_words(channel, {});
+  const bool sensor = kind == recording::ChannelKind::temperature || kind == recording::ChannelKind::error;
+  return sensor ? tag_of(channel, labels) : channel_in_words(channel, labels);
 }
 
-Hue hue_of(const std::string& channel) {
-  if (channel == "dX_um") return Hue::x;
-  if (channel == "dY_um") return Hue::y;
-  if (channel == "dZ_um") return Hue::z;
+Hue hue_of(const std::string& channel, const Labels& labels) {
+  const std::string axis = recording::kind_of(channel) == recording::ChannelKind::error ? tag_of(channel, labels) : "";
+  if (axis == "X") return Hue::x;
+  if (axis == "Y") return Hue::y;
+  if (axis == "Z") return Hue::z;
   return channel == "ambient_C" ? Hue::room : Hue::order;
 }
 
-std::vector<Curve> curves_of(const recording::Recording& run, const std::vector<std::string>& channels, bool points) {
+std::vector<Curve> curves_of(const recording::Recording& run, const std::vector<std::string>& channels, bool points,
+                             const Labels& labels) {
   std::vector<Curve> curves;
   for (const auto& name : channels) {
     const auto* channel = run.find(name);
     if (channel == nullptr) continue;
-    Curve curve{short_name(name), {}, {}, points, hue_of(name)};
+    Curve curve{short_name(name, labels), {}, {}, points, hue_of(name, labels)};
     for (std::size_t r = 0; r < run.rows(); ++r) {
       if (std::isnan(channel->values[r])) continue;
       curve.x.push_back((run.time_s[r] - run.time_s.front()) / 3600.0);

@@ -59,6 +59,7 @@ class Source {
   /// The same for one that is in the reader's language already.
   std::string with_names(const std::string& text) const;
   std::string channel_in_words(const std::string& channel) const;
+  const Labels& labels() const { return m_labels; }
 
   const commissioning::JobHeader& header() const { return m_header; }
   const std::vector<commissioning::HeaderChange>& header_changes() const { return m_header_changes; }
@@ -98,8 +99,9 @@ std::vector<std::string> directions_of(const nlohmann::json& body, const std::st
 std::string minute_of(const std::string& utc);
 
 /// Curves of the channels over hours; errors in the colours of their axes.
-std::vector<Curve> curves_of(const recording::Recording& run, const std::vector<std::string>& channels, bool points);
-Hue hue_of(const std::string& channel);
+std::vector<Curve> curves_of(const recording::Recording& run, const std::vector<std::string>& channels, bool points,
+                             const Labels& labels = {});
+Hue hue_of(const std::string& channel, const Labels& labels = {});
 
 /// Samples of a run that decide a figure.
 TraceRow row_of(const LoadedRun& run, const std::string& channel, std::size_t row);

@@ -195,7 +195,7 @@ Budget budget_of_compensation(const Source& source) {
   for (const auto& figure : list_of(model->body, "figures")) {
     const std::string channel = text_of(figure, "channel");
     const double rms = number_of(figure, "rms_held_out_um");
-    if (channel.size() > 1 && std::isfinite(rms)) left.u_um[channel.substr(1, channel.find('_') - 1)] = rms;
+    if (std::isfinite(rms)) left.u_um[tag_of(channel, source.labels())] = rms;
   }
   budget.parts.push_back(std::move(left));
   return budget;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 #include <regex>
 
+#include "core/recording/import/importer.h"
 #include "core/recording/recording.h"
 #include "core/report/naming.h"
 
@@ -11,16 +13,16 @@ namespace zerodrift::report {
 
 std::string channel_in_words(const std::string& channel, const Labels& labels) {
   using recording::ChannelKind;
-  const std::string tag = channel.substr(0, channel.find('_'));
+  const std::string tag = tag_of(channel, labels);
   switch (recording::kind_of(channel)) {
     case ChannelKind::ambient:
-      return "Room";
+      return tag;
     case ChannelKind::temperature: {
       const auto label = labels.find(channel);
       return label == labels.end() || label->second.empty() ? tag : tag + " " + label->second;
     }
     case ChannelKind::error:
-      return tag.size() == 2 && tag[0] == 'd' ? "Error in " + tag.substr(1) : channel;
+      return "Error in " + tag;
     case ChannelKind::tilt:
       return "Tilt " + tag;
     case ChannelKind::speed:
@@ -34,6 +36,32 @@ std::string channel_in_words(const std::string& channel, const Labels& labels) {
       break;
   }
   return channel;
+}
+
+std::string tag_of(const std::string& channel, const Labels& labels) {
+  using recording::ChannelKind;
+  const auto kind = recording::kind_of(channel);
+  if (kind == ChannelKind::ambient) return "Room";
+  const bool moves = kind == ChannelKind::error || kind == ChannelKind::tilt;
+  if (const auto label = labels.find(channel); moves && label != labels.end() && !label->second.empty()) {
+    return label->second;
+  }
+  if (!moves && kind != ChannelKind::temperature) return channel;
+  const std::string tag = channel.substr(0, channel.rfind('_'));
+  return kind == ChannelKind::error && tag.size() == 2 && tag[0] == 'd' ? tag.substr(1) : tag;
+}
+
+bool is_channel(const std::string& word, const Labels& labels) {
+  static const std::regex known(R"(T[0-9]+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)");
+  return labels.contains(word) || std::regex_match(word, known);
+}
+
+void add_imported(Labels& labels, const nlohmann::json& kept) {
+  const auto assigned = recording::assigned_in(kept);
+  for (const auto& channel : assigned.channels) labels.try_emplace(channel);
+  for (const auto* said : {&assigned.axes, &assigned.locations}) {
+    for (const auto& [channel, words] : *said) labels[channel] = words;
+  }
 }
 
 namespace {
@@ -65,15 +93,17 @@ std::string readable(const std::string& original, const Labels& labels) {
 
 std::string readable(const std::string& original, const Labels& labels,
                      const std::function<std::string(const std::string&)>& name) {
-  static const std::regex channels(R"(\b(T[0-9]+_C|ambient_C|d[XYZ]_um|spindle_rpm|coolant_on|spindle_load_W)\b)");
+  static const std::regex channels(R"(\b([A-Za-z]\w*_(C|um|urad)|spindle_rpm|coolant_on|spindle_load_W)\b)");
   const std::string text = with_units(original);
   std::string words;
   auto from = text.cbegin();
   for (std::sregex_iterator at(text.begin(), text.end(), channels), end; at != end; ++at) {
+    if (!is_channel(at->str(), labels)) continue;
     words.append(from, text.cbegin() + at->position());
     std::string said = name ? name(at->str()) : channel_in_words(at->str(), labels);
     const bool begins = words.empty() || words.ends_with(". ") || words.ends_with(": ");
-    if (!name && !begins && at->str().front() != 'T') said.front() = static_cast<char>(std::tolower(said.front()));
+    const bool sensor = recording::kind_of(at->str()) == recording::ChannelKind::temperature;
+    if (!name && !begins && !sensor) said.front() = static_cast<char>(std::tolower(said.front()));
     // The sentences leave a space beside a channel, as beside any word of another script; between Chinese ones is none.
     if (words.ends_with(' ') && ends_chinese(std::string_view(words).substr(0, words.size() - 1)) &&
         is_chinese(said, 0)) {

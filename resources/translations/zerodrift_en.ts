@@ -59,6 +59,16 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::ui::ImportDialog</name>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation>
+            <numerusform>and %n more</numerusform>
+            <numerusform>and %n more</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::MachinePage</name>
     <message numerus="yes">
         <source>%n to check</source>

@@ -4966,18 +4966,6 @@
         <translation>实际 - 目标，并带单位；其他情况请用列映射说明</translation>
     </message>
     <message>
-        <source>the room in the room's column (are the two exchanged?)</source>
-        <translation>室温列中应为室温（两列是否互换？）</translation>
-    </message>
-    <message>
-        <source>In {recording} the spindle's load is at most {most} W, next to nothing for this motor: is spindle_load_W in {unit}?</source>
-        <translation>{recording} 中主轴负载最大仅 {most} W，对该电机几乎为零：spindle_load_W 的单位是否为 {unit}？</translation>
-    </message>
-    <message>
-        <source>the spindle's speed (was it logged?)</source>
-        <translation>主轴转速（是否已记录？）</translation>
-    </message>
-    <message>
         <source>Going back to version %1</source>
         <translation>回退到版本 %1</translation>
     </message>
@@ -5056,6 +5044,34 @@
     <message>
         <source>a report of a rotary axis</source>
         <translation>旋转轴报告</translation>
+    </message>
+    <message>
+        <source>values other than 0 for this format</source>
+        <translation>此格式中不为 0 的数值</translation>
+    </message>
+    <message>
+        <source>X, Y or Z of a channel in um; A or B of one in urad</source>
+        <translation>以 um 计的通道用 X、Y 或 Z；以 urad 计的用 A 或 B</translation>
+    </message>
+    <message>
+        <source>axis %1, as column %2</source>
+        <translation>轴 %1，与列 %2 相同</translation>
+    </message>
+    <message>
+        <source>one column for each axis</source>
+        <translation>每个轴一列</translation>
+    </message>
+    <message>
+        <source>sensors %1</source>
+        <translation>传感器 %1</translation>
+    </message>
+    <message>
+        <source>sensors of the recording: %1</source>
+        <translation>记录中的传感器：%1</translation>
+    </message>
+    <message>
+        <source>the kind of the job is %1</source>
+        <translation>作业的种类是 %1</translation>
     </message>
 </context>
 <context>
@@ -6115,6 +6131,10 @@
         <comment>between the names of steps</comment>
         <translation>、</translation>
     </message>
+    <message>
+        <source>description</source>
+        <translation>描述</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::Application</name>
@@ -6341,6 +6361,38 @@
     <message>
         <source>The job is damaged</source>
         <translation>作业已损坏</translation>
+    </message>
+    <message>
+        <source>Import a recording</source>
+        <translation>导入记录</translation>
+    </message>
+    <message>
+        <source>Not needed</source>
+        <translation>不需要</translation>
+    </message>
+    <message>
+        <source>This job is made from files: no machine is connected, and nothing is written to one.</source>
+        <translation>本作业由文件生成：不连接机床，也不向机床写入任何内容。</translation>
+    </message>
+    <message>
+        <source>Use a machine with this job</source>
+        <translation>为本作业使用机床</translation>
+    </message>
+    <message>
+        <source>The errors of an imported recording are measured already: there is no camera to calibrate.</source>
+        <translation>导入的记录中误差已经测好：没有相机需要标定。</translation>
+    </message>
+    <message>
+        <source>There is no controller to write to. Export gives the table as a file that a controller loads.</source>
+        <translation>没有可写入的控制器。“导出”把补偿表保存为控制器可读入的文件。</translation>
+    </message>
+    <message>
+        <source>What is left can only be measured on the machine, with the table active. The Fit page says what to expect on data that the model has not seen.</source>
+        <translation>剩余误差只能在补偿表生效的机床上测量。“拟合”页给出在模型未见数据上的预期。</translation>
+    </message>
+    <message>
+        <source>Compensating from this computer needs a connected machine.</source>
+        <translation>由本计算机补偿需要已连接的机床。</translation>
     </message>
 </context>
 <context>
@@ -6574,36 +6626,32 @@
         <translation>%1 不是此处可以打开的文件。</translation>
     </message>
     <message>
-        <source>Jobs (.zdj), connection profiles and plans (.json), laser reports (.csv, .rtl, .REN, .pos) and recordings (.csv with time_s) can.</source>
-        <translation>可以打开：作业（.zdj）、连接配置文件和计划（.json）、激光测量报告（.csv、.rtl、.REN、.pos）以及记录（含 time_s 的 .csv）。</translation>
-    </message>
-    <message>
-        <source>%1 rows over %2.</source>
-        <translation>%1 行，历时 %2。</translation>
-    </message>
-    <message>
-        <source>A new job is made for it.</source>
-        <translation>将为其新建作业。</translation>
-    </message>
-    <message>
-        <source>It takes the place of the warm-up run that this job has.</source>
-        <translation>它将取代本作业已有的暖机运行。</translation>
-    </message>
-    <message>
-        <source>Use %1 as the warm-up run?</source>
-        <translation>将 %1 用作暖机运行？</translation>
-    </message>
-    <message>
-        <source>It must have been recorded with the compensation off.</source>
-        <translation>该记录必须是在补偿断开时记录的。</translation>
-    </message>
-    <message>
-        <source>Use it</source>
-        <translation>使用</translation>
-    </message>
-    <message>
         <source>sample</source>
         <translation>示例</translation>
+    </message>
+    <message>
+        <source>Jobs (.zdj), connection profiles, plans and machine descriptions (.json), laser reports (.csv, .rtl, .REN, .pos) and recordings (.csv, .txt, .lvm, .xlsx) can.</source>
+        <translation>可以打开作业（.zdj）、连接配置、计划和机床描述（.json）、激光报告（.csv、.rtl、.REN、.pos）以及记录（.csv、.txt、.lvm、.xlsx）。</translation>
+    </message>
+    <message>
+        <source>Import a recording</source>
+        <translation>导入记录</translation>
+    </message>
+    <message>
+        <source>Recordings (*.csv *.txt *.tsv *.dat *.lvm *.xlsx);;All files (*)</source>
+        <translation>记录 (*.csv *.txt *.tsv *.dat *.lvm *.xlsx);;所有文件 (*)</translation>
+    </message>
+    <message>
+        <source>Use in a new job</source>
+        <translation>用于新作业</translation>
+    </message>
+    <message>
+        <source>Replace the run</source>
+        <translation>替换该运行</translation>
+    </message>
+    <message>
+        <source>Use this recording</source>
+        <translation>使用此记录</translation>
     </message>
 </context>
 <context>
@@ -6635,6 +6683,14 @@
     <message>
         <source>Updating the model</source>
         <translation>正在更新模型</translation>
+    </message>
+    <message>
+        <source>The recording holds no error, so there is nothing to fit. Its heat can be explained, in Physics.</source>
+        <translation>记录中没有误差，因此没有可拟合的内容。其热行为可在“物理分析”页解释。</translation>
+    </message>
+    <message>
+        <source>No errors recorded</source>
+        <translation>未记录误差</translation>
     </message>
 </context>
 <context>
@@ -6833,8 +6889,20 @@
         <translation>未能查找仿真所缺的内容。</translation>
     </message>
     <message>
-        <source>The job holds no machine yet: connect it and start the commissioning on the Machine page.</source>
-        <translation>作业中还没有机床：请在“机床”页连接机床并开始调试。</translation>
+        <source>Open a machine description</source>
+        <translation>打开机床描述</translation>
+    </message>
+    <message>
+        <source>Machine descriptions (*.json)</source>
+        <translation>机床描述 (*.json)</translation>
+    </message>
+    <message>
+        <source>A lump for each sensor</source>
+        <translation>每个传感器一个集总体</translation>
+    </message>
+    <message>
+        <source>a lump for each sensor</source>
+        <translation>每个传感器一个集总体</translation>
     </message>
 </context>
 <context>
@@ -7097,6 +7165,14 @@
     <message>
         <source>Record a warm-up run first: the sensors are chosen from it.</source>
         <translation>请先记录一次暖机运行：传感器由此选出。</translation>
+    </message>
+    <message>
+        <source>The recording holds no error, so there is nothing to choose sensors for. Its heat can be explained, in Physics.</source>
+        <translation>记录中没有误差，因此无从选择传感器。其热行为可在“物理分析”页解释。</translation>
+    </message>
+    <message>
+        <source>No errors recorded</source>
+        <translation>未记录误差</translation>
     </message>
 </context>
 <context>
@@ -9052,6 +9128,14 @@
         <source>No jobs yet. Jobs that you make or open are listed here.</source>
         <translation>尚无作业。新建或打开的作业将列在这里。</translation>
     </message>
+    <message>
+        <source>Use my own recording</source>
+        <translation>使用我自己的记录</translation>
+    </message>
+    <message>
+        <source>A logger&apos;s table of temperatures and errors, from any machine. Nothing needs to be connected.</source>
+        <translation>记录仪的温度和误差表，来自任何机床。无需连接任何设备。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::MainWindow</name>
@@ -9124,6 +9208,18 @@
     <message>
         <source>Not yet: an earlier step comes first.</source>
         <translation>尚不可用：需先完成前面的步骤。</translation>
+    </message>
+    <message>
+        <source>Not needed in this job: go on.</source>
+        <translation>本作业不需要此步骤：请继续。</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Not needed</source>
+        <translation>不需要</translation>
     </message>
 </context>
 <context>
@@ -9453,6 +9549,42 @@
     <message>
         <source>Recorded less simulated, rms over all temperatures; a card tells of one channel.</source>
         <translation>记录值减仿真值，对所有温度取均方根；每张卡片只针对一个通道。</translation>
+    </message>
+    <message>
+        <source>Say what the machine is: then its heat is simulated and compared.</source>
+        <translation>说明机床的构成：然后对其热行为进行仿真并比较。</translation>
+    </message>
+    <message>
+        <source>Open machine.json</source>
+        <translation>打开 machine.json</translation>
+    </message>
+    <message>
+        <source>Use a lump for each sensor</source>
+        <translation>每个传感器用一个集总体</translation>
+    </message>
+    <message>
+        <source>A start without a drawing: each sensor is a body of its own, its sizes are found</source>
+        <translation>没有图纸时的起点：每个传感器自成一体，其大小由程序求得</translation>
+    </message>
+    <message>
+        <source>Other description</source>
+        <translation>更换描述</translation>
+    </message>
+    <message>
+        <source>Simulated is %1. A machine.json takes its place</source>
+        <translation>目前仿真的是 %1。一个 machine.json 将取代它</translation>
+    </message>
+    <message>
+        <source>The machine is not described yet</source>
+        <translation>机床尚未描述</translation>
+    </message>
+    <message>
+        <source>Open a machine.json: its parts, heat sources and where each sensor sits. Without a drawing begin with a lump for each sensor.</source>
+        <translation>打开 machine.json：其中有部件、热源和每个传感器的位置。没有图纸时，先为每个传感器用一个集总体。</translation>
+    </message>
+    <message>
+        <source>The description has no rod: see the channels.</source>
+        <translation>描述中没有杆件：请看通道。</translation>
     </message>
 </context>
 <context>
@@ -9933,18 +10065,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>传感器</translation>
     </message>
     <message>
-        <source>Correlation with the error in X</source>
-        <translation>与 X 误差的相关系数</translation>
-    </message>
-    <message>
-        <source>Correlation with the error in Y</source>
-        <translation>与 Y 误差的相关系数</translation>
-    </message>
-    <message>
-        <source>Correlation with the error in Z</source>
-        <translation>与 Z 误差的相关系数</translation>
-    </message>
-    <message>
         <source>Sum</source>
         <translation>总和</translation>
     </message>
@@ -10011,6 +10131,10 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>%1: %2.</source>
         <translation>%1：%2。</translation>
+    </message>
+    <message>
+        <source>Correlation with the error in %1</source>
+        <translation>与 %1 误差的相关性</translation>
     </message>
 </context>
 <context>
@@ -11131,6 +11255,325 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>in %1</source>
         <translation>%1 轴</translation>
+    </message>
+    <message>
+        <source>Import the recording of your logger: its columns are shown before it is taken.</source>
+        <translation>导入您的记录仪的记录：采用之前会显示其各列。</translation>
+    </message>
+    <message>
+        <source>Imported. Look it over, then go on to the sensors.</source>
+        <translation>已导入。请查看，然后继续到传感器。</translation>
+    </message>
+    <message>
+        <source>Imported, without errors: the heat can be explained, in Physics.</source>
+        <translation>已导入，没有误差：其热行为可在“物理分析”页解释。</translation>
+    </message>
+    <message>
+        <source>Import a recording</source>
+        <translation>导入记录</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>导入</translation>
+    </message>
+    <message>
+        <source>A recording of another logger takes the place of the run</source>
+        <translation>用其他记录仪的记录取代该运行</translation>
+    </message>
+    <message>
+        <source>Import another</source>
+        <translation>导入另一个</translation>
+    </message>
+    <message>
+        <source>heat only</source>
+        <translation>仅热量</translation>
+    </message>
+    <message>
+        <source>The recording holds no error: Sensors and Fit need one, Physics does not.</source>
+        <translation>记录中没有误差：传感器和拟合需要误差，物理分析不需要。</translation>
+    </message>
+    <message>
+        <source>Temperatures</source>
+        <translation>温度</translation>
+    </message>
+    <message>
+        <source>Rows</source>
+        <translation>行数</translation>
+    </message>
+    <message>
+        <source>No recording yet</source>
+        <translation>还没有记录</translation>
+    </message>
+    <message>
+        <source>The temperatures and errors of your recording appear here. Drop a logger&apos;s table anywhere on the window, or choose it: text, CSV or a workbook, with any names and units.</source>
+        <translation>您的记录中的温度和误差将显示在这里。把记录仪的表格拖到窗口任意处，或选择它：文本、CSV 或工作簿，名称和单位不限。</translation>
+    </message>
+</context>
+<context>
+    <name>ImportWords</name>
+    <message>
+        <source>holds words</source>
+        <translation>只有文字</translation>
+    </message>
+    <message>
+        <source>holds nothing</source>
+        <translation>没有内容</translation>
+    </message>
+    <message>
+        <source>counts the rows</source>
+        <translation>行号</translation>
+    </message>
+    <message>
+        <source>alarms of the logger</source>
+        <translation>记录仪的报警</translation>
+    </message>
+    <message>
+        <source>a second time</source>
+        <translation>第二个时间</translation>
+    </message>
+    <message>
+        <source>perhaps %1</source>
+        <translation>可能是 %1</translation>
+    </message>
+    <message>
+        <source>decimal comma</source>
+        <translation>小数逗号</translation>
+    </message>
+    <message>
+        <source>decimal point</source>
+        <translation>小数点</translation>
+    </message>
+    <message>
+        <source>comma</source>
+        <translation>逗号</translation>
+    </message>
+    <message>
+        <source>semicolon</source>
+        <translation>分号</translation>
+    </message>
+    <message>
+        <source>tab</source>
+        <translation>制表符</translation>
+    </message>
+    <message>
+        <source>blanks</source>
+        <translation>空格</translation>
+    </message>
+    <message>
+        <source>time in %1 from the start</source>
+        <translation>时间自开始以 %1 计</translation>
+    </message>
+    <message>
+        <source>time in %1 since 1970, from %2</source>
+        <translation>时间自 1970 年以 %1 计，始于 %2</translation>
+    </message>
+    <message>
+        <source>no time column: rows come evenly</source>
+        <translation>没有时间列：各行间隔相等</translation>
+    </message>
+    <message>
+        <source>time of day</source>
+        <translation>时刻</translation>
+    </message>
+    <message>
+        <source>date and time, from %1</source>
+        <translation>日期和时间，始于 %1</translation>
+    </message>
+    <message>
+        <source>date and time as %1, from %2</source>
+        <translation>日期和时间（%1），始于 %2</translation>
+    </message>
+    <message>
+        <source>sheet %1</source>
+        <translation>工作表 %1</translation>
+    </message>
+    <message>
+        <source>separated by %1</source>
+        <translation>以%1分隔</translation>
+    </message>
+    <message>
+        <source>%1 rows over %2</source>
+        <translation>%1 行，历时 %2</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::RecordingImport</name>
+    <message>
+        <source>Reading the file</source>
+        <translation>正在读取文件</translation>
+    </message>
+    <message>
+        <source>It must have been recorded with the compensation off.</source>
+        <translation>该记录必须是在补偿断开时记录的。</translation>
+    </message>
+    <message>
+        <source>Header map</source>
+        <translation>列映射</translation>
+    </message>
+    <message>
+        <source>Header maps (*.json)</source>
+        <translation>列映射 (*.json)</translation>
+    </message>
+    <message>
+        <source>Save map</source>
+        <translation>保存映射</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ImportDialog</name>
+    <message>
+        <source>not used</source>
+        <translation>不使用</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>temperature</source>
+        <translation>温度</translation>
+    </message>
+    <message>
+        <source>room temperature</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>displacement</source>
+        <translation>位移</translation>
+    </message>
+    <message>
+        <source>tilt</source>
+        <translation>倾角</translation>
+    </message>
+    <message>
+        <source>spindle speed</source>
+        <translation>主轴转速</translation>
+    </message>
+    <message>
+        <source>coolant</source>
+        <translation>冷却液</translation>
+    </message>
+    <message>
+        <source>spindle load</source>
+        <translation>主轴负载</translation>
+    </message>
+    <message>
+        <source>other input</source>
+        <translation>其他输入</translation>
+    </message>
+    <message>
+        <source>by unit</source>
+        <translation>按单位</translation>
+    </message>
+    <message>
+        <source>format, e.g. %d.%m.%Y %H:%M:%S</source>
+        <translation>格式，如 %d.%m.%Y %H:%M:%S</translation>
+    </message>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation>
+            <numerusform>另有 %n 条</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Import a recording</source>
+        <translation>导入记录</translation>
+    </message>
+    <message>
+        <source>Column of the file</source>
+        <translation>文件中的列</translation>
+    </message>
+    <message>
+        <source>is</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>Location or format</source>
+        <translation>位置或格式</translation>
+    </message>
+    <message>
+        <source>Decimal sign</source>
+        <translation>小数符号</translation>
+    </message>
+    <message>
+        <source>Separator</source>
+        <translation>分隔符</translation>
+    </message>
+    <message>
+        <source>Sheet</source>
+        <translation>工作表</translation>
+    </message>
+    <message>
+        <source>as found</source>
+        <translation>按文件</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>点</translation>
+    </message>
+    <message>
+        <source>comma</source>
+        <translation>逗号</translation>
+    </message>
+    <message>
+        <source>semicolon</source>
+        <translation>分号</translation>
+    </message>
+    <message>
+        <source>tab</source>
+        <translation>制表符</translation>
+    </message>
+    <message>
+        <source>blanks</source>
+        <translation>空格</translation>
+    </message>
+    <message>
+        <source>Load map</source>
+        <translation>载入映射</translation>
+    </message>
+    <message>
+        <source>What the columns are, from a file that was saved for another recording of this logger</source>
+        <translation>各列的含义，取自为该记录仪的另一记录保存的文件</translation>
+    </message>
+    <message>
+        <source>Save map</source>
+        <translation>保存映射</translation>
+    </message>
+    <message>
+        <source>Keeps what the columns are, for the next recording of this logger</source>
+        <translation>保存各列的含义，供该记录仪的下一个记录使用</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Missing</source>
+        <translation>缺失</translation>
+    </message>
+    <message>
+        <source>further words</source>
+        <translation>其他字样</translation>
+    </message>
+    <message>
+        <source>Words that stand for a missing sample in this file, with commas between them</source>
+        <translation>在此文件中表示缺失采样的字样，以逗号分隔</translation>
     </message>
 </context>
 </TS>

@@ -26,6 +26,7 @@
 #include "ui/pages/sensors_page.h"
 #include "ui/pages/warmup_page.h"
 #include "ui/shell/help_panel.h"
+#include "ui/widgets/import_dialog.h"
 
 using zerodrift::desktop::Application;
 using zerodrift::desktop::FileKind;
@@ -46,6 +47,9 @@ class HabitsTest : public QObject, private zerodrift::desktop::TestHome {
     QCOMPARE(kind_of_file(write("torn.json", "{\"steps\"")), FileKind::unknown);
     QCOMPARE(kind_of_file(write("run.csv", "time_s,T1_C,dZ_um\n0,20,0\n")), FileKind::recording);
     QCOMPARE(kind_of_file(write("bom.csv", "\xEF\xBB\xBFtime_s;T1_C\r\n0;20\r\n")), FileKind::recording);
+    QCOMPARE(kind_of_file(write("logger.txt", "Zeit [min];Lager [\xC2\xB0\x43]\n0,0;20,1\n0,5;20,2\n")),
+             FileKind::recording);
+    QCOMPARE(kind_of_file(write("machine.json", R"({"format": "zerodrift-machine/1"})")), FileKind::machine);
     QCOMPARE(kind_of_file(write("laser.csv", "position_mm,error_um\n0,0\n")), FileKind::laser);
     for (const char* name : {"x.rtl", "x.REN", "x.pos"}) QCOMPARE(kind_of_file(write(name, "")), FileKind::laser);
     QCOMPARE(kind_of_file(write("picture.png", "")), FileKind::unknown);
@@ -120,7 +124,12 @@ class HabitsTest : public QObject, private zerodrift::desktop::TestHome {
     application.openFiles({m_folder.filePath(QStringLiteral("missing.csv"))});
     QVERIFY2(said().contains(QStringLiteral("missing.csv")), qPrintable(said()));
     application.openFiles({write("cold.csv", "time_s,T1_C\n0,20\n10,20\n")});
-    QVERIFY2(said().contains(QStringLiteral("cold.csv")), qPrintable(said()));
+    auto* dialog = application.window().findChild<zerodrift::ui::ImportDialog*>();
+    QVERIFY(dialog != nullptr);
+    QTRY_VERIFY(!dialog->state().reading);
+    QVERIFY2(dialog->state().sentence.contains(QStringLiteral("cold.csv")), qPrintable(dialog->state().sentence));
+    QVERIFY(!dialog->state().ready);
+    dialog->reject();
     QVERIFY(application.bench().job() == nullptr);
     application.openFiles({write("torn.pos", "no laser\n")});
     QCOMPARE(application.window().currentPage()->id(), QStringLiteral("axis_errors"));

@@ -196,14 +196,13 @@ class JobChangeTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(bench.body("warmup").at("rows").get<int>() > 5);
   }
 
-  void physicsWithoutAMachineIsBlockedAndNoException() {
+  void physicsWithoutADescriptionAsksForOneAndThrowsNothing() {
     Application application(m_theme);
     show(application);
     QVERIFY(application.bench().openJob(otherJob().toStdString()).has_value());
     application.openPage(QStringLiteral("physics"));  // what throws here ends this test
     auto* page = qobject_cast<zerodrift::ui::PhysicsPage*>(application.presenter(QStringLiteral("physics"))->page());
-    QVERIFY(!page->state().blocked.isEmpty());
-    QVERIFY(!page->primaryAction().enabled);
+    QVERIFY(page->state().undescribed);
     page->experimentRequested();
     Q_EMIT page->secondaryTriggered(QStringLiteral("region"));
     QTRY_VERIFY_WITH_TIMEOUT(!application.bench().tasks().running(), 20000);

@@ -208,6 +208,20 @@ TEST(Exports, SiemensSlope) {
   EXPECT_NEAR(slope, 270e-6 * 9.3 / 19.0, 1e-9);
 }
 
+TEST(Exports, NothingButZerosIsRefused) {
+  // Points without temperature terms: the thermal file would be a line of zeros.
+  const Table points = one_axis({{0, 2, 2, 0}, {300, 9, 9, 0}});
+  const auto thermal = write_table(**export_format("sinumerik-thermal"), points, {});
+  ASSERT_FALSE(thermal);
+  EXPECT_EQ(thermal.error().code, ErrorCode::not_enough_data);
+  EXPECT_TRUE(write_table(**export_format("heidenhain"), points, {}));
+  const Table zeros = one_axis({{0, 0, 0, 0}, {300, 0, 0, 0}});
+  for (const auto& format : export_formats()) EXPECT_FALSE(write_table(format, zeros, {})) << format.id;
+  Table terms = zeros;
+  terms.axes["X"].terms = {{"T1_C", 2.0, 20.0, 0.0}};
+  EXPECT_TRUE(write_table(**export_format("sinumerik-thermal"), terms, {}));
+}
+
 // The published Heidenhain case: 300 mm, 40 K more, 11.5e-6 per K: 0.138 mm.
 TEST(Exports, HeidenhainExpansion) {
   Table table = one_axis({{0, 0, 0, 0}, {300, 0, 0, 0}});

@@ -77,7 +77,7 @@ TEST(Steps, StandAfterThoseTheyNeed) {
 }
 
 TEST_F(FlowTest, ANewJobBeginsWithTheMachine) {
-  EXPECT_EQ(in(StepState::ready), (Ids{"machine", "axis"}));
+  EXPECT_EQ(in(StepState::ready), (Ids{"machine", "describe", "axis"}));
   EXPECT_EQ(in(StepState::current), Ids{});
   EXPECT_EQ(next(), "machine");
   const auto fit = of("fit");
@@ -93,8 +93,27 @@ TEST_F(FlowTest, GoesOnStepByStep) {
   ASSERT_TRUE(perform("machine", 1));
   ASSERT_TRUE(perform("calibrate", 1));
   EXPECT_EQ(in(StepState::current), (Ids{"machine", "calibrate"}));
-  EXPECT_EQ(in(StepState::ready), (Ids{"warmup", "axis"}));
+  EXPECT_EQ(in(StepState::ready), (Ids{"warmup", "describe", "axis"}));
   EXPECT_EQ(next(), "warmup");
+}
+
+TEST_F(FlowTest, AJobFromFilesNeedsNoController) {
+  EXPECT_EQ(commissioning::kind_of(*job).value(), commissioning::JobKind::machine);  // as jobs before there were kinds
+  ASSERT_TRUE(commissioning::set_kind(*job, commissioning::JobKind::files));
+  const Ids unneeded = {"machine", "calibrate", "upload", "verify"};
+  EXPECT_EQ(in(StepState::not_needed), unneeded);
+  EXPECT_EQ(next(), "warmup");
+  EXPECT_EQ(of("report").reason, "warmup");
+  for (const char* step : {"warmup", "sensors", "fit", "physics", "report"}) EXPECT_TRUE(perform(step, 1)) << step;
+  EXPECT_EQ(next(), "");
+  EXPECT_EQ(in(StepState::stale), Ids{});
+  ASSERT_TRUE(perform("describe", 1));
+  EXPECT_EQ(of("physics").state, StepState::stale);  // it was simulated without it
+  ASSERT_TRUE(perform("warmup", 2));
+  EXPECT_EQ(of("report").state, StepState::stale);
+  EXPECT_EQ(in(StepState::not_needed), unneeded);
+  ASSERT_TRUE(commissioning::set_kind(*job, commissioning::JobKind::machine));
+  EXPECT_EQ(next(), "machine");
 }
 
 TEST_F(FlowTest, IsCompleteWithoutTheBranch) {

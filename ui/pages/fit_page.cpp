@@ -159,7 +159,9 @@ void FitPage::render() {
     m_direction->setItems(names);
   }
   const bool residuals = m_views->currentIndex() == 1;
-  m_plotCard->setTitle(residuals ? tr("Residuals") : tr("Measured and predicted"));
+  // More directions than the axes need the room of the heading.
+  const bool crowded = m_state.series.size() > 3;
+  m_plotCard->setTitle(crowded ? QString() : residuals ? tr("Residuals") : tr("Measured and predicted"));
   const int index =
       std::clamp(m_direction->currentIndex(), 0, std::max(0, static_cast<int>(m_state.series.size()) - 1));
   m_plotCard->setSubtitle(names.isEmpty() ? QStringLiteral("µm") : QStringLiteral("%1, µm").arg(names[index]));
@@ -235,7 +237,7 @@ void FitPage::renderMethods() {
   m_methods->setColumns(
       {{tr("Method"), 0, false, {}},
        {tr("rms"), 62, true, tr("Root mean square of what is left")},
-       {tr("Peak"), 62, true, {}},
+       {tr("Peak"), 70, true, {}},
        {tr("Band"), 52, true, tr("Share of the measurements inside the stated band")},
        {tr("Runs on"), 80, false,
         tr("Controller: it can compute the model itself. Host: this computer must stay connected.")}});

@@ -43,6 +43,7 @@ MachinePage::MachinePage(QWidget* parent) : Page("machine", parent) {
   m_views = new QStackedWidget(this);
   m_start = new MachineStart(this);
   connect(m_start, &MachineStart::newJobRequested, this, &MachinePage::newJobRequested);
+  connect(m_start, &MachineStart::ownRecordingRequested, this, &MachinePage::ownRecordingRequested);
   connect(m_start, &MachineStart::openJobRequested, this, &MachinePage::openJobRequested);
   connect(m_start, &MachineStart::sampleRequested, this, &MachinePage::sampleRequested);
   connect(m_start, &MachineStart::virtualMachineRequested, this, &MachinePage::virtualMachineRequested);
@@ -293,6 +294,8 @@ Figure MachinePage::restFigure() const {
 
 void MachinePage::render() {
   setFigures(figures());
+  // The start page is as high as its list; the machine's need not be.
+  m_start->setSizePolicy(QSizePolicy::Preferred, m_state.jobOpen ? QSizePolicy::Ignored : QSizePolicy::Preferred);
   m_views->setCurrentWidget(m_state.jobOpen ? m_machine : m_start);
   m_start->setState(m_state.recent, m_state.sampleAvailable);
   renderMachine();

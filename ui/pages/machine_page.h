@@ -110,6 +110,7 @@ class MachinePage : public Page {
 
  Q_SIGNALS:
   void newJobRequested();
+  void ownRecordingRequested();
   void openJobRequested(const QString& path);  // empty: let the user choose
   void sampleRequested();
   void virtualMachineRequested();

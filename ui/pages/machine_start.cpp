@@ -8,6 +8,8 @@
 namespace zerodrift::ui {
 namespace {
 
+constexpr int sample = 3;  // among the buttons
+
 /// A job in the list: its name, below it how far it is.
 class TwoLines : public QStyledItemDelegate {
  public:
@@ -40,10 +42,10 @@ class TwoLines : public QStyledItemDelegate {
 
 MachineStart::MachineStart(QWidget* parent) : QWidget(parent) {
   m_startCard = new Card(this);
-  const QVector<Icon> icons = {Icon::plus, Icon::folder, Icon::chart, Icon::machine};
+  const QVector<Icon> icons = {Icon::plus, Icon::file, Icon::folder, Icon::chart, Icon::machine};
   for (int i = 0; i < icons.size(); ++i) {
     auto* button = new QPushButton(lineIcon(icons[i]), {}, m_startCard);
-    button->setObjectName(QStringList({"startNew", "startOpen", "startSample", "startVirtual"})[i]);
+    button->setObjectName(QStringList({"startNew", "startOwn", "startOpen", "startSample", "startVirtual"})[i]);
     button->setProperty("big", true);
     button->setIconSize({20, 20});
     button->setStyleSheet("text-align: left");
@@ -57,9 +59,10 @@ MachineStart::MachineStart(QWidget* parent) : QWidget(parent) {
   }
   m_startCard->body()->addStretch();
   connect(m_startButtons[0], &QPushButton::clicked, this, &MachineStart::newJobRequested);
-  connect(m_startButtons[1], &QPushButton::clicked, this, [this] { Q_EMIT openJobRequested({}); });
-  connect(m_startButtons[2], &QPushButton::clicked, this, &MachineStart::sampleRequested);
-  connect(m_startButtons[3], &QPushButton::clicked, this, &MachineStart::virtualMachineRequested);
+  connect(m_startButtons[1], &QPushButton::clicked, this, &MachineStart::ownRecordingRequested);
+  connect(m_startButtons[2], &QPushButton::clicked, this, [this] { Q_EMIT openJobRequested({}); });
+  connect(m_startButtons[sample], &QPushButton::clicked, this, &MachineStart::sampleRequested);
+  connect(m_startButtons[4], &QPushButton::clicked, this, &MachineStart::virtualMachineRequested);
 
   m_recentCard = new Card(this);
   m_recent = new QListWidget(m_recentCard);
@@ -98,10 +101,11 @@ MachineStart::MachineStart(QWidget* parent) : QWidget(parent) {
 void MachineStart::setState(const QVector<RecentJob>& recent, bool sampleAvailable) {
   m_startCard->setTitle(tr("Start"));
   m_recentCard->setTitle(tr("Recent jobs"));
-  const QStringList names = {tr("New job"), tr("Open job"), tr("Open the sample job"),
+  const QStringList names = {tr("New job"), tr("Use my own recording"), tr("Open job"), tr("Open the sample job"),
                              tr("Connect to the virtual machine")};
   const QStringList notes = {
       tr("One file holds the whole commissioning: measurements, model, tables, report."),
+      tr("A logger's table of temperatures and errors, from any machine. Nothing needs to be connected."),
       tr("Go on where the job stopped; also after a crash."),
       tr("A finished commissioning to look around in. Nothing needs to be connected."),
       tr("A five-axis machine in software, with controller and cameras, to try everything without risk."),
@@ -110,8 +114,8 @@ void MachineStart::setState(const QVector<RecentJob>& recent, bool sampleAvailab
     m_startButtons[i]->setText(names[i]);
     m_startNotes[i]->setText(notes[i]);
   }
-  m_startButtons[2]->setVisible(sampleAvailable);
-  m_startNotes[2]->setVisible(sampleAvailable);
+  m_startButtons[sample]->setVisible(sampleAvailable);
+  m_startNotes[sample]->setVisible(sampleAvailable);
   m_wayCard->setTitle(tr("The way through"));
   const QStringList way = {
       tr("Machine") + '|' + tr("connect, see that all sensors live and the machine is cold"),

@@ -29,6 +29,7 @@ class MachineStart : public QWidget {
 
  Q_SIGNALS:
   void newJobRequested();
+  void ownRecordingRequested();
   void openJobRequested(const QString& path);  // empty: let the user choose
   void sampleRequested();
   void virtualMachineRequested();

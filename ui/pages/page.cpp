@@ -29,7 +29,21 @@ Page::Page(QString id, QWidget* parent) : QWidget(parent), m_id(std::move(id)) {
   connect(m_empty, &EmptyState::actionTriggered, this, &Page::emptyActionTriggered);
 }
 
+void Page::setNotNeeded(const QString& reason, const QStringList& kept, const QString& action) {
+  if (reason == m_notNeeded && kept == m_keptActions && action == m_notNeededAction) return;
+  m_notNeeded = reason;
+  m_keptActions = kept;
+  m_notNeededAction = action;
+  showContent();  // what is shown when it is needed again is for the page to say
+  refresh();
+}
+
+QString Page::headSentence() const {
+  return isNotNeeded() ? tr("Not needed in this job: go on.") : sentence();
+}
+
 PageAction Page::primaryAction() const {
+  if (isNotNeeded()) return {"primary", tr("Go on")};
   PageAction action = primary();
   action.id = "primary";
   const auto rule = m_allowed.constFind(action.id);
@@ -46,6 +60,7 @@ PageAction Page::primaryAction() const {
 
 QVector<PageAction> Page::secondaryActions() const {
   QVector<PageAction> actions = secondary();
+  if (isNotNeeded()) actions.removeIf([this](const PageAction& action) { return !m_keptActions.contains(action.id); });
   for (PageAction& action : actions) {
     const auto rule = m_allowed.constFind(action.id);
     if (action.enabled && rule != m_allowed.constEnd() && !rule->enabled) {
@@ -96,6 +111,7 @@ QWidget* Page::progressStrip() const {
 
 void Page::refresh() {
   render();
+  if (isNotNeeded()) showEmpty(Icon::tick, tr("Not needed"), m_notNeeded, m_notNeededAction);
   Q_EMIT refreshed();
 }
 

@@ -27,6 +27,7 @@
 
 #include <QHash>
 #include <QString>
+#include <QStringList>
 #include <QVector>
 #include <QWidget>
 #include <optional>
@@ -73,6 +74,13 @@ class Page : public QWidget {
   QVector<PageAction> secondaryActions() const;
   void allow(const QString& actionId, bool enabled, const QString& reason = {});
 
+  /// The step makes no sense in this job: the page says why in its middle and leads on; of its buttons only `kept`
+  /// stay. Without a reason it is needed. `action`: a button in the middle (emptyActionTriggered).
+  void setNotNeeded(const QString& reason, const QStringList& kept = {}, const QString& action = {});
+  bool isNotNeeded() const { return !m_notNeeded.isEmpty(); }
+  /// What stands in the head: sentence(), or that the step is not needed.
+  QString headSentence() const;
+
   void setProblem(const Problem& problem);
   void clearProblem();
   const Problem& problem() const;
@@ -90,7 +98,8 @@ class Page : public QWidget {
   void cancelRequested();
   void problemActionTriggered();
   void emptyActionTriggered();
-  void refreshed();  // title, sentence or actions may have changed
+  void goOnTriggered();  // the primary button of a page that is not needed
+  void refreshed();      // title, sentence or actions may have changed
 
  protected:
   virtual void render() = 0;
@@ -116,6 +125,9 @@ class Page : public QWidget {
   FigureRow* m_figures = nullptr;
   QVBoxLayout* m_content;
   bool m_working = false;
+  QString m_notNeeded;
+  QStringList m_keptActions;
+  QString m_notNeededAction;
 };
 
 }  // namespace zerodrift::ui

@@ -152,6 +152,7 @@ QString PhysicsPage::title() const {
 
 QString PhysicsPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
+  if (m_state.undescribed) return tr("Say what the machine is: then its heat is simulated and compared.");
   switch (m_state.verdict) {
     case PhysicsVerdict::none:
       return tr("The run is simulated from the machine's description. Let the program find what the simulation lacks.");
@@ -175,6 +176,7 @@ QString PhysicsPage::sentence() const {
 }
 
 PageAction PhysicsPage::primary() const {
+  if (m_state.undescribed) return {"primary", tr("Open machine.json")};
   if (m_state.verdict == PhysicsVerdict::none || !m_state.blocked.isEmpty()) {
     return {"primary", tr("Find what is missing"), m_state.blocked.isEmpty(), m_state.blocked};
   }
@@ -183,6 +185,12 @@ PageAction PhysicsPage::primary() const {
 
 QVector<PageAction> PhysicsPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
+  const PageAction lumps = {"lumps",
+                            tr("Use a lump for each sensor"),
+                            true,
+                            {},
+                            tr("A start without a drawing: each sensor is a body of its own, its sizes are found")};
+  if (m_state.undescribed) return {lumps};
   const TrialStage stage = m_state.trial.stage;
   const bool running = stage == TrialStage::sealed || stage == TrialStage::searching;
   QVector<PageAction> actions;
@@ -200,6 +208,11 @@ QVector<PageAction> PhysicsPage::secondary() const {
                   {},
                   tr("Where on the component a sensor follows the "
                      "deformation best")});
+  actions.append({"describe",
+                  tr("Other description"),
+                  true,
+                  {},
+                  tr("Simulated is %1. A machine.json takes its place").arg(m_state.description)});
   if (m_state.verdict != PhysicsVerdict::none) actions.append({"find", tr("Search again")});
   return actions;
 }
@@ -235,9 +248,19 @@ void PhysicsPage::render() {
     showEmpty(Icon::chart, tr("Nothing to compare yet"), m_state.blocked);
     return;
   }
+  if (m_state.undescribed) {
+    showEmpty(
+        Icon::machine, tr("The machine is not described yet"),
+        tr("Open a machine.json: its parts, heat sources and where each sensor sits. Without a drawing begin with "
+           "a lump for each sensor."),
+        tr("Open machine.json"));
+    return;
+  }
   showContent();
   setFigures(figures());
   m_view->setItems({tr("Where"), tr("Channels"), tr("Blind trial")});
+  // Lumps have no length over which anything could be drawn.
+  if (m_state.components.isEmpty() && m_views->currentIndex() == 0 && !m_state.channels.isEmpty()) showView(1);
   QStringList names;
   for (const DrawnComponent& component : m_state.components) names.append(component.name);
   {
@@ -265,7 +288,8 @@ void PhysicsPage::render() {
 void PhysicsPage::renderMap() {
   m_region->setText(m_state.region);
   m_region->setVisible(!m_state.region.isEmpty());
-  m_map->setPlaceholder(tr("Drawn when the search is done"));
+  m_map->setPlaceholder(m_state.components.isEmpty() ? tr("The description has no rod: see the channels.")
+                                                     : tr("Drawn when the search is done"));
   if (m_state.components.isEmpty()) {
     m_drawing->setComponent({});
     m_map->setSensors({});

@@ -104,6 +104,8 @@ enum class PhysicsVerdict {
 
 struct PhysicsState {
   QString blocked{};
+  bool undescribed = false;  // nobody has said what the machine is: there is nothing to simulate yet
+  QString description{};     // where what is simulated comes from
   PhysicsVerdict verdict = PhysicsVerdict::none;
   QString verdictSentence{};
   QVector<DrawnComponent> components{};
@@ -137,7 +139,7 @@ class PhysicsPage : public Page {
   QString sentence() const override;
   /// Find what is missing; afterwards Go on.
   PageAction primary() const override;
-  /// "open" the seal of an answered trial, "trial", "region", "find" again.
+  /// "describe", "lumps": what is simulated; "open" the seal of an answered trial, "trial", "region", "find" again.
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:

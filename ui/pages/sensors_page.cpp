@@ -287,9 +287,9 @@ void SensorsPage::renderMatrix() {
   for (const SensorRow& s : m_state.sensors) {
     if (s.cluster < 0) continue;
     rows.append(s.tag);
-    values << s.r[0] << s.r[1] << s.r[2] << s.sum / 3.0;
+    values << s.r << s.sum / static_cast<double>(std::max<qsizetype>(1, s.r.size()));
   }
-  m_matrix->setMatrix(rows, {"X", "Y", "Z", tr("mean")}, values);
+  m_matrix->setMatrix(rows, m_state.errors + QStringList{tr("mean")}, values);
 }
 
 void SensorsPage::renderBudget() {
@@ -315,16 +315,17 @@ void SensorsPage::renderBudget() {
 
 void SensorsPage::renderTable() {
   m_tableCard->setTitle(tr("Choice"));
-  m_table->setColumns(
-      {{tr("Sensor"), 0, false, {}},
-       {"X", 42, true, tr("Correlation with the error in X")},
-       {"Y", 42, true, tr("Correlation with the error in Y")},
-       {"Z", 42, true, tr("Correlation with the error in Z")},
-       {tr("Sum"), 44, true, tr("Largest in its cluster: thermally sensitive point")},
-       {tr("Lag"), 58, true, tr("The error follows this sensor after so many minutes")},
+  QVector<DataColumn> columns{{tr("Sensor"), 0, false, {}}};
+  for (const QString& error : m_state.errors) {
+    columns.append({error, 42, true, tr("Correlation with the error in %1").arg(error)});
+  }
+  columns.append(
+      {{tr("Sum"), 44, true, tr("Largest in its cluster: thermally sensitive point")},
+       {tr("Lag"), 66, true, tr("The error follows this sensor after so many minutes")},
        {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
        {tr("Price"), 72, true,
         tr("Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better")}});
+  m_table->setColumns(columns);
   QVector<QVector<DataCell>> rows;
   for (const SensorRow& s : m_state.sensors) {
     DataCell name;
@@ -338,7 +339,7 @@ void SensorsPage::renderTable() {
     }
     if (s.cluster < 0) {
       const DataCell none{QStringLiteral("–")};
-      rows.append({name, none, none, none, none, none, none, none});
+      rows.append(QVector<DataCell>{name} + QVector<DataCell>(columns.size() - 1, none));
       continue;
     }
     name.swatch = groupColor(s.cluster);
@@ -362,8 +363,10 @@ void SensorsPage::renderTable() {
     }
     DataCell vif = numberCell(s.vif, 1);
     if (s.vif >= 100.0) vif.text = QStringLiteral("> 99");
-    rows.append({name, correlationCell(s.r[0]), correlationCell(s.r[1]), correlationCell(s.r[2]), numberCell(s.sum, 2),
-                 lag, vif, price});
+    QVector<DataCell> row{name};
+    for (const double r : s.r) row.append(correlationCell(r));
+    row.append({numberCell(s.sum, 2), lag, vif, price});
+    rows.append(row);
   }
   m_table->setRows(rows);
   QStringList named;

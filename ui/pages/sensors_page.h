@@ -25,8 +25,8 @@ struct SensorRow {
   QString label{};
   int cluster = 0;  // -1: none
   bool kept = false;
-  double r[3] = {0.0, 0.0, 0.0};  // correlation with the errors X, Y, Z
-  double sum = 0.0;               // as published, with sign, or of absolute values
+  QVector<double> r{0.0, 0.0, 0.0};  // correlation with each error
+  double sum = 0.0;                  // as published, with sign, or of absolute values
   double lag_s = std::numeric_limits<double>::quiet_NaN();
   double vif = std::numeric_limits<double>::quiet_NaN();
   // change of the error on unseen stretches when this sensor, kept, is dropped or, left, is added
@@ -38,6 +38,7 @@ struct SensorRow {
 
 struct SensorsState {
   QString blocked{};
+  QStringList errors{"X", "Y", "Z"};
   QVector<SensorRow> sensors{};
   int clusters = 5;
   int suggestedClusters = 5;

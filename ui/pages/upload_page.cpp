@@ -226,7 +226,13 @@ void UploadPage::renderAxis() {
                        {tr("Change"), 84, true, {}},
                        {tr("Unit"), 66, false, {}}});
   const int index = m_axis->currentIndex();
-  if (index < 0 || index >= m_state.axes.size()) return m_terms->setRows({});
+  if (index < 0 || index >= m_state.axes.size()) {
+    m_legend->setItems({});
+    m_curves->clear();
+    m_curves->setTimeAxis(false);
+    m_curves->setAxisLabels({}, {});
+    return m_terms->setRows({});
+  }
   const AxisTable& axis = m_state.axes[index];
   m_tableCard->setSubtitle(QStringLiteral("%1, µm").arg(axis.axis));
   const Colors& c = colors();

@@ -143,6 +143,8 @@ QString WarmupPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
   switch (m_state.phase) {
     case RunPhase::planning:
+      if (m_state.filesOnly)
+        return tr("Import the recording of your logger: its columns are shown before it is taken.");
       return tr("Choose a plan, change it by dragging, then start. The machine must be cold and at rest.");
     case RunPhase::running:
       return m_state.steady
@@ -153,12 +155,17 @@ QString WarmupPage::sentence() const {
     case RunPhase::interrupted:
       return tr("The run was interrupted. Everything stored is here; resume or finish with it.");
     case RunPhase::finished:
+      if (m_state.imported) {
+        return m_state.errors > 0 ? tr("Imported. Look it over, then go on to the sensors.")
+                                  : tr("Imported, without errors: the heat can be explained, in Physics.");
+      }
       return tr("The run is complete. Look it over, then go on to the sensors.");
   }
   return {};
 }
 
 PageAction WarmupPage::primary() const {
+  if (m_state.filesOnly && m_state.phase == RunPhase::planning) return {"primary", tr("Import a recording")};
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start"), false, m_state.blocked};
   const QString locked = tr("The compensation is ON. Measuring for the model is locked until it is switched off.");
   const bool starts = m_state.phase == RunPhase::planning || m_state.phase == RunPhase::interrupted;
@@ -181,13 +188,16 @@ PageAction WarmupPage::primary() const {
 }
 
 QVector<PageAction> WarmupPage::secondary() const {
-  if (!m_state.blocked.isEmpty()) return {};
+  const PageAction import = {
+      "import", tr("Import"), true, {}, tr("A recording of another logger takes the place of the run")};
+  if (!m_state.blocked.isEmpty()) return {import};
   const PageAction abort = {"abort", tr("Abort"), true, {}, tr("Stops the machine and drops this run. Asks first.")};
   const PageAction finish = {
       "finish", tr("Finish"), true, {}, tr("Ends the run here and goes on with what was recorded. Asks first.")};
   switch (m_state.phase) {
     case RunPhase::planning:
-      return {{"load", tr("Load plan")}, {"save", tr("Save plan")}};
+      if (m_state.filesOnly) return {};
+      return {import, {"load", tr("Load plan")}, {"save", tr("Save plan")}};
     case RunPhase::running:
     case RunPhase::paused:
       return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")}, abort, finish};
@@ -195,7 +205,8 @@ QVector<PageAction> WarmupPage::secondary() const {
       return {{"again", tr("New run"), true, {}, tr("Plans a new run; the interrupted one stays in the job unused")},
               finish};
     case RunPhase::finished:
-      return {{"again", tr("New run")}, {"export", tr("Save as CSV")}};
+      if (m_state.filesOnly) return {{"import", tr("Import another")}, {"export", tr("Save as CSV")}};
+      return {import, {"again", tr("New run")}, {"export", tr("Save as CSV")}};
   }
   return {};
 }
@@ -237,6 +248,14 @@ QVector<Figure> WarmupPage::runFigures() const {
     figure->word = m_state.steady ? tr("steady") : tr("still moving");
     figure->tip = m_state.steadyCriterion;
   }
+  if (m_state.imported) {
+    if (m_state.errors == 0) {
+      largest.word = tr("heat only");
+      largest.tip = tr("The recording holds no error: Sensors and Fit need one, Physics does not.");
+    }
+    return {left, largest, figureOf(tr("Temperatures"), m_state.temperatures, 0, {}),
+            figureOf(tr("Rows"), static_cast<double>(m_state.samples), 0, {})};
+  }
   Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
   if (disk.judgement == Judgement::ok) disk.limit.clear();
   return {left, largest, slope, heat, lostFigure(), disk};
@@ -271,6 +290,13 @@ Figure WarmupPage::lostFigure() const {
 void WarmupPage::render() {
   if (!m_state.blocked.isEmpty()) {
     showEmpty(Icon::clock, tr("No run yet"), m_state.blocked);
+    return;
+  }
+  if (m_state.filesOnly && m_state.phase == RunPhase::planning) {
+    showEmpty(Icon::file, tr("No recording yet"),
+              tr("The temperatures and errors of your recording appear here. Drop a logger's table anywhere on the "
+                 "window, or choose it: text, CSV or a workbook, with any names and units."),
+              tr("Import a recording"));
     return;
   }
   showContent();

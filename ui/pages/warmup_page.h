@@ -28,8 +28,12 @@ enum class RunPhase {
 };
 
 struct WarmupState {
-  QString offline{};  // why no run can be started now; empty: it can
-  QString blocked{};  // why the page cannot be used yet; empty: it can
+  bool filesOnly = false;  // the job records nothing: its run is imported
+  bool imported = false;   // the run that is shown comes from a file
+  int temperatures = 0;    // of the imported run
+  int errors = 0;          // 0: it serves for the heat alone
+  QString offline{};       // why no run can be started now; empty: it can
+  QString blocked{};       // why the page cannot be used yet; empty: it can
   RunPhase phase = RunPhase::planning;
   QStringList presets{};
   int preset = -1;
@@ -75,7 +79,7 @@ class WarmupPage : public Page {
   QString sentence() const override;
   /// Start, Pause, Resume or Use this run, by the phase.
   PageAction primary() const override;
-  /// "load", "save" of plans; "finish", "abort", "note", "again" of runs.
+  /// "import"; "load", "save" of plans; "finish", "abort", "note", "again" of runs.
   QVector<PageAction> secondary() const override;
   bool steersWork() const override { return true; }
 

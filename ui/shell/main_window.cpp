@@ -113,7 +113,9 @@ QWidget* MainWindow::makeFoot() {
   all->addLayout(pair);
   connect(m_back, &QPushButton::clicked, this, &MainWindow::backRequested);
   connect(m_primary, &QPushButton::clicked, this, [this] {
-    if (Page* now = currentPage()) Q_EMIT now->primaryTriggered();
+    Page* now = currentPage();
+    if (now != nullptr && now->isNotNeeded()) return Q_EMIT now->goOnTriggered();
+    if (now != nullptr) Q_EMIT now->primaryTriggered();
   });
   return foot;
 }
@@ -187,8 +189,8 @@ void MainWindow::showHead() {
   const Page* now = currentPage();
   if (now == nullptr) return;
   m_title->setText(now->title());
-  m_sentence->setText(now->sentence());
-  m_sentence->setToolTip(now->sentence());
+  m_sentence->setText(now->headSentence());
+  m_sentence->setToolTip(now->headSentence());
 
   // Buttons are kept while their ids stay, so that focus and hover survive a live page's updates.
   QVector<PageAction> wanted;

@@ -117,6 +117,9 @@ void StepButton::paintDisc(QPainter& painter, const QPointF& centre) const {
     painter.setPen(QPen(Qt::white, 2.2, Qt::SolidLine, Qt::RoundCap));
     painter.drawLine(centre + QPointF(0, -5.2), centre + QPointF(0, 1.2));
     painter.drawPoint(centre + QPointF(0, 5.0));
+  } else if (m_state == StepState::notNeeded) {
+    painter.setPen(QPen(isChecked() ? c.railText : c.railMuted, 2, Qt::SolidLine, Qt::RoundCap));
+    painter.drawLine(centre + QPointF(-5, 0), centre + QPointF(5, 0));
   } else if (isChecked() || m_state == StepState::running) {
     painter.setBrush(lightColors().accent);
     painter.drawEllipse(disc);
@@ -147,7 +150,8 @@ void StepButton::paintEvent(QPaintEvent*) {
   const int left = 58;
   const int room = width() - left - 10;
   painter.setFont(uiFont(14, isChecked() ? QFont::DemiBold : QFont::Medium));
-  painter.setPen(m_state == StepState::blocked && !isChecked() ? mix(c.railMuted, c.railText, 0.45) : c.railText);
+  const bool faint = m_state == StepState::blocked || m_state == StepState::notNeeded;
+  painter.setPen(faint && !isChecked() ? mix(c.railMuted, c.railText, 0.45) : c.railText);
   painter.drawText(QRectF(left, height() / 2.0 - 20, room, 20), Qt::AlignVCenter,
                    fittedText(painter.fontMetrics(), text(), room, toolTip()));
   painter.setFont(uiFont(12));

@@ -13,12 +13,13 @@ class QVBoxLayout;
 namespace zerodrift::ui {
 
 enum class StepState {
-  blocked,  // something before it is missing: hollow number
-  ready,    // can be done now: hollow number, brighter
-  running,  // being done just now: blue number
-  current,  // done and up to date: green tick
-  stale,    // done, but an earlier choice changed or the result fell short: amber "!"
-  failed,   // amber "!" in red
+  blocked,    // something before it is missing: hollow number
+  ready,      // can be done now: hollow number, brighter
+  running,    // being done just now: blue number
+  current,    // done and up to date: green tick
+  stale,      // done, but an earlier choice changed or the result fell short: amber "!"
+  failed,     // amber "!" in red
+  notNeeded,  // makes no sense in this job: a dash
 };
 
 class StepButton : public QAbstractButton {

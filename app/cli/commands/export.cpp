@@ -39,7 +39,7 @@ Result<CommandOutput> run(Options options, const TaskContext&) {
   ZD_TRY(const auto table, compensation::read_table_file(options.table, &output.warnings));
   ZD_TRY(options.how.temperatures, temperatures_from(options.temperatures));
   ZD_TRY(const auto exported, options.one_point ? controller::write_one_point(*format, table, options.how)
-                                                : format->write(table, options.how));
+                                                : controller::write_table(*format, table, options.how));
   nlohmann::json files = nlohmann::json::array();
   for (const auto& file : exported.files) {
     ZD_CHECK(write_file(options.out + file.suffix, file.text));

@@ -8,7 +8,7 @@
 #include "app/text/error_text.h"
 #include "core/base/error_json.h"
 #include "core/base/json.h"
-#include "core/commissioning/job.h"
+#include "core/commissioning/job_kind.h"
 #include "core/flow/flow.h"
 #include "core/flow/steps/import_step.h"
 #include "core/recording/csv.h"
@@ -51,7 +51,9 @@ std::string text_of(const recording::Imported& imported, const std::string& targ
 
 /// The recording as the job's warm-up run; the job is made if it is not there.
 Status into_job(const Options& options, const recording::Imported& imported, const nlohmann::json& how) {
+  const bool made = !std::filesystem::exists(options.job);
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
+  if (made) ZD_CHECK(commissioning::set_kind(job, commissioning::JobKind::files));
   const std::string name = std::filesystem::path(options.file).filename().string();
   const auto take = [&](commissioning::Job& in, const TaskContext&) {
     return flow::import_warmup(in, imported.recording, name, how);
@@ -73,7 +75,9 @@ Status run(const Options& options, CommandOutput& output) {
   }
   output.text = text_of(imported, options.out.empty() ? options.job : options.out);
   if (!options.job.empty()) {
-    ZD_CHECK(into_job(options, imported, output.json));
+    nlohmann::json how = output.json;
+    how["map"] = recording::map_of(imported, map);
+    ZD_CHECK(into_job(options, imported, how));
     output.json["job"] = options.job;
   } else {
     ZD_CHECK(recording::write_recording(options.out, imported.recording));

@@ -31,7 +31,6 @@ QString method_name(analysis::Method method) {
 ui::FitSeries series_of(const recording::Recording& run, const recording::Recording& prediction,
                         const std::string& error, const std::string& sensor) {
   ui::FitSeries series;
-  series.name = QString::fromStdString(error.substr(1, error.find('_') - 1));
   const auto* measured = run.find(error);
   const auto* predicted = prediction.find(error);
   const auto* low = prediction.find(error + "_low");
@@ -248,6 +247,7 @@ void FitPresenter::fill(ui::FitState& state) {
   const auto predicted = prediction->to_recording();
   for (const auto& error : model->errors) {
     state.series.append(series_of(run, predicted, error.error, sensor));
+    state.series.last().name = bench().tagOf(error.error);
   }
   if (model->quality.cycles < 2) show_left_out(*model, run, state);
 }
@@ -255,7 +255,11 @@ void FitPresenter::fill(ui::FitState& state) {
 void FitPresenter::refresh() {
   ui::FitState state;
   const auto job = bench().job();
-  if (job == nullptr || !bench().has("sensors")) {
+  if (bench().has("warmup") && !bench().hasErrors()) {
+    state.blocked =
+        tr("The recording holds no error, so there is nothing to fit. Its heat can be explained, in "
+           "Physics.");
+  } else if (job == nullptr || !bench().has("sensors")) {
     state.blocked = tr("Choose the sensors first: the model is fitted to them.");
   } else {
     const auto status = flow::status_of(*job, "fit");
@@ -268,6 +272,11 @@ void FitPresenter::refresh() {
     offerUntried(state);
   }
   m_page->setState(state);
+}
+
+Presenter::Standing FitPresenter::standing() const {
+  if (!bench().has("warmup") || bench().hasErrors()) return {};
+  return {tr("No errors recorded"), ui::StepState::blocked};
 }
 
 void FitPresenter::tour(std::function<void(bool good)> done) {

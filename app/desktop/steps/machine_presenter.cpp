@@ -94,6 +94,11 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   });
   connect(page, &ui::MachinePage::virtualMachineRequested, this, [this] { useVirtualMachine({}); });
   connect(page, &ui::MachinePage::sampleRequested, this, &MachinePresenter::sampleWanted);
+  connect(page, &ui::MachinePage::ownRecordingRequested, this, &MachinePresenter::ownRecordingWanted);
+  connect(page, &ui::Page::emptyActionTriggered, this, [this] {
+    // Only a page that is not needed has a button in its middle.
+    unlessBusy(this->bench().setKind(commissioning::JobKind::machine));
+  });
   connect(page, &ui::MachinePage::profileImportRequested, this, &MachinePresenter::importProfile);
   connect(page, &ui::Page::primaryTriggered, this, &MachinePresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {

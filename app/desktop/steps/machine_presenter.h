@@ -40,6 +40,7 @@ class MachinePresenter : public Presenter {
 
  Q_SIGNALS:
   void sampleWanted();
+  void ownRecordingWanted();
 
  private:
   void importProfile();

@@ -12,6 +12,7 @@
 #include "app/text/core_text.h"
 #include "app/text/error_text.h"
 #include "core/base/error_json.h"
+#include "core/flow/steps/describe_step.h"
 #include "core/flow/steps/diagnose_step.h"
 #include "ui/pages/physics_page.h"
 #include "ui/widgets/number_text.h"
@@ -85,7 +86,9 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
           [this](const QString& effect, bool adopt) { judge(effect, adopt, false); });
   connect(page, &ui::PhysicsPage::rejected, this, [this](const QString& effect) { judge(effect, false, true); });
   connect(page, &ui::PhysicsPage::experimentRequested, this, &PhysicsPresenter::proposePlan);
+  connect(page, &ui::Page::emptyActionTriggered, this, &PhysicsPresenter::chooseDescription);
   connect(page, &ui::Page::primaryTriggered, this, [this] {
+    if (m_page->state().undescribed) return chooseDescription();
     if (m_page->state().verdict == ui::PhysicsVerdict::none) {
       find({});
     } else {
@@ -97,6 +100,8 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
       m_page->showView(2);
       openTrial();
     }
+    if (action == QStringLiteral("describe")) chooseDescription();
+    if (action == QStringLiteral("lumps")) describeByLumps();
     if (action == QStringLiteral("trial")) tryBlind();
     if (action == QStringLiteral("region")) findRegion();
     if (action == QStringLiteral("find")) find({});
@@ -292,19 +297,15 @@ void PhysicsPresenter::refresh() {
     m_page->setState(state);
     return;
   }
-  const json& kept = bench().body("machine");
-  if (!kept.is_object()) {
-    state.blocked = tr("The job holds no machine yet: connect it and start the commissioning on the Machine page.");
+  const auto described = flow::description_of(*job);
+  if (!described || !*described) {
+    state.undescribed = true;
     m_page->setState(state);
+    if (!described) show(described.error());
     return;
   }
-  const auto profile = controller::profile_from_job(kept.value("profile", json()));
-  if (!profile || profile->machine == nullptr) {
-    state.blocked = tr("The profile holds no machine description, so there is nothing to simulate.");
-    m_page->setState(state);
-    return;
-  }
-  const auto machine = physics::machine_from_json(*profile->machine, profile->machine_file);
+  state.description = QFileInfo(QString::fromStdString((*described)->file)).fileName();
+  const auto machine = physics::machine_from_json((*described)->machine, (*described)->file);
   if (!machine) {
     m_page->setState(state);
     show(machine.error());
@@ -314,7 +315,8 @@ void PhysicsPresenter::refresh() {
   const Compared& runs = compared();
   state.components = components_of(*machine, body);
   state.component = m_component < state.components.size() ? m_component : 0;
-  state.channels = channels_of(runs, *profile, body);
+  state.channels = channels_of(runs, *machine, body);
+  for (auto& channel : state.channels) channel.tag = bench().tagOf(channel.id.toStdString());
   std::vector<std::string> rods;
   for (const auto& component : machine->components) {
     if (!component.lump) rods.push_back(component.id);

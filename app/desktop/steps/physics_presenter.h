@@ -20,6 +20,8 @@ class PhysicsPresenter : public Presenter {
   void forget() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
+  /// Takes the description of the machine from this file into the job.
+  void describe(const QString& path);
 
  Q_SIGNALS:
   /// The run that would decide between rivals, for the plan editor.
@@ -27,6 +29,9 @@ class PhysicsPresenter : public Presenter {
 
  private:
   void find(std::function<void(bool good)> done);
+  void takeDescription(const nlohmann::json& machine, const QString& file);
+  void chooseDescription();
+  void describeByLumps();
   void judge(const QString& effect, bool adopt, bool reject);
   void keepJudgements(const Judgements& judgements);
   void tryBlind();

@@ -285,7 +285,7 @@ void ReportPresenter::saved(const Saving& saving) {
   const auto kept =
       bench().takeIn("report", [&files](commissioning::Job& job, const TaskContext&) -> Result<NewArtefact> {
         std::vector<commissioning::ArtefactId> inputs;  // of whatever there is
-        for (const char* kind : {"verification", "physics", "axis_table"}) {
+        for (const char* kind : {"verification", "warmup", "model", "physics", "axis_table"}) {
           ZD_TRY(const auto latest, job.latest(kind));
           if (latest) inputs.push_back(latest->id);
         }

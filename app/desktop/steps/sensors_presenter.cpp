@@ -21,11 +21,6 @@ double number(const json& object, const char* key) {
   return at != object.end() && at->is_number() ? at->get<double>() : std::nan("");
 }
 
-QString tag_of(const std::string& channel) {
-  return channel == "ambient_C" ? SensorsPresenter::tr("Room")
-                                : QString::fromStdString(channel).remove(QStringLiteral("_C"));
-}
-
 QVector<double> standardised(const std::vector<double>& values, std::size_t stride) {
   double sum = 0.0;
   double squares = 0.0;
@@ -89,7 +84,7 @@ flow::SensorsOptions SensorsPresenter::asked() {
 void SensorsPresenter::enter() {
   refresh();
   // The clustering asks nothing of the user: it is there when the page opens.
-  if (bench().has("warmup") && !bench().has("sensors") && !bench().tasks().running()) run(asked(), {});
+  if (bench().hasErrors() && !bench().has("sensors") && !bench().tasks().running()) run(asked(), {});
 }
 
 void SensorsPresenter::undo() {
@@ -114,6 +109,19 @@ void SensorsPresenter::run(const flow::SensorsOptions& options, std::function<vo
       std::move(done));
 }
 
+/// The axes in their order, then what is of none.
+std::vector<std::string> SensorsPresenter::errorsOf(const json& body) const {
+  auto errors = body.value("errors", std::vector<std::string>{"dX_um", "dY_um", "dZ_um"});
+  std::stable_sort(errors.begin(), errors.end(), [this](const std::string& a, const std::string& b) {
+    const auto place = [this](const std::string& channel) {
+      const auto at = QStringList{"X", "Y", "Z"}.indexOf(bench().tagOf(channel));
+      return at < 0 ? 3 : at;
+    };
+    return place(a) < place(b);
+  });
+  return errors;
+}
+
 void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   const auto chosen = body.value("chosen", std::vector<std::string>{});
   const json labels = body.value("table", json::array());
@@ -121,24 +129,28 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   const json changes = price.value("change_um", json::object());
   const json criterion = body.value("criterion", json::object());
   state.absolute = m_absolute.value_or(criterion.value("used", "signed") == "absolute");
+  const auto errors = errorsOf(body);
+  state.errors.clear();
+  for (const auto& error : errors) state.errors << bench().tagOf(error);
   for (const auto& sensor : body.value("sensors", json::array())) {
     ui::SensorRow row;
     const std::string channel = sensor.value("sensor", "");
     row.id = QString::fromStdString(channel);
-    row.tag = tag_of(channel);
+    row.tag = bench().tagOf(channel);
+    row.label = bench().labelOf(channel);
     for (const auto& known : labels) {
       if (known.value("channel", "") != channel) continue;
-      row.label = coreText(known.value("label", ""));
+      if (row.label.isEmpty()) row.label = coreText(known.value("label", ""));
       row.note = coreText(known.value("note", ""));
     }
     row.cluster = sensor.value("cluster", 1) - 1;
     row.kept = std::find(chosen.begin(), chosen.end(), channel) != chosen.end();
     const json correlation = sensor.value("correlation", json::object());
-    int axis = 0;
-    for (const char* error : {"dX_um", "dY_um", "dZ_um"}) row.r[axis++] = number(correlation, error);
+    row.r.clear();
+    for (const auto& error : errors) row.r.append(number(correlation, error.c_str()));
     row.sum = number(sensor, state.absolute ? "sum_absolute" : "sum");
     const json lags = sensor.value("lag_s", json::object());
-    row.lag_s = number(lags, "dZ_um");
+    row.lag_s = errors.empty() ? std::nan("") : number(lags, errors.back().c_str());
     row.vif = number(sensor, "vif");
     row.price_um = number(changes, channel.c_str());
     const json pc = sensor.value("pc", json::array());
@@ -152,7 +164,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     ui::SensorRow row;
     const std::string channel = sensor.value("channel", "");
     row.id = QString::fromStdString(channel);
-    row.tag = tag_of(channel);
+    row.tag = bench().tagOf(channel);
     row.label = coreText(sensor.value("label", ""));
     row.cluster = -1;
     row.note = coreText(sensor.value("reason", ""));
@@ -197,11 +209,20 @@ void SensorsPresenter::refresh() {
   ui::SensorsState state;
   if (!bench().has("warmup")) {
     state.blocked = tr("Record a warm-up run first: the sensors are chosen from it.");
+  } else if (!bench().hasErrors()) {
+    state.blocked =
+        tr("The recording holds no error, so there is nothing to choose sensors for. Its heat can be "
+           "explained, in Physics.");
   } else if (const json& body = bench().body("sensors"); body.is_object()) {
     fill(state, body);
     fillSeries(state);
   }
   m_page->setState(state);
+}
+
+Presenter::Standing SensorsPresenter::standing() const {
+  if (!bench().has("warmup") || bench().hasErrors()) return {};
+  return {tr("No errors recorded"), ui::StepState::blocked};
 }
 
 void SensorsPresenter::tour(std::function<void(bool good)> done) {

@@ -23,6 +23,7 @@ class SensorsPresenter : public Presenter {
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
+  Standing standing() const override;
 
  private:
   /// What the job's choice was asked for; the defaults without one.
@@ -30,6 +31,7 @@ class SensorsPresenter : public Presenter {
   /// For Ctrl+Z: what is chosen now, before it is changed.
   void rememberChoice();
   void run(const flow::SensorsOptions& options, std::function<void(bool good)> done);
+  std::vector<std::string> errorsOf(const nlohmann::json& body) const;
   void fill(ui::SensorsState& state, const nlohmann::json& body) const;
   void fillSeries(ui::SensorsState& state) const;
 

@@ -156,8 +156,7 @@ void UploadPresenter::refresh() {
       const auto words = body.at("record").value("old_words", std::vector<std::uint16_t>{});
       old_table = controller::decode_table(words, *profile).value_or(compensation::Table{});
     } else {
-      table =
-          compensation::table_from_model(*model, controller::table_options(*profile)).value_or(compensation::Table{});
+      table = flow::table_of_job(*job).value_or(compensation::Table{});
     }
     state.axes = axes_of(old_table, table, *profile, bench().warmupRun());
     if (std::isnan(state.steepest_um_per_K)) state.steepest_um_per_K = steepest_um_per_K(table);

@@ -353,13 +353,9 @@ void UploadPresenter::exportTable() {
   if (m_preview) {
     table = m_preview->table;
   } else if (bench().job() != nullptr) {
-    const auto artefact = bench().job()->latest("model");
-    const auto model = artefact && *artefact ? flow::model_of(**artefact) : fail(ErrorCode::step_blocked);
-    const auto profile = flow::profile_of(*bench().job(), "upload");
-    if (model && profile) {
-      if (auto made = compensation::table_from_model(*model, controller::table_options(*profile)))
-        table = std::move(*made);
-    }
+    auto made = flow::table_of_job(*bench().job());
+    if (!made) return show(made.error());
+    table = std::move(*made);
   }
   if (!table) return;
   export_with_question(m_page, bench(), *table, nullptr, false, [this](const Error& error) { show(error); });

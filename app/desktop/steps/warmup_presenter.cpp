@@ -56,6 +56,7 @@ WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
   connect(page, &ui::WarmupPage::noteRequested, this, [this](double) { secondary(QStringLiteral("note")); });
   connect(page, &ui::Page::primaryTriggered, this, &WarmupPresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, &WarmupPresenter::secondary);
+  connect(page, &ui::Page::emptyActionTriggered, this, &WarmupPresenter::importWanted);
   connect(&feed(), &RunFeed::updated, this, &WarmupPresenter::refresh);
 }
 
@@ -90,7 +91,10 @@ void WarmupPresenter::undo() {
 
 void WarmupPresenter::primary() {
   if (m_page->state().phase == ui::RunPhase::finished) {
-    Q_EMIT nextRequested();
+    if (bench().hasErrors()) return Q_EMIT nextRequested();
+    Q_EMIT pageRequested(QStringLiteral("physics"));  // there is nothing to fit
+  } else if (m_page->state().filesOnly) {
+    Q_EMIT importWanted();
   } else if (running()) {
     pauseOrResume();
   } else if (agreed(m_plan)) {
@@ -102,6 +106,7 @@ void WarmupPresenter::primary() {
 void WarmupPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("finish") && !running()) return finishInterrupted();
   if (steer(action)) return;
+  if (action == QStringLiteral("import") && !running()) return Q_EMIT importWanted();
   if (action == QStringLiteral("load")) loadPlan();
   if (action == QStringLiteral("save")) savePlan();
   if (action == QStringLiteral("export")) exportRun();
@@ -208,6 +213,17 @@ void WarmupPresenter::fillKept(ui::WarmupState& state, const json& body) {
   state.samplesLost = body.value("lost_samples", 0LL);
   state.samples = body.value("rows", 0LL);
   state.longestHole_s = feed().longestHole_s();
+  fillImported(state, body);
+}
+
+void WarmupPresenter::fillImported(ui::WarmupState& state, const json& body) {
+  state.imported = body.value("source", "") == "file";
+  if (!state.imported) return;
+  for (const auto& channel : bench().warmupRun().channels) {
+    if (recording::present_count(channel) == 0) continue;
+    state.temperatures += channel.kind() == recording::ChannelKind::temperature;
+    state.errors += channel.kind() == recording::ChannelKind::error;
+  }
 }
 
 /// What was recorded until then is there to be looked at before it is gone on with or finished.
@@ -229,7 +245,8 @@ void WarmupPresenter::fillInterrupted(ui::WarmupState& state) {
 void WarmupPresenter::refresh() {
   ui::WarmupState state;
   const auto job = bench().job();
-  if (job == nullptr || (!bench().has("calibration") && !bench().has("warmup"))) {
+  state.filesOnly = bench().kind() == commissioning::JobKind::files;
+  if (job == nullptr || (!state.filesOnly && !bench().has("calibration") && !bench().has("warmup"))) {
     state.blocked = tr("Calibrate the camera first: without it no error can be measured.");
     m_page->setState(state);
     return;

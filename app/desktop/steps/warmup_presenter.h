@@ -26,11 +26,15 @@ class WarmupPresenter : public RunPresenter {
   /// A further run, planned elsewhere.
   void propose(const acquisition::Plan& plan);
 
+ Q_SIGNALS:
+  void importWanted();
+
  private:
   void primary();
   void secondary(const QString& action);
   void start(std::function<void(bool good)> done);
   void fillRun(ui::WarmupState& state);
+  void fillImported(ui::WarmupState& state, const nlohmann::json& body);
   void fillKept(ui::WarmupState& state, const nlohmann::json& body);
   void fillInterrupted(ui::WarmupState& state);
   void finishInterrupted();

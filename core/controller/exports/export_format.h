@@ -56,6 +56,9 @@ struct ExportFormat {
   Result<compensation::Table> (*read)(std::string_view text, const ExportOptions& options);
 };
 
+/// What the format writes of a table; not_enough_data where that would be nothing but zeros.
+Result<Exported> write_table(const ExportFormat& format, const compensation::Table& table,
+                             const ExportOptions& options);
 /// Before a file whose sign or form is to be confirmed: the same format with one axis moved at one place by a few um.
 /// What must be seen stands in `confirm`.
 Result<Exported> write_one_point(const ExportFormat& format, const compensation::Table& table,

@@ -6,6 +6,7 @@
 #include "core/base/error_json.h"
 #include "core/base/json.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/flow/steps/describe_step.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/physics_step.h"
 #include "core/recording/csv.h"
@@ -80,9 +81,9 @@ Result<NewArtefact> with_diagnosis(const commissioning::Job& job, const json& ma
 
 Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContext& context) {
   ZD_TRY(NewArtefact made, compare_physics(job, context));
-  ZD_TRY(const auto profile, profile_of(job, "physics"));
-  if (profile.machine == nullptr) return made;
-  ZD_TRY(const auto machine, physics::machine_from_json(*profile.machine, profile.machine_file));
+  ZD_TRY(const auto own, description_of(job));
+  if (!own) return made;
+  ZD_TRY(const auto machine, physics::machine_from_json(own->machine, own->file));
   ZD_TRY(const auto warmup, need(job, "physics", "warmup"));
   std::vector<recording::Recording> runs(1);
   ZD_TRY(runs.front(), run_of(job, warmup));

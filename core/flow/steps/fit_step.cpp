@@ -50,9 +50,9 @@ json number(double value) {
 
 /// What a fit leaves in the job; `alternative` is added to its summary.
 Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, const std::string& alternative,
-                                               const controller::Profile& profile, bool has_machine,
+                                               const controller::Profile& profile, bool has_machine, const json& warmup,
                                                std::vector<commissioning::ArtefactId> inputs) {
-  const auto table = compensation::table_from_model(model, controller::table_options(profile));
+  const auto table = compensation::table_from_model(by_axes(model, warmup), controller::table_options(profile));
   // A job from files only may have errors of any name: without a controller nothing asks for a table.
   if (!table && has_machine) return fail(table.error());
   json figures = json::array();
@@ -83,6 +83,29 @@ Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, con
 
 }  // namespace
 
+analysis::Model by_axes(analysis::Model model, const json& warmup) {
+  const auto axes = assigned_axes(warmup);
+  for (auto& error : model.errors) error.error = error_by_axis(error.error, axes);
+  for (auto& error : model.table) error.error = error_by_axis(error.error, axes);
+  return model;
+}
+
+Result<compensation::Table> table_of_job(const commissioning::Job& job) {
+  ZD_TRY(const auto artefact, job.latest("model"));
+  if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
+  ZD_TRY(auto model, model_of(*artefact));
+  ZD_TRY(const Input warmup, need(job, "upload", "warmup"));
+  ZD_TRY(const auto machine, job.latest("machine"));
+  controller::Profile profile;
+  if (machine) {
+    ZD_TRY(profile, profile_of(job, "upload"));
+  } else {
+    ZD_TRY(const auto header, job.header());
+    profile.name = header.machine;
+  }
+  return compensation::table_from_model(by_axes(std::move(model), warmup.body), controller::table_options(profile));
+}
+
 Result<analysis::Model> model_of(const commissioning::Artefact& artefact) {
   ZD_TRY(const json body, artefact.document());
   return analysis::model_from_json(body.at("model"), "the job's model");
@@ -109,7 +132,7 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   fit_options.on_controller = accepts_table;
   ZD_TRY(const auto model, analysis::fit({run}, fit_options, context));
   return artefact_of(model, options.method == "auto" && accepts_table ? alternative_of(model) : std::string(), profile,
-                     machine.has_value(), {warmup.id, sensors.id});
+                     machine.has_value(), warmup.body, {warmup.id, sensors.id});
 }
 
 Result<FitStepOptions> fit_asked_for(const commissioning::Job& job) {
@@ -131,7 +154,7 @@ Result<commissioning::NewArtefact> update_model(const commissioning::Job& job, c
   if (!latest) return fail(ErrorCode::step_blocked, {{"step", "fit"}, {"needs", "model"}});
   ZD_TRY(const auto old, model_of(*latest));
   ZD_TRY(const auto model, analysis::update(old, run));
-  return artefact_of(model, {}, profile, machine.has_value(), {warmup.id, sensors.id});
+  return artefact_of(model, {}, profile, machine.has_value(), warmup.body, {warmup.id, sensors.id});
 }
 
 }  // namespace zerodrift::flow

@@ -135,7 +135,7 @@ Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const 
                {"peak_um", json::object()},
                {"problems", {"imported from " + file + ": that the compensation was off is not recorded"}}};
   if (!how.is_null()) body["import"] = how;
-  for (const auto& [direction, size] : error_sizes(run)) body["peak_um"][direction] = size.peak_um;
+  for (const auto& [direction, size] : error_sizes(run, assigned_axes(body))) body["peak_um"][direction] = size.peak_um;
   return commissioning::NewArtefact::of("warmup", body, inputs);
 }
 

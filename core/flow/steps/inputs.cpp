@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/json.h"
+#include "core/recording/import/importer.h"
 
 namespace zerodrift::flow {
 
@@ -48,10 +49,22 @@ Status same_machine(const commissioning::Job& job, const std::string& step, std:
   return {};
 }
 
-std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {
+std::map<std::string, std::string> assigned_axes(const nlohmann::json& warmup) {
+  return recording::assigned_in(warmup.value("import", nlohmann::json())).axes;
+}
+
+std::string error_by_axis(const std::string& channel, const std::map<std::string, std::string>& axes) {
+  const auto at = axes.find(channel);
+  return at == axes.end() ? channel : "d" + at->second + "_um";
+}
+
+std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run,
+                                             const std::map<std::string, std::string>& axes) {
   std::map<std::string, ErrorSize> sizes;
   for (const auto& channel : run.channels) {
-    if (channel.kind() != recording::ChannelKind::error || channel.name.size() < 2 || channel.name[0] != 'd') continue;
+    if (channel.kind() != recording::ChannelKind::error) continue;
+    const std::string name = error_by_axis(channel.name, axes);
+    if (name.size() < 2 || name[0] != 'd') continue;
     ErrorSize size;
     double squares = 0.0;
     double count = 0.0;
@@ -66,7 +79,7 @@ std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run) {
     }
     if (count == 0.0) continue;
     size.rms_um = std::sqrt(squares / count);
-    sizes[channel.name.substr(1, channel.name.find('_') - 1)] = size;
+    sizes[name.substr(1, name.find('_') - 1)] = size;
   }
   return sizes;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What several steps read from a job: the latest artefact of a kind as JSON, the run it names.
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -33,6 +34,14 @@ struct ErrorSize {
   double rms_um = 0.0;
   long long row = -1;  // of the peak
 };
-std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run);
+/// A channel that `axes` names is of that direction.
+std::map<std::string, ErrorSize> error_sizes(const recording::Recording& run,
+                                             const std::map<std::string, std::string>& axes = {});
+
+/// The axis of each displacement that is not called by it, as the map of an imported run says (body of the artefact
+/// "warmup").
+std::map<std::string, std::string> assigned_axes(const nlohmann::json& warmup);
+/// What an assigned axis is called in a table: "dZ_um" for Z; the channel's own name where none is assigned.
+std::string error_by_axis(const std::string& channel, const std::map<std::string, std::string>& axes);
 
 }  // namespace zerodrift::flow

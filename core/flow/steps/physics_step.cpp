@@ -7,6 +7,7 @@
 
 #include "core/analysis/checked.h"
 #include "core/diagnosis/answer/sentences.h"
+#include "core/flow/steps/describe_step.h"
 #include "core/flow/steps/inputs.h"
 #include "core/physics/placement.h"
 #include "core/physics/simulate.h"
@@ -79,11 +80,12 @@ Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job
   json description = given != nullptr ? *given : json(nullptr);
   std::string description_file = "machine.json";
   if (given == nullptr) {
-    ZD_TRY(const Input machine_artefact, need(job, "physics", "machine"));
-    ZD_TRY(const auto profile, profile_of(job, "physics"));
-    inputs.push_back(machine_artefact.id);
-    if (profile.machine != nullptr) description = *profile.machine;
-    description_file = profile.machine_file;
+    ZD_TRY(const auto own, description_of(job));
+    if (own) {
+      description = own->machine;
+      description_file = own->file;
+      inputs = own->sources;
+    }
   }
   ZD_TRY(const Input warmup, need(job, "physics", "warmup"));
   inputs.push_back(warmup.id);

@@ -13,7 +13,7 @@
 
 namespace zerodrift::flow {
 
-/// `machine`: a description from a file instead of the profile's; then the job needs no machine artefact.
+/// `machine`: a description from a file instead of the job's own (describe_step.h).
 Result<commissioning::NewArtefact> compare_physics(const commissioning::Job& job, const TaskContext& context,
                                                    const nlohmann::json* machine = nullptr);
 

@@ -115,7 +115,12 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   }
   analysis::ClusterOptions cluster_options;
   cluster_options.clusters = options.clusters;
-  ZD_TRY(const auto clusters, analysis::cluster(run, cluster_options, context));
+  auto clustered = analysis::cluster(run, cluster_options, context);
+  if (!clustered && clustered.error().code == ErrorCode::bad_argument) {
+    cluster_options.clusters = 0;  // fewer sensors than clusters: as many as suggested
+    clustered = analysis::cluster(run, cluster_options, context);
+  }
+  ZD_TRY(const auto clusters, std::move(clustered));
   json body = analysis::to_json(clusters);
   // What the fit gets when nobody says: the set with the least error to expect, which need not be the published one.
   ZD_TRY(const auto training, analysis::make_training({run}, {}));
@@ -132,7 +137,7 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   ZD_TRY(body["budget"], budget_of(training, context));
   ZD_TRY(body["condition_number"]["chosen"], analysis::fitted_condition(training, chosen));
   body["condition_number"]["chosen_temperatures"] = condition_of(training, chosen);
-  body["clusters_asked"] = options.clusters;
+  body["clusters_asked"] = cluster_options.clusters;
   body["chosen"] = chosen;
   body["chosen_by"] = options.chosen.empty() ? std::string(analysis::name_of(best.kind)) : "hand";
   const auto label_of = [&](const std::string& channel) -> std::string {

@@ -162,8 +162,10 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
   } else {
     ZD_TRY(const auto artefact, job.latest("model"));
     if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
-    ZD_TRY(const auto model, model_of(*artefact));
-    ZD_TRY(preview.table, compensation::table_from_model(model, controller::table_options(devices.profile)));
+    ZD_TRY(auto model, model_of(*artefact));
+    ZD_TRY(const Input warmup, need(job, "upload", "warmup"));
+    ZD_TRY(preview.table, compensation::table_from_model(by_axes(std::move(model), warmup.body),
+                                                         controller::table_options(devices.profile)));
     ZD_TRY(const auto axes, job.latest("axis_table"));
     if (axes) {
       ZD_TRY(const json body, axes->document());

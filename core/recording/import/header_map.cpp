@@ -27,6 +27,12 @@ ColumnRule rule_from(JsonObject& object) {
   if (!rule.unit.empty() && !rule.scale && !is_unit_word(rule.unit)) {
     object.reject("unit", rule.unit, "a known unit (degC, degF, K, um, mm, inch, rpm, kW), or a scale beside it");
   }
+  rule.axis = object.text_or("axis", "");
+  const std::string kind = rule.channel.ends_with("_um") ? "XYZ" : rule.channel.ends_with("_urad") ? "AB" : "";
+  if (!rule.axis.empty() && (rule.axis.size() != 1 || kind.find(rule.axis) == std::string::npos)) {
+    object.reject("axis", rule.axis, "X, Y or Z of a channel in um; A or B of one in urad");
+  }
+  rule.location = object.text_or("location", "");
   return rule;
 }
 
@@ -133,6 +139,8 @@ nlohmann::json to_json(const HeaderMap& map) {
     if (rule->scale) entry["scale"] = *rule->scale;
     if (rule->offset) entry["offset"] = *rule->offset;
     if (!rule->unit.empty()) entry["unit"] = rule->unit;
+    if (!rule->axis.empty()) entry["axis"] = rule->axis;
+    if (!rule->location.empty()) entry["location"] = rule->location;
   }
   nlohmann::json out = {{"columns", std::move(columns)}};
   nlohmann::json time = nlohmann::json::object();

@@ -1,7 +1,8 @@
 #pragma once
 // The header map: what the columns of a file are, said by the user, in a file of its own that serves again for the next
 // recording of the same logger.
-//   {"columns": {"Temp 1 (degC)": {"channel": "T1_C"}, "CH5": {"channel": "dZ_um", "scale": 1000}, "Remark": null},
+//   {"columns": {"Temp 1 (degC)": {"channel": "T1_C"}, "CH5": {"channel": "dZ_um", "scale": 1000}, "Remark": null,
+//               "CH6": {"channel": "probe2_um", "axis": "Z"}, "CH7": {"channel": "T2_C", "location": "front bearing"}},
 //    "time": {"column": "Time", "format": "%d.%m.%Y %H:%M:%S", "unit": "s"},
 //    "decimal": ",", "missing": ["DEFECT"]}
 // A column is named as the header has it, by its label in the logger's block, or by its place: "#3".
@@ -23,7 +24,9 @@ struct ColumnRule {
   std::string channel;
   std::optional<double> scale;
   std::optional<double> offset;
-  std::string unit;  // of the values in the file; empty: as the header says
+  std::string unit;      // of the values in the file; empty: as the header says
+  std::string axis;      // of a displacement: X, Y, Z; of a tilt: A, B (about X, Y); empty: by the channel's name
+  std::string location;  // of a sensor, in words
 };
 
 struct TimeRule {

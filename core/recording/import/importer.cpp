@@ -67,6 +67,7 @@ class Importer {
       ZD_CHECK(read_column(column, out));
     }
     ZD_CHECK(check_channels(out));
+    ZD_CHECK(check_axes(out));
     return out;
   }
 
@@ -223,6 +224,8 @@ class Importer {
 
   Status name_by_map(const ColumnRule& rule, std::size_t column, ColumnFate& fate) const {
     fate.channel = rule.channel;
+    fate.axis = rule.axis;
+    fate.location = rule.location;
     const StatedUnit stated = stated_unit(column);
     fate.unit = !rule.unit.empty() ? rule.unit : !stated.unit.empty() ? stated.unit : split_unit(fate.name).unit;
     fate.unit_from = !rule.unit.empty() ? "map" : !stated.unit.empty() ? stated.from : !fate.unit.empty() ? "name" : "";
@@ -319,6 +322,21 @@ class Importer {
           {ErrorCode::sentinel_suspected,
            {{"column", name}, {"found", fmt::format("{:g}", sentinel)}, {"count", std::to_string(count)}}});
     }
+  }
+
+  /// One channel for each axis.
+  Status check_axes(const Imported& out) const {
+    std::map<std::string, std::string> column_of;
+    for (const ColumnFate& fate : out.columns) {
+      const bool named = fate.channel.size() == 5 && fate.channel.starts_with("d") && fate.channel.ends_with("_um");
+      const std::string axis = fate.axis.empty() && named ? fate.channel.substr(1, 1) : fate.axis;
+      if (axis.empty() || column_of.emplace(axis, fate.name).second) continue;
+      return fail(ErrorCode::data_does_not_fit, {{"what", m_table.form.file},
+                                                 {"column", fate.name},
+                                                 {"found", "axis " + axis + ", as column " + column_of[axis]},
+                                                 {"expected", "one column for each axis"}});
+    }
+    return {};
   }
 
   /// A name of its own for each channel; columns of the same name but for what their units carried get their place.
@@ -425,7 +443,7 @@ nlohmann::json map_of(const Imported& imported, const HeaderMap& given) {
     if (fate.fate == "time") continue;
     std::optional<ColumnRule>& rule = map.columns[key_of(fate)];
     if (fate.fate != "channel") continue;
-    rule = ColumnRule{fate.channel, {}, {}, {}};
+    rule = ColumnRule{fate.channel, {}, {}, {}, fate.axis, fate.location};
     if (fate.scale != 1.0) rule->scale = fate.scale;
     if (fate.offset != 0.0) rule->offset = fate.offset;
     if (fate.offset != 0.0 && !rule->scale) rule->scale = fate.scale;
@@ -433,6 +451,19 @@ nlohmann::json map_of(const Imported& imported, const HeaderMap& given) {
   }
   nlohmann::json out = to_json(map);
   if (!proposals.empty()) out["proposals"] = std::move(proposals);
+  return out;
+}
+
+Assigned assigned_in(const nlohmann::json& kept) {
+  Assigned out;
+  if (!kept.is_object()) return out;
+  for (const auto& column : kept.value("columns", nlohmann::json::array())) {
+    const std::string channel = column.value("channel", "");
+    if (channel.empty()) continue;
+    out.channels.push_back(channel);
+    if (column.contains("axis")) out.axes[channel] = column.value("axis", "");
+    if (column.contains("location")) out.locations[channel] = column.value("location", "");
+  }
   return out;
 }
 
@@ -446,6 +477,8 @@ nlohmann::json to_json(const Imported& imported) {
       one["channel"] = fate.channel;
       one["scale"] = fate.scale;
       one["offset"] = fate.offset;
+      if (!fate.axis.empty()) one["axis"] = fate.axis;
+      if (!fate.location.empty()) one["location"] = fate.location;
     }
     if (!fate.unit.empty()) {
       one["unit"] = fate.unit;

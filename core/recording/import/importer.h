@@ -28,6 +28,8 @@ struct ColumnFate {
   std::string unit_from;  // "name", "units-row", "block", "map"; empty: no unit is known
   double scale = 1.0;     // channel = scale * value + offset
   double offset = 0.0;
+  std::string axis;                    // that a displacement or tilt is of, by the map
+  std::string location;                // of the sensor, by the map
   std::string proposal;                // a channel that it may be; never taken by itself
   std::map<std::string, int> missing;  // words for missing samples, and how often
 };
@@ -46,6 +48,13 @@ Result<Imported> import_file(const std::filesystem::path& path, const HeaderMap&
 
 /// The map that reads such a file again the same way, each column named; with proposals beside.
 nlohmann::json map_of(const Imported& imported, const HeaderMap& given);
+/// What the map said of the channels of an import that was kept as to_json().
+struct Assigned {
+  std::map<std::string, std::string> axes;       // channel of a displacement or tilt -> X, Y, Z, A, B
+  std::map<std::string, std::string> locations;  // channel -> where its sensor is
+  std::vector<std::string> channels;             // all of them
+};
+Assigned assigned_in(const nlohmann::json& kept);
 /// {"encoding", "separator", "decimal", "time": {...}, "columns": [...]}; warnings are the caller's to put into words.
 nlohmann::json to_json(const Imported& imported);
 

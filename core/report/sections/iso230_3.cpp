@@ -73,8 +73,7 @@ Table ranges_of(const Source& source, const LoadedArtefact& artefact, const Load
     const auto whole = extremes_of(run.samples, channel, whole_s);
     if (!whole.lowest) continue;
     const bool tilt = recording::kind_of(channel) == recording::ChannelKind::tilt;
-    const std::string name = channel.substr(0, channel.find('_'));
-    const std::string axis = !tilt && name.size() == 2 && name[0] == 'd' ? name.substr(1) : name;
+    const std::string axis = tag_of(channel, source.labels());
     const std::string unit = tilt ? "urad" : "um";
     const auto* values = run.samples.find(channel);
     table.rows.push_back({tilt ? source.tell("Tilt {}", axis) : axis,

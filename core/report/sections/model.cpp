@@ -61,7 +61,7 @@ Table figures_of(const Source& source, const nlohmann::json& body) {
                      source.at("model", pointer + "peak_held_out_um"));
     peak.verdict = number_of(figure, "peak_held_out_um") > limits::attainable_peak_um ? Verdict::bad : Verdict::none;
     table.rows.push_back(
-        {channel.substr(1, channel.find('_') - 1),
+        {tag_of(channel, source.labels()),
          cell(number_of(figure, "rms_fit_um"), 2, "fit_rms_" + channel, source.at("model", pointer + "rms_fit_um")),
          cell(number_of(figure, "rms_held_out_um"), 2, "held_out_rms_" + channel,
               source.at("model", pointer + "rms_held_out_um")),
@@ -101,10 +101,10 @@ void add_plots(const Source& source, const nlohmann::json& body, Section& sectio
     plot.x_label = source.say("hours");
     plot.y_label = "µm";
     plot.width = Width::half;
-    plot.curves = curves_of(*run, {error.error}, true);
+    plot.curves = curves_of(*run, {error.error}, true, source.labels());
     for (auto& curve : plot.curves) curve.name = source.say("measured");
-    plot.curves.push_back(
-        curve_of(source.say("predicted"), prediction->time_s, error.value_um, hue_of(error.error), Stroke::solid));
+    plot.curves.push_back(curve_of(source.say("predicted"), prediction->time_s, error.value_um,
+                                   hue_of(error.error, source.labels()), Stroke::solid));
     std::vector<double> low = error.value_um;
     std::vector<double> high = error.value_um;
     for (std::size_t r = 0; r < low.size() && r < error.half_width_um.size(); ++r) {

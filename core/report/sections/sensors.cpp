@@ -19,7 +19,10 @@ Table clusters_of(const Source& source, const nlohmann::json& body) {
   const bool absolute = text_of(object_of(body, "criterion"), "used") == "absolute";
   const std::string sum =
       absolute ? source.say("sum of correlations, absolute") : source.say("sum of correlations, with sign");
-  table.header = {source.say("sensor"), source.say("cluster"), "r(X)", "r(Y)", "r(Z)", sum, "VIF", source.say("kept")};
+  const auto errors = body.value("errors", std::vector<std::string>{"dX_um", "dY_um", "dZ_um"});
+  table.header = {source.say("sensor"), source.say("cluster")};
+  for (const auto& error : errors) table.header.push_back("r(" + tag_of(error, source.labels()) + ")");
+  for (const auto& head : {sum, std::string("VIF"), source.say("kept")}) table.header.push_back(head);
   table.trace = source.at("sensors", "/table");
   std::map<std::string, nlohmann::json> details;
   for (const auto& one : list_of(body, "sensors")) details[text_of(one, "sensor")] = one;
@@ -30,12 +33,13 @@ Table clusters_of(const Source& source, const nlohmann::json& body) {
     const auto correlation = detail.is_object() ? object_of(detail, "correlation") : nlohmann::json::object();
     const double vif = detail.is_object() ? number_of(detail, "vif") : std::nan("");
     const std::string pointer = fmt::format("/table/{}/correlation_sum", number++);
-    table.rows.push_back({source.channel_in_words(channel), text_of(row, "cluster"),
-                          shown(number_of(correlation, "dX_um"), 2), shown(number_of(correlation, "dY_um"), 2),
-                          shown(number_of(correlation, "dZ_um"), 2),
-                          cell(number_of(row, "correlation_sum"), 3,
-                               "correlation_" + channel.substr(0, channel.find('_')), source.at("sensors", pointer)),
-                          shown(vif, 0), row.value("kept", false) ? source.say("yes") : ""});
+    std::vector<Cell> cells = {source.channel_in_words(channel), text_of(row, "cluster")};
+    for (const auto& error : errors) cells.push_back(shown(number_of(correlation, error), 2));
+    cells.push_back(cell(number_of(row, "correlation_sum"), 3, "correlation_" + channel.substr(0, channel.rfind('_')),
+                         source.at("sensors", pointer)));
+    cells.push_back(shown(vif, 0));
+    cells.push_back(row.value("kept", false) ? source.say("yes") : "");
+    table.rows.push_back(std::move(cells));
   }
   return table;
 }

@@ -7,6 +7,7 @@
 
 #include "core/report/build.h"
 #include "core/report/doubts.h"
+#include "core/report/limits.h"
 #include "core/report/pieces.h"
 #include "core/report/promise.h"
 
@@ -182,11 +183,40 @@ std::vector<Text> what_was_promised(const Source& source, const LoadedArtefact& 
 
 }  // namespace
 
+namespace {
+
+/// Before anything is verified: what the model leaves and what the physics says, as the job holds them.
+void add_findings(const Source& source, Section& section) {
+  Figures figures;
+  if (const LoadedArtefact* model = source.find("model")) {
+    int number = 0;
+    for (const auto& one : list_of(model->body, "figures")) {
+      const std::string tag = tag_of(text_of(one, "channel"), source.labels());
+      const double peak_um = number_of(one, "peak_held_out_um");
+      Figure made =
+          figure("unseen_peak_" + tag + "_um", source.tell("Largest error left in {} on unseen data", tag),
+                 shown(peak_um, 1), "µm", source.at("model", fmt::format("/figures/{}/peak_held_out_um", number++)));
+      figures.figures.push_back(judged(source, std::move(made), peak_um, limits::attainable_peak_um, 1));
+    }
+  }
+  if (!figures.figures.empty()) section.blocks.emplace_back(std::move(figures));
+}
+
+}  // namespace
+
 std::optional<Section> summary_section(const Source& source) {
   Section section{"summary", source.say("Result"), {}};
   const LoadedArtefact* verification = source.find("verification");
   if (verification == nullptr) {
-    section.blocks.emplace_back(Text{source.say("The compensation has not been verified on the machine yet."), true});
+    const LoadedArtefact* job = source.find("job");
+    section.blocks.emplace_back(
+        job != nullptr && text_of(job->body, "kind") == "files"
+            ? Text{source.say(
+                       "This job is made from recordings in files: nothing was written to a machine, and nothing "
+                       "was verified on one."),
+                   false}
+            : Text{source.say("The compensation has not been verified on the machine yet."), true});
+    add_findings(source, section);
     if (auto text = count_of_doubts(source)) section.blocks.emplace_back(std::move(*text));
     return section;
   }

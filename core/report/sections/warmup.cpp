@@ -16,7 +16,7 @@ Plot plot_of(const Source& source, const LoadedRun& run, const std::vector<std::
   plot.title = source.say(title);
   plot.x_label = source.say("hours");
   plot.y_label = unit;
-  plot.curves = curves_of(run.samples, channels, false);
+  plot.curves = curves_of(run.samples, channels, false, source.labels());
   for (auto& curve : plot.curves) curve.name = source.say(curve.name);
   plot.trace = source.trace("warmup", "series");
   add_course(source, *source.find("warmup"), plot);
@@ -85,15 +85,17 @@ std::optional<Section> warmup_section(const Source& source) {
   if (run == nullptr || run->samples.rows() == 0) return std::nullopt;
   Section section{"warmup", source.say("Warm-up run"), {}};
   if (auto steps = steps_of(source); !steps.rows.empty()) section.blocks.emplace_back(std::move(steps));
-  section.blocks.emplace_back(
-      plot_of(source, *run, run->samples.names(recording::ChannelKind::error), "errors", "Errors at the nose", "µm"));
+  const auto errors = run->samples.names(recording::ChannelKind::error);
+  if (!errors.empty()) section.blocks.emplace_back(plot_of(source, *run, errors, "errors", "Errors at the nose", "µm"));
   const auto tilts = run->samples.names(recording::ChannelKind::tilt);
   if (!tilts.empty()) section.blocks.emplace_back(plot_of(source, *run, tilts, "tilts", "Tilt at the nose", "µrad"));
   auto temperatures = run->samples.names(recording::ChannelKind::temperature);
   const auto room = run->samples.names(recording::ChannelKind::ambient);
   temperatures.insert(temperatures.end(), room.begin(), room.end());
   section.blocks.emplace_back(plot_of(source, *run, temperatures, "temperatures", "Temperatures", "°C"));
-  section.blocks.emplace_back(plot_of(source, *run, {"spindle_rpm"}, "speed", "Spindle speed", "rpm"));
+  if (run->samples.find("spindle_rpm") != nullptr) {
+    section.blocks.emplace_back(plot_of(source, *run, {"spindle_rpm"}, "speed", "Spindle speed", "rpm"));
+  }
   if (auto notes = notes_of(source, *run); !notes.rows.empty()) section.blocks.emplace_back(std::move(notes));
   section.blocks.emplace_back(temperatures_of(source, *run));
   return section;

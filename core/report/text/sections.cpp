@@ -23,6 +23,9 @@ std::vector<TextEntry> texts_of_sections() {
       {"Zerodrift {}, job {}", "Zerodrift {}，作业 {}"},
       {"Result", "结果"},
       {"The compensation has not been verified on the machine yet.", "补偿尚未在机床上验证。"},
+      {"This job is made from recordings in files: nothing was written to a machine, and nothing was verified on one.",
+       "本作业由文件中的记录生成：没有向机床写入任何内容，也没有在机床上验证。"},
+      {"Largest error left in {} on unseen data", "在未见数据上 {} 剩余的最大误差"},
       {"The thermal error of this machine was measured, learned and compensated. A second run with the compensation on "
        "stayed within the limit.",
        "本机床的热误差已测量、建模并补偿。在补偿开启的情况下再次运行，误差保持在限值以内。"},
