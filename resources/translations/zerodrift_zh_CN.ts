@@ -6876,10 +6876,6 @@
         <translation>请先记录一次暖机运行：仿真将与之比较。</translation>
     </message>
     <message>
-        <source>The profile holds no machine description, so there is nothing to simulate.</source>
-        <translation>配置文件不含机床描述，无法仿真。</translation>
-    </message>
-    <message>
         <source>%1.</source>
         <comment>a whole sentence</comment>
         <translation>%1。</translation>
@@ -7154,10 +7150,6 @@
 </context>
 <context>
     <name>zerodrift::desktop::SensorsPresenter</name>
-    <message>
-        <source>Room</source>
-        <translation>室温</translation>
-    </message>
     <message>
         <source>Clustering the sensors</source>
         <translation>正在对传感器聚类</translation>
