@@ -1,5 +1,4 @@
 // Data that a diagnosis must not be fooled by: each is refused or named, and never a confident wrong effect.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -177,20 +176,6 @@ TEST(BadInput, AColumnThatASecondRecordingLacksIsNamed) {
   ASSERT_TRUE(runs.has_value()) << describe(runs.error());
   EXPECT_EQ(runs->recordings.size(), 1U);
   EXPECT_TRUE(notes(runs->notes, "lacks_column:coolant_on"));
-}
-
-/// What the sentence of a lone effect says stands in the table of the channels.
-TEST(BadInput, SentenceAndTableAgree) {
-  for (const char* hidden : {"sensor_lag"}) {
-    const auto answer = answer_for(proof::make_case(120, hidden));
-    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    if (answer->effects.size() != 1) continue;
-    const Sentence& s = answer->effects[0].explanation;
-    const auto channel = std::find_if(answer->channels.begin(), answer->channels.end(),
-                                      [&](const auto& one) { return one.channel == s.facts.at("channel"); });
-    ASSERT_NE(channel, answer->channels.end());
-    EXPECT_EQ(s.facts.at("before"), fmt::format("{:.2g}", channel->rms_refitted)) << hidden;
-  }
 }
 
 // Nothing is converted by its look: the values are taken as they are named, and the doubt is said with its remedy.
