@@ -207,6 +207,7 @@ TEST(BadInput, ValuesThatMayBeFahrenheitAreNamedAndNotConverted) {
 /// that stands for the unit.
 TEST(BadInput, NothingIsNamedBesideAUnitThatIsWrong) {
   proof::Case one = proof::make_case(114, "coolant");
+  one.recordings.resize(1);
   for (auto& recording : one.recordings) {
     for (double& rpm : recording.find("spindle_rpm")->values) rpm /= 60.0;
   }
