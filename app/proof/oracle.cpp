@@ -30,10 +30,16 @@ bool is_form_of(const Candidate& candidate, const TrueEffect& hidden) {
   return hidden.law.empty() || spec.word_or("law", hidden.law) == hidden.law;
 }
 
-FitPtr fitted(Hypothesis hypothesis, const std::shared_ptr<const Evidence>& evidence, const Fit* start) {
+/// Started from another fit where there is one, at its sizes of the discrepancy.
+FitPtr fit_of(Hypothesis hypothesis, const std::shared_ptr<const Evidence>& evidence, const Fit* start) {
   auto fit = std::make_shared<Fit>(std::make_shared<JointModel>(std::move(hypothesis), evidence),
                                    start == nullptr ? evidence->usual_sizes() : start->sizes());
   if (start != nullptr) fit->start_from(*start, false);
+  return fit;
+}
+
+FitPtr fitted(Hypothesis hypothesis, const std::shared_ptr<const Evidence>& evidence, const Fit* start) {
+  FitPtr fit = fit_of(std::move(hypothesis), evidence, start);
   fit->settle();
   return fit;
 }
@@ -57,9 +63,11 @@ FitPtr with_effect(const FitPtr& base, const TrueEffect& hidden, const std::vect
   for (const std::size_t i : order) {
     Hypothesis hypothesis = base->model().hypothesis();
     hypothesis.effects.push_back(candidates[i].effect);
-    const FitPtr fit = fitted(std::move(hypothesis), base->model().shared_evidence(), base.get());
+    const FitPtr fit = fit_of(std::move(hypothesis), base->model().shared_evidence(), base.get());
+    fit->fit({12, true});
     if (best == nullptr || fit->log_evidence() > best->log_evidence()) best = fit;
   }
+  if (best != nullptr) best->settle();
   return best;
 }
 

@@ -1,5 +1,4 @@
 // Data that a diagnosis must not be fooled by: each is refused or named, and never a confident wrong effect.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -179,20 +178,6 @@ TEST(BadInput, AColumnThatASecondRecordingLacksIsNamed) {
   EXPECT_TRUE(notes(runs->notes, "lacks_column:coolant_on"));
 }
 
-/// What the sentence of a lone effect says stands in the table of the channels.
-TEST(BadInput, SentenceAndTableAgree) {
-  for (const char* hidden : {"sensor_lag"}) {
-    const auto answer = answer_for(proof::make_case(120, hidden));
-    ASSERT_TRUE(answer.has_value()) << describe(answer.error());
-    if (answer->effects.size() != 1) continue;
-    const Sentence& s = answer->effects[0].explanation;
-    const auto channel = std::find_if(answer->channels.begin(), answer->channels.end(),
-                                      [&](const auto& one) { return one.channel == s.facts.at("channel"); });
-    ASSERT_NE(channel, answer->channels.end());
-    EXPECT_EQ(s.facts.at("before"), fmt::format("{:.2g}", channel->rms_refitted)) << hidden;
-  }
-}
-
 // Nothing is converted by its look: the values are taken as they are named, and the doubt is said with its remedy.
 TEST(BadInput, ValuesThatMayBeFahrenheitAreNamedAndNotConverted) {
   proof::Case one = proof::make_case(110, "none");
@@ -222,6 +207,7 @@ TEST(BadInput, ValuesThatMayBeFahrenheitAreNamedAndNotConverted) {
 /// that stands for the unit.
 TEST(BadInput, NothingIsNamedBesideAUnitThatIsWrong) {
   proof::Case one = proof::make_case(114, "coolant");
+  one.recordings.resize(1);
   for (auto& recording : one.recordings) {
     for (double& rpm : recording.find("spindle_rpm")->values) rpm /= 60.0;
   }

@@ -142,6 +142,24 @@ class Assessment {
     return set_right(run, m_best.model().hypothesis().errors);
   }
 
+  /// Where a displacement counts from is new in each recording: the simulation is shifted to the zero of the fit.
+  recording::Recording at_its_zero(recording::Recording simulation, const Fit& fit) const {
+    const inference::Run& run = m_evidence.runs().front();
+    for (std::size_t c = 0; c < run.series.size(); ++c) {
+      const inference::MeasuredSeries& series = run.series[c];
+      recording::Channel* channel = simulation.find(series.channel);
+      if (series.temperature || series.samples == 0 || channel == nullptr) continue;
+      double shift = 0.0;
+      for (std::size_t k = 0; k < run.rows(); ++k) {
+        if (series.present[k])
+          shift += fit.predicted().front()[c][k] - recording::value_at(simulation, *channel, run.recording.time_s[k]);
+      }
+      shift /= series.samples;
+      for (double& value : channel->values) value += shift;
+    }
+    return simulation;
+  }
+
   void channels() {
     const recording::Recording& first = m_recordings.front();
     const auto simulated = [&](const physics::Machine& machine, const recording::Recording& run) {
@@ -149,8 +167,8 @@ class Assessment {
       return result ? result->prediction : recording::Recording{};
     };
     const recording::Recording nominal = simulated(m_described, first);
-    const recording::Recording explained = simulated(m_out.refined, driven(first));
-    const recording::Recording refitted = simulated(fitted_description(m_base), first);
+    const recording::Recording explained = at_its_zero(simulated(m_out.refined, driven(first)), m_best);
+    const recording::Recording refitted = at_its_zero(simulated(fitted_description(m_base), first), m_base);
     m_out.time_s = first.time_s;
     const auto rms = [&](const recording::Recording& simulation, const std::string& channel) {
       for (const auto& one : physics::compare(simulation, first)) {

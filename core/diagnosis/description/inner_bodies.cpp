@@ -135,16 +135,6 @@ bool touches_lump(const physics::Machine& machine, const std::string& component)
   });
 }
 
-bool of_lumps_alone(const physics::Machine& machine) {
-  return std::all_of(machine.components.begin(), machine.components.end(), [](const auto& one) { return one.lump; });
-}
-
-bool is_unknown(const physics::Machine& machine) {
-  return of_lumps_alone(machine) && machine.couplings.empty() &&
-         std::all_of(machine.components.begin(), machine.components.end(),
-                     [](const auto& one) { return one.sources.empty(); });
-}
-
 bool has_unknown_heat(const physics::Machine& machine) {
   return std::any_of(machine.components.begin(), machine.components.end(), [](const auto& component) {
     return std::any_of(component.sources.begin(), component.sources.end(),

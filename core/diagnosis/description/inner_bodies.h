@@ -10,13 +10,8 @@ namespace zerodrift::diagnosis {
 /// The machine with an inside for every rod that has none and asks for one; starting values from its drawing.
 physics::Machine with_inner_bodies(physics::Machine machine);
 
-/// No rod: a description so crude that its numbers stand for many parts each.
 /// Exchanges heat with a lump: what it is handed is as coarse as that.
 bool touches_lump(const physics::Machine& machine, const std::string& component);
-
-bool of_lumps_alone(const physics::Machine& machine);
-/// Lumps that neither anything heats nor touches: what flows between them is anyone's guess.
-bool is_unknown(const physics::Machine& machine);
 /// Does any source only have a shape?
 bool has_unknown_heat(const physics::Machine& machine);
 

@@ -9,8 +9,8 @@
 #include "core/diagnosis/input/samples.h"
 #include "core/physics/builder.h"
 #include "core/physics/initial_state.h"
-#include "core/physics/prediction.h"
 #include "core/physics/inputs.h"
+#include "core/physics/prediction.h"
 
 namespace zerodrift::diagnosis {
 namespace {
