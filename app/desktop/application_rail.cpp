@@ -62,6 +62,8 @@ void Application::tellNeed(Presenter& presenter, bool needed) {
     reason =
         tr("What is left can only be measured on the machine, with the table active. The Fit page says what to "
            "expect on data that the model has not seen.");
+  } else if (id == QStringLiteral("sensors") || id == QStringLiteral("fit")) {
+    reason = tr("The recording holds no error, so there is nothing to fit. Its heat can be explained, in Physics.");
   } else {
     reason = tr("Compensating from this computer needs a connected machine.");
   }
@@ -93,6 +95,9 @@ void Application::updateSteps() {
     // The compensator on this computer is no step: it needs a machine all the same.
     const bool from_files = m_bench->kind() == commissioning::JobKind::files;
     if (from_files && id == "compensator") status.state = flow::StepState::not_needed;
+    const bool of_errors = id == "sensors" || id == "fit";
+    if (of_errors && m_bench->warmupRun().rows() > 0 && !m_bench->hasErrors())
+      status.state = flow::StepState::not_needed;
     const bool needed = status.state != flow::StepState::not_needed;
     tellNeed(*presenter, needed);
     const bool made = status.state == flow::StepState::current || status.state == flow::StepState::stale;

@@ -29,6 +29,8 @@ struct Happening {
   std::string what;  // in the reader's language
   std::string text;
 };
+/// What the search in the physics found, in its sentences; nothing where none was made.
+void add_verdict_of_physics(const Source& source, Section& section);
 std::vector<Happening> happenings_of(const Source& source, const LoadedRun& run);
 
 }  // namespace zerodrift::report

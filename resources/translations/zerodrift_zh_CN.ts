@@ -6394,6 +6394,10 @@
         <source>Compensating from this computer needs a connected machine.</source>
         <translation>由本计算机补偿需要已连接的机床。</translation>
     </message>
+    <message>
+        <source>The recording holds no error, so there is nothing to fit. Its heat can be explained, in Physics.</source>
+        <translation>记录中没有误差，因此没有可拟合的内容。其热行为可在“物理分析”页解释。</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::AxisErrorsPresenter</name>
@@ -6683,14 +6687,6 @@
     <message>
         <source>Updating the model</source>
         <translation>正在更新模型</translation>
-    </message>
-    <message>
-        <source>The recording holds no error, so there is nothing to fit. Its heat can be explained, in Physics.</source>
-        <translation>记录中没有误差，因此没有可拟合的内容。其热行为可在“物理分析”页解释。</translation>
-    </message>
-    <message>
-        <source>No errors recorded</source>
-        <translation>未记录误差</translation>
     </message>
 </context>
 <context>
@@ -7157,14 +7153,6 @@
     <message>
         <source>Record a warm-up run first: the sensors are chosen from it.</source>
         <translation>请先记录一次暖机运行：传感器由此选出。</translation>
-    </message>
-    <message>
-        <source>The recording holds no error, so there is nothing to choose sensors for. Its heat can be explained, in Physics.</source>
-        <translation>记录中没有误差，因此无从选择传感器。其热行为可在“物理分析”页解释。</translation>
-    </message>
-    <message>
-        <source>No errors recorded</source>
-        <translation>未记录误差</translation>
     </message>
 </context>
 <context>

@@ -166,6 +166,18 @@ void RunView::setChannels(const QVector<RunChannel>& temperatures, const QVector
   const auto high = [](qsizetype rows) { return 72 + 22 * static_cast<int>(std::max<qsizetype>(1, rows)); };
   m_errorCard->setMinimumHeight(high(std::min<qsizetype>(errors.size(), 3)));
   m_errorCard->setMaximumHeight(high(errors.size()));
+  // A recording of heat alone has no errors, one of a machine at rest no inputs.
+  for (QWidget* part :
+       {static_cast<QWidget*>(m_errors), static_cast<QWidget*>(m_errorCard), static_cast<QWidget*>(m_headings[0])}) {
+    part->setVisible(!errors.isEmpty());
+  }
+  for (QWidget* part : {static_cast<QWidget*>(m_inputs), static_cast<QWidget*>(m_headings[1])}) {
+    part->setVisible(!inputs.isEmpty());
+  }
+  m_inputTags.clear();
+  for (const RunChannel& channel : inputs) {
+    if (channel.id != QStringLiteral("spindle_rpm")) m_inputTags << channel.tag;
+  }
   retranslate();
   const QVector<RunValue> values(m_values.cbegin(), m_values.cend());
   setValues(values);
@@ -261,9 +273,9 @@ void RunView::retranslate() {
   m_plotCard->setSubtitle(QStringLiteral("°C"));
   const QString grey = colors().muted.name();
   m_headings[0]->setText(tr("Errors") + QStringLiteral("  <span style='font-weight:400;color:%1'>µm</span>").arg(grey));
-  m_headings[1]->setText(
-      tr("Inputs") +
-      QStringLiteral("  <span style='font-weight:400;color:%1'>%2</span>").arg(grey, tr("speed in rpm")));
+  m_headings[1]->setText(tr("Inputs") +
+                         QStringLiteral("  <span style='font-weight:400;color:%1'>%2</span>")
+                             .arg(grey, m_inputTags.isEmpty() ? tr("speed in rpm") : listText(m_inputTags)));
   m_errorCard->setTitle(tr("Errors"));
   m_temperatureCard->setTitle(tr("Temperatures"));
   m_temperatureCard->setSubtitle(tr("%n channels", nullptr, static_cast<int>(m_temperatureTable->rows().size())));

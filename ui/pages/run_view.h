@@ -91,6 +91,7 @@ class RunView : public QWidget {
   ChannelTable* m_temperatureTable;
   ChannelTable* m_errorTable;
   CameraView* m_camera;
+  QStringList m_inputTags;  // of inputs that are no speed
   QHash<QString, LivePlot*> m_plotOf;
   QHash<QString, RunChannel> m_channels;
   QHash<QString, RunValue> m_values;  // the last of each channel

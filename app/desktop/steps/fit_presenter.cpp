@@ -255,11 +255,7 @@ void FitPresenter::fill(ui::FitState& state) {
 void FitPresenter::refresh() {
   ui::FitState state;
   const auto job = bench().job();
-  if (bench().has("warmup") && !bench().hasErrors()) {
-    state.blocked =
-        tr("The recording holds no error, so there is nothing to fit. Its heat can be explained, in "
-           "Physics.");
-  } else if (job == nullptr || !bench().has("sensors")) {
+  if (job == nullptr || !bench().has("sensors")) {
     state.blocked = tr("Choose the sensors first: the model is fitted to them.");
   } else {
     const auto status = flow::status_of(*job, "fit");
@@ -272,11 +268,6 @@ void FitPresenter::refresh() {
     offerUntried(state);
   }
   m_page->setState(state);
-}
-
-Presenter::Standing FitPresenter::standing() const {
-  if (!bench().has("warmup") || bench().hasErrors()) return {};
-  return {tr("No errors recorded"), ui::StepState::blocked};
 }
 
 void FitPresenter::tour(std::function<void(bool good)> done) {

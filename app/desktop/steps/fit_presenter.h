@@ -20,7 +20,6 @@ class FitPresenter : public Presenter {
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
-  Standing standing() const override;
   /// The model of the job corrected by a recording (CSV) of a newer, short run.
   void update(const std::string& recording, std::function<void(bool good)> done);
 

@@ -209,20 +209,11 @@ void SensorsPresenter::refresh() {
   ui::SensorsState state;
   if (!bench().has("warmup")) {
     state.blocked = tr("Record a warm-up run first: the sensors are chosen from it.");
-  } else if (!bench().hasErrors()) {
-    state.blocked =
-        tr("The recording holds no error, so there is nothing to choose sensors for. Its heat can be "
-           "explained, in Physics.");
   } else if (const json& body = bench().body("sensors"); body.is_object()) {
     fill(state, body);
     fillSeries(state);
   }
   m_page->setState(state);
-}
-
-Presenter::Standing SensorsPresenter::standing() const {
-  if (!bench().has("warmup") || bench().hasErrors()) return {};
-  return {tr("No errors recorded"), ui::StepState::blocked};
 }
 
 void SensorsPresenter::tour(std::function<void(bool good)> done) {

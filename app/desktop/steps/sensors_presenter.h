@@ -23,7 +23,6 @@ class SensorsPresenter : public Presenter {
   void enter() override;
   void tour(std::function<void(bool good)> done) override;
   void undo() override;
-  Standing standing() const override;
 
  private:
   /// What the job's choice was asked for; the defaults without one.

@@ -91,8 +91,7 @@ void WarmupPresenter::undo() {
 
 void WarmupPresenter::primary() {
   if (m_page->state().phase == ui::RunPhase::finished) {
-    if (bench().hasErrors()) return Q_EMIT nextRequested();
-    Q_EMIT pageRequested(QStringLiteral("physics"));  // there is nothing to fit
+    Q_EMIT nextRequested();
   } else if (m_page->state().filesOnly) {
     Q_EMIT importWanted();
   } else if (running()) {
@@ -224,6 +223,7 @@ void WarmupPresenter::fillImported(ui::WarmupState& state, const json& body) {
     state.temperatures += channel.kind() == recording::ChannelKind::temperature;
     state.errors += channel.kind() == recording::ChannelKind::error;
   }
+  if (state.errors == 0) state.largestError_um = std::nan("");
 }
 
 /// What was recorded until then is there to be looked at before it is gone on with or finished.

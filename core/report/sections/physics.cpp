@@ -313,6 +313,13 @@ Plot simulation_plot(const json& one, const recording::Recording* run, const Sou
 
 }  // namespace
 
+void add_verdict_of_physics(const Source& source, Section& section) {
+  const LoadedArtefact* physics = source.find("physics");
+  if (physics == nullptr) return;
+  const auto diagnosis = object_of(physics->body, "diagnosis");
+  add_sentences(diagnosis, source, text_of(diagnosis, "verdict") == "unexplained", section);
+}
+
 std::optional<Section> physics_section(const Source& source) {
   const LoadedArtefact* physics = source.find("physics");
   if (physics == nullptr) return std::nullopt;

@@ -200,6 +200,7 @@ void add_findings(const Source& source, Section& section) {
     }
   }
   if (!figures.figures.empty()) section.blocks.emplace_back(std::move(figures));
+  add_verdict_of_physics(source, section);
 }
 
 }  // namespace
@@ -209,14 +210,15 @@ std::optional<Section> summary_section(const Source& source) {
   const LoadedArtefact* verification = source.find("verification");
   if (verification == nullptr) {
     const LoadedArtefact* job = source.find("job");
-    section.blocks.emplace_back(
-        job != nullptr && text_of(job->body, "kind") == "files"
-            ? Text{source.say(
-                       "This job is made from recordings in files: nothing was written to a machine, and nothing "
-                       "was verified on one."),
-                   false}
-            : Text{source.say("The compensation has not been verified on the machine yet."), true});
-    add_findings(source, section);
+    if (job != nullptr && text_of(job->body, "kind") == "files") {
+      section.blocks.emplace_back(
+          Text{source.say("This job is made from recordings in files: nothing was written to a machine, and nothing "
+                          "was verified on one."),
+               false});
+      add_findings(source, section);
+    } else {
+      section.blocks.emplace_back(Text{source.say("The compensation has not been verified on the machine yet."), true});
+    }
     if (auto text = count_of_doubts(source)) section.blocks.emplace_back(std::move(*text));
     return section;
   }
