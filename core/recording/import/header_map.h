@@ -22,11 +22,11 @@ namespace zerodrift::recording {
 /// value in the channel's unit = scale * value in the file + offset. Without scale the unit converts.
 struct ColumnRule {
   std::string channel;
-  std::optional<double> scale;
-  std::optional<double> offset;
-  std::string unit;      // of the values in the file; empty: as the header says
-  std::string axis;      // of a displacement: X, Y, Z; of a tilt: A, B (about X, Y); empty: by the channel's name
-  std::string location;  // of a sensor, in words
+  std::optional<double> scale = {};
+  std::optional<double> offset = {};
+  std::string unit = {};      // of the values in the file; empty: as the header says
+  std::string axis = {};      // of a displacement: X, Y, Z; of a tilt: A, B (about X, Y); empty: by the channel's name
+  std::string location = {};  // of a sensor, in words
 };
 
 struct TimeRule {
