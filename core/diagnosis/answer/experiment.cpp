@@ -11,6 +11,7 @@
 
 #include "core/base/json.h"
 #include "core/diagnosis/answer/explain.h"
+#include "core/physics/builder.h"
 
 namespace zerodrift::diagnosis::answer {
 namespace {
