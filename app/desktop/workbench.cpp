@@ -222,9 +222,9 @@ const nlohmann::json& Workbench::body(const std::string& kind) const {
 
 const recording::Recording& Workbench::warmupRun() const {
   const nlohmann::json& warmup = body("warmup");
-  const long long series = warmup.is_object() ? warmup.at("series").get<long long>() : 0;
+  const long long series = warmup.is_object() ? warmup.value("series", 0LL) : 0;
   if (series != m_warmupSeries) {
-    m_warmupRun = m_job->read_series(series).value_or(recording::Recording{});
+    m_warmupRun = series > 0 ? m_job->read_series(series).value_or(recording::Recording{}) : recording::Recording{};
     m_warmupSeries = series;
   }
   return m_warmupRun;
