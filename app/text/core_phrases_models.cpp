@@ -8,11 +8,12 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 266> models = {{
+constexpr std::array<const char*, 267> models = {{
     QT_TRANSLATE_NOOP("core", "the same run as %1"),
     QT_TRANSLATE_NOOP("core", "another run, or each run once"),
     QT_TRANSLATE_NOOP("core", "from %1 min on"),
     QT_TRANSLATE_NOOP("core", "from %1 to %2 min"),
+    QT_TRANSLATE_NOOP("core", "%1 times between %2 and %3 min"),
     QT_TRANSLATE_NOOP("core", "may not be in seconds: no machine tool warms so fast"),
     QT_TRANSLATE_NOOP("core", "%1 may not be in seconds: no machine tool warms so fast"),
     QT_TRANSLATE_NOOP("core", "%1 may not be in seconds: no machine tool warms so fast (%2)"),

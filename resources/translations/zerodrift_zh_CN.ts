@@ -4382,6 +4382,10 @@
         <translation>自 %1 至 %2 min</translation>
     </message>
     <message>
+        <source>%1 times between %2 and %3 min</source>
+        <translation>在 %2 至 %3 min 之间共 %1 次</translation>
+    </message>
+    <message>
         <source>the file does not exist</source>
         <translation>文件不存在</translation>
     </message>

@@ -14,12 +14,14 @@ nlohmann::json screw() {
   return nlohmann::json::parse(R"({"format": "zerodrift-machine/1", "initial_temperature_C": 20,
     "components": [
       {"id": "housing", "kind": "lump", "heat_capacity_J_K": 28700},
-      {"id": "motor", "kind": "lump", "heat_sources": [{"id": "motor", "kind": "input", "channel": "on",
+      {"id": "motor", "kind": "lump", "heat_sources": [{"id": "heater", "kind": "input", "channel": "heater_on",
                                                         "watts_per_unit": 50}]},
       {"id": "screw", "length_mm": 600, "outer_diameter_mm": 40, "bore_diameter_mm": 0,
-       "material": {"conductivity_W_mK": 45, "density_kg_m3": 7850, "heat_capacity_J_kgK": 460}},
+       "material": {"conductivity_W_mK": 45, "density_kg_m3": 7850, "heat_capacity_J_kgK": 460,
+                    "expansion_1_K": 1.15e-5}},
       {"id": "bar", "length_mm": 600, "outer_diameter_mm": 40, "bore_diameter_mm": 0,
-       "material": {"conductivity_W_mK": 45, "density_kg_m3": 7850, "heat_capacity_J_kgK": 460}}],
+       "material": {"conductivity_W_mK": 45, "density_kg_m3": 7850, "heat_capacity_J_kgK": 460,
+                    "expansion_1_K": 1.15e-5}}],
     "couplings": [{"between": [{"component": "housing"}, {"component": "screw", "position_mm": 20}],
                    "conductance_W_K": 20},
                   {"between": [{"component": "motor"}, {"component": "housing"}], "conductance_W_K": 5}],
@@ -31,7 +33,7 @@ nlohmann::json screw() {
 
 recording::Recording heated() {
   recording::Recording run;
-  run.channels = {{"on", {}}, {"ambient_C", {}}};
+  run.channels = {{"heater_on", {}}, {"ambient_C", {}}};
   for (double t = 0.0; t <= 7200.0; t += 30.0) {
     run.time_s.push_back(t);
     run.channels[0].values.push_back(t < 3600.0 ? 1.0 : 0.0);

@@ -131,6 +131,11 @@ TEST(Sentences, WhatHappenedOnceIsToldWithItsMoment) {
   door.sigma = {{"to_s", 60.0}};
   EXPECT_EQ(regime_of_effect(door, 18000.0), "from 160 to 200 min");
   EXPECT_EQ(regime_of_effect(door, 12000.0), "from 160 min on");
+  door.intervals_s = {{2057.0, 2218.0}};
+  EXPECT_EQ(regime_of_effect(door, 12000.0), "from 34.3 to 37.0 min");
+  door.intervals_s.push_back({9000.0, 9600.0});
+  EXPECT_EQ(regime_of_effect(door, 12000.0), "2 times between 34 and 160 min");
+  door.intervals_s.clear();
   door.sigma.clear();  // it was still open when the recording ended
   EXPECT_EQ(explain_effect(door, 12000.0, {"T1_C", 1.0, 0.1, 0.05}).english.find(", to ="), std::string::npos);
 }

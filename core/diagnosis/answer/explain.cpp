@@ -180,7 +180,20 @@ std::string watts_in_words(double mean_W, double sigma_W) {
   return with_sigma(mean_W, sigma_W) + " W";
 }
 
+/// Moments close together need a decimal.
+static std::string in_minutes(double time_s, double apart_s) {
+  return fmt::format("{:.{}f}", time_s / 60.0, apart_s < 300.0 ? 1 : 0);
+}
+
+static std::string regime_of_intervals(const std::vector<std::pair<double, double>>& intervals_s, double end_s) {
+  const double from_s = std::max(0.0, intervals_s.front().first), to_s = intervals_s.back().second;
+  const std::string from = in_minutes(from_s, to_s - from_s), to = in_minutes(std::min(to_s, end_s), to_s - from_s);
+  if (intervals_s.size() > 1) return fmt::format("{} times between {} and {} min", intervals_s.size(), from, to);
+  return to_s < end_s ? fmt::format("from {} to {} min", from, to) : fmt::format("from {} min on", from);
+}
+
 std::string regime_of_effect(const FoundEffect& effect, double end_s) {
+  if (!effect.intervals_s.empty()) return regime_of_intervals(effect.intervals_s, end_s);
   struct Regime {
     std::string_view effect;
     const char* words;

@@ -124,8 +124,9 @@ double Evidence::trust(const Sizes& sizes) const {
   for (std::size_t c = 0; c < series(); ++c) {
     if (samples(c) == 0) continue;
     const double usual = m_coarse[c] ? m_settings.coarse_slow_size : m_settings.usual_slow_size;
-    const double size = std::max(usual, m_settings.slow_sizes[static_cast<std::size_t>(sizes.slow[c])]);
-    sum += size / m_settings.usual_slow_size;
+    const double coarse = usual / m_settings.usual_slow_size;
+    const double needed = m_settings.slow_sizes[static_cast<std::size_t>(sizes.slow[c])] / usual;
+    sum += std::max({1.0, coarse, needed});
     ++count;
   }
   return count == 0 ? 1.0 : count / sum;

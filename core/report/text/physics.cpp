@@ -190,6 +190,7 @@ std::vector<TextEntry> texts_of_physics() {
        "记录 {recording} 没有 {other} 所含的列 {column}：其所控制的部分未被仿真，{other} 可能因此不符。"},
       {"from {} min on", "自 {} min 起"},
       {"from {} to {} min", "自 {} 至 {} min"},
+      {"{} times between {} and {} min", "在 {1} 至 {2} min 之间共 {0} 次"},
       {"the heat", "发热量"},
       {"the conductivity", "导热系数"},
       {"the heat capacity", "热容"},
