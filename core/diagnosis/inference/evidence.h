@@ -56,10 +56,10 @@ class Evidence {
   double log_prior(const Sizes& sizes) const;
   double log_prior_of_slow(std::size_t series, int slow_size) const;
   Sizes usual_sizes() const;
-  /// How far evidence can be trusted, at most 1. A description that is k times as coarse as one by rods of stated sizes,
-  /// or needs k times the discrepancy that such descriptions usually have, is no more than near the truth, and what
-  /// decides between hypotheses that are all wrong counts 1/k (the coarsened posterior of Miller and Dunson 2019, with
-  /// the power from the discrepancy).
+  /// How far evidence can be trusted, at most 1. A description that is k times as coarse as one by rods of stated
+  /// sizes, or needs k times the discrepancy that such descriptions usually have, is no more than near the truth, and
+  /// what decides between hypotheses that are all wrong counts 1/k (the coarsened posterior of Miller and Dunson 2019,
+  /// with the power from the discrepancy).
   double trust(const Sizes& sizes) const;
   double range(std::size_t series) const;
   /// Of a part whose numbers stand for many parts each, or are guessed.
