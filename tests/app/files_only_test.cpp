@@ -5,6 +5,7 @@
 #include <QFile>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QTableWidget>
 #include <QTest>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -216,6 +217,11 @@ class FilesOnlyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(dialog->state().columns[1].problem);
     QVERIFY(!dialog->findChild<QPushButton*>("take")->isEnabled());
     QCOMPARE(dialog->state().columns[0].role, ImportRole::time);
+    const QTableWidgetItem* name = dialog->findChild<QTableWidget*>("mapping")->item(0, 0);
+    m_theme.setMode(zerodrift::ui::ThemeMode::dark);
+    QCOMPARE(name->foreground().color(), zerodrift::ui::colors().text);
+    m_theme.setMode(zerodrift::ui::ThemeMode::light);
+    QCOMPARE(name->foreground().color(), zerodrift::ui::colors().text);
     QVERIFY(type(dialog, "missing", QStringLiteral("2O")));
     QVERIFY(!dialog->state().columns[1].problem);
   }

@@ -195,6 +195,14 @@ void ImportDialog::makeRows(int count) {
   }
 }
 
+void ImportDialog::colourRow(int number) {
+  const ImportColumn& column = m_state.columns[number];
+  const bool used = column.role != ImportRole::unused;
+  QTableWidgetItem* name = m_table->item(number, column_name);
+  name->setForeground(column.problem ? colors().bad : used ? colors().text : colors().muted);
+  name->setBackground(column.problem ? QBrush(colors().soft(colors().bad)) : QBrush());
+}
+
 void ImportDialog::fillRow(int number) {
   const ImportColumn& column = m_state.columns[number];
   const Row& row = m_rows[number];
@@ -204,8 +212,7 @@ void ImportDialog::fillRow(int number) {
   name->setToolTip(column.name + QLatin1Char('\n') + column.example);
   const bool used = column.role != ImportRole::unused;
   const bool time = column.role == ImportRole::time;
-  name->setForeground(column.problem ? colors().bad : used ? colors().text : colors().muted);
-  name->setBackground(column.problem ? QBrush(colors().soft(colors().bad)) : QBrush());
+  colourRow(number);
   const QStringList roles = roleNames();
   if (row.role->count() != roles.size() || row.role->itemText(0) != roles.front()) {
     row.role->clear();
@@ -345,6 +352,9 @@ void ImportDialog::changeEvent(QEvent* event) {
     retranslate();
     setState(ImportState(m_state));
   }
+  // What is being typed stays: the colours alone follow a change of theme.
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
+    for (int i = 0; i < m_rows.size(); ++i) colourRow(i);
   QDialog::changeEvent(event);
 }
 

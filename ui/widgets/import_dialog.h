@@ -104,6 +104,7 @@ class ImportDialog : public QDialog {
   void makeRows(int count);
   Row makeRow(int number);
   void fillRow(int number);
+  void colourRow(int number);
   void fillPreview();
   void retranslate();
   void edited(int number);
