@@ -40,7 +40,8 @@ void place(const Weighed& weighed, std::size_t effect, FoundEffect& found) {
   const physics::Component* part = weighed.described.find(found.component);
   const double length_mm = part == nullptr ? 0.0 : part->length_mm;
   const double at_mm = found.parameters.at("position_mm");
-  const double least = found.id == "contact_resistance" ? least_of_a_joint : least_of_a_source;
+  const bool broad = found.parameters.count("half_width_mm") != 0;
+  const double least = broad ? least_of_a_joint : least_of_a_source;
   double squares = 0.0, mass = 0.0;
   for (std::size_t i = 0; i < weighed.probability.size(); ++i) {
     const Fit& fit = *weighed.posterior.explanations[i].fit;
