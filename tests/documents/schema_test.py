@@ -1,0 +1,206 @@
+"""The schemas in resources/schema agree with the readers: what is shipped and shown validates, and a document whose form
+the reader refuses is refused by its schema as well (and the other way round).
+
+schema_test.py SOURCE_FOLDER BIN_FOLDER
+"""
+
+import concurrent.futures
+import copy
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+root = pathlib.Path(sys.argv[1])
+cli = pathlib.Path(sys.argv[2]) / "zerodrift-cli"
+folder = root / "resources" / "schema"
+faults = []
+
+schemas = {name: json.loads((folder / f"{name}.schema.json").read_text()) for name in ("machine", "profile", "header-map")}
+store = {f"{name}.schema.json": schema for name, schema in schemas.items()}
+
+
+def validator(name):
+    schema = schemas[name]
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema, resolver=jsonschema.RefResolver("", schema, store=store))
+
+
+validators = {name: validator(name) for name in schemas}
+
+# Every kind of part once, nothing that the reader takes from elsewhere in the document.
+material = {"conductivity_W_mK": 45, "density_kg_m3": 7850, "heat_capacity_J_kgK": 460, "expansion_1_K": 1.15e-5}
+machine = {
+    "format": "zerodrift-machine/1",
+    "name": "All of it",
+    "initial_temperature_C": 20.0,
+    "reference_temperature_C": 20.0,
+    "input_timing_sigma_s": 1.0,
+    "components": [
+        {
+            "id": "spindle", "length_mm": 400, "outer_diameter_mm": 100, "bore_diameter_mm": 30, "material": material,
+            "prescribed": False,
+            "heat_sources": [
+                {"id": "motor", "kind": "motor", "from_mm": 60, "to_mm": 160, "rated_power_W": 5500, "efficiency": 0.9,
+                 "rated_speed_rpm": 8000, "scale": 1.0,
+                 "cooling_jacket": {"flow_L_min": 4, "channel_diameter_mm": 8, "channel_length_mm": 900, "area_mm2": 20000,
+                                    "coolant_temperature_C": 20}},
+                {"id": "bearing", "kind": "bearing", "from_mm": 330, "to_mm": 355, "mean_diameter_mm": 85, "f0": 2,
+                 "f1": 0.001, "load_N": 900, "oil_viscosity_mm2_s": 32, "power_unknown": False},
+                {"id": "heater", "kind": "input", "from_mm": 0, "to_mm": 5, "channel": "coolant_on", "watts_per_unit": 7.5},
+                {"id": "slow", "kind": "input", "from_mm": 0, "to_mm": 5, "channel": "coolant_on", "power_unknown": True},
+                {"id": "speed", "kind": "speed", "from_mm": 0, "to_mm": 5, "channel": "spindle_rpm", "law": ["on", "n"],
+                 "law_watts": {"on": 3.0, "n": 1.0}, "full_speed_rpm": 6000},
+                {"id": "nut", "kind": "nut", "from_mm": 0, "to_mm": 5, "channel": "spindle_rpm", "friction_N": 90},
+                {"id": "guide", "kind": "guide", "from_mm": 0, "to_mm": 5, "channel": "spindle_rpm", "friction_N": 90}],
+            "inner_body": {"section_share": 0.3, "coupling_W_mK": 20, "coupling_rise": 0.1, "growth_share": 0.3,
+                           "shaft_in_cartridge": False, "heat_share": {"motor": 0.4}, "contact_W_K": {"motor": 9.0},
+                           "near_field_K_W": {"T1_C": 0.01}, "near_lag_s": 60}},
+        {"id": "housing", "kind": "lump", "heat_capacity_J_K": 9000, "area_mm2": 200000, "length_mm": 100,
+         "material": {"expansion_1_K": 1.1e-5}, "heat_sources": [{"id": "pump", "kind": "input", "channel": "coolant_on",
+                                                                  "watts_per_unit": 5}]}],
+    "couplings": [{"between": [{"component": "spindle", "position_mm": 340}, {"component": "housing"}],
+                   "conductance_W_K": 4.0}],
+    "effects": ["convection"],
+    "effect_parameters": {"convection": {"h_W_m2K": 12}},
+    "tolerances": {"conductivity": 0.1, "heat_capacity": 0.1, "heat_source_power": 0.3, "film": 0.3, "expansion": 0.1,
+                   "conductance": 0.3},
+    "sensors": [{"channel": "T1_C", "component": "spindle", "position_mm": 345, "accuracy_C": 0.1, "lag_s": 5},
+                {"channel": "ambient_C", "component": "ambient"}],
+    "displacements": [{"channel": "dZ_um", "direction": "Z", "component": "spindle", "sign": 1, "accuracy_um": 3}],
+    "room": {"channel": "ambient_C", "temperature_C": 20, "sigma_C": 0.7, "per_recording": True},
+    "fluids": [{"id": "chiller", "temperature_channel": "T1_C", "flow_channel": "coolant_on", "always_on": True}],
+}
+tcp = {
+    "format": "zerodrift-profile/1",
+    "name": "All of it",
+    "time_factor": 1,
+    "controller": {"kind": "modbus-tcp", "host": "127.0.0.1", "port": 9, "unit": 1, "timeout_ms": 100,
+                   "register_map": "zerodrift-virtual", "chunk_registers": 64},
+    "cameras": [{"id": "front", "url": "http://127.0.0.1:9/front.mjpg", "axes": ["X", "Z"], "um_per_px_nominal": 12,
+                 "target_roi_px": [240, 160, 160, 160], "reference_roi_px": [[39, 299, 120, 120]],
+                 "pixel_size_known": True, "assumed_latency_s": 0.5}],
+    "errors": {"source": "camera"},
+    "measure_position_mm": {"X": 0, "Z": 1.5},
+    "calibration_span_mm": 1.6,
+    "sensors": [{"channel": "T1_C", "label": "Front", "place": "spindle", "position_mm": 345, "accuracy_C": 0.1}],
+    "limits": {"max_um": 200, "max_um_per_s": 2, "max_drift_um_per_min": 50, "max_um_per_K": 100},
+}
+rtu = {"format": "zerodrift-profile/1",
+       "controller": {"kind": "modbus-rtu", "device": "/dev/null", "baud": 19200, "parity": "E", "stop_bits": 1, "unit": 1}}
+header_map = {
+    "columns": {"Lager vorn (°C)": {"channel": "T1_C", "unit": "degC", "offset": 0.1, "location": "front bearing"},
+                "Taster Z [mm]": {"channel": "probe_um", "scale": 1000, "axis": "Z"}, "Bemerkung": None},
+    "time": {"unit": "s"},
+    "decimal": ".", "separator": ",", "encoding": "UTF-8", "missing": ["DEFECT"]}
+
+# What the reader knows only with the rest of the document: which effect takes which parameters, which place is on a rod.
+elsewhere = {("components",), ("effect_parameters",), ("effect_parameters", "convection"),
+             ("effect_parameters", "convection", "h_W_m2K"), ("sensors", 0, "position_mm"),
+             ("couplings", 0, "between", 0, "position_mm")}
+
+
+def refused(name, document):
+    """By the reader: the sentence names the file and the key."""
+    with tempfile.TemporaryDirectory() as scratch:
+        path = pathlib.Path(scratch) / "document.json"
+        path.write_text(json.dumps(document))
+        out = pathlib.Path(scratch) / "out"
+        command = {
+            "machine": ["simulate", "--machine", path, "--inputs", pathlib.Path(scratch) / "none.csv", "--out", out],
+            "profile": ["machine", "check", "--profile", path],
+            "header-map": ["import", root / "examples" / "logger.csv", "--map", path, "--out", out],
+        }[name]
+        done = subprocess.run([cli, *command], capture_output=True, text=True, timeout=60)
+    fault = re.search(r'document\.json: "(.+?)" is ', done.stderr)
+    return done.stderr.strip() if done.returncode == 1 and fault else ""
+
+
+def changes(value, path=()):
+    """Every value gone, or of another form: (path, document with that change)."""
+    wrong = [-1e9, 1e12] if isinstance(value, (int, float)) and not isinstance(value, bool) else [7]
+    if path:
+        for other in wrong:
+            yield path, other
+    if isinstance(value, dict):
+        for key, one in value.items():
+            yield path + (key,), changes
+            yield from changes(one, path + (key,))
+    if isinstance(value, list):
+        for place, one in enumerate(value):
+            yield from changes(one, path + (place,))
+
+
+def changed(document, path, value):
+    out = copy.deepcopy(document)
+    at = out
+    for key in path[:-1]:
+        at = at[key]
+    if value is changes:
+        del at[path[-1]]
+    else:
+        at[path[-1]] = value
+    return out
+
+
+def compare(name, document):
+    if sentence := refused(name, document):
+        return faults.append(f"{name}: the reader refuses the document of this test: {sentence}")
+    count = 0
+    cases = [(path, value) for path, value in changes(document) if path not in elsewhere]
+    others = [changed(document, path, value) for path, value in cases]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        answers = list(pool.map(lambda other: refused(name, other), others))
+    for (path, value), other, by_reader in zip(cases, others, answers):
+        by_schema = next((error.message for error in validators[name].iter_errors(other)), "")
+        what = "taken away" if value is changes else json.dumps(value)
+        if bool(by_reader) != bool(by_schema):
+            faults.append(f"{name}, {'.'.join(map(str, path))} {what}: the reader says {by_reader or 'nothing'!r}, the "
+                          f"schema {by_schema or 'nothing'!r}")
+        count += bool(by_reader)
+    print(f"{name}: {count} documents are refused by both")
+
+
+def check(name, document, where):
+    for error in validators[name].iter_errors(document):
+        faults.append(f"{where}: {'/'.join(map(str, error.absolute_path))}: {error.message}")
+
+
+check("machine", machine, "this test")
+check("machine", json.loads((root / "examples" / "machine.json").read_text()), "examples/machine.json")
+check("header-map", json.loads((root / "examples" / "names.json").read_text()), "examples/names.json")
+for path in [root / "examples" / "profile.json", *sorted((root / "resources" / "profiles").glob("*.json"))]:
+    document = json.loads(path.read_text())
+    check("profile", document, path.name)
+    if isinstance(document.get("machine"), dict):
+        check("machine", document["machine"], f"{path.name}, machine")
+shown = 0
+for path in sorted((root / "docs").rglob("*.md")):
+    for block in re.findall(r"```json\n(.*?)```", path.read_text(), re.S):
+        try:
+            document = json.loads(block)
+        except json.JSONDecodeError:
+            continue  # a part of one, with dots
+        kind = {"zerodrift-machine/1": "machine", "zerodrift-profile/1": "profile"}.get(document.get("format", ""))
+        kind = kind or ("header-map" if "columns" in document else None)
+        if kind:
+            shown += 1
+            check(kind, document, path.relative_to(root))
+print(f"{shown} documents in docs/ are valid")
+if shown < 2:
+    faults.append("docs/ show no machine description and no header map any more")
+
+compare("machine", machine)
+compare("profile", tcp)
+compare("profile", rtu)
+compare("header-map", header_map)
+listed = refused("machine", changed(machine, ("effects",), ["none"])).split("one of ")[1].split(". ")[0].split(", ")
+if set(listed) != set(schemas["machine"]["properties"]["effects"]["items"]["enum"]):
+    faults.append(f"the effects of the reader are {', '.join(listed)}; the schema lists others")
+
+print("\n".join(faults))
+sys.exit(1 if faults else 0)
