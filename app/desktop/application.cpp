@@ -192,7 +192,7 @@ void Application::switchCompensation() {
         return flow::switch_compensation(job.get(), devices, flow::Consent::given(), on);
       },
       [this](Result<bool> now) {
-        m_bench->log(now ? LogKind::good : LogKind::bad, !now   ? lineOf(now.error())
+        m_bench->log(now ? LogKind::good : LogKind::bad, !now   ? lineOf(now.error(), Reader::window)
                                                          : *now ? tr("Compensation ON")
                                                                 : tr("Compensation OFF"));
       });

@@ -48,7 +48,10 @@ void Application::tellNeed(Presenter& presenter, bool needed) {
   QString reason;
   QStringList kept;
   QString action;
+  const bool from_files = m_bench->kind() == commissioning::JobKind::files;
   if (needed) {
+  } else if (!from_files && (id == QStringLiteral("upload") || id == QStringLiteral("verify"))) {
+    reason = tr("The recording holds no error, so there is nothing to compensate.");
   } else if (id == QStringLiteral("machine")) {
     reason = tr("This job is made from files: no machine is connected, and nothing is written to one.");
     kept << QStringLiteral("job");
@@ -95,9 +98,6 @@ void Application::updateSteps() {
     // The compensator on this computer is no step: it needs a machine all the same.
     const bool from_files = m_bench->kind() == commissioning::JobKind::files;
     if (from_files && id == "compensator") status.state = flow::StepState::not_needed;
-    const bool of_errors = id == "sensors" || id == "fit";
-    if (of_errors && m_bench->warmupRun().rows() > 0 && !m_bench->hasErrors())
-      status.state = flow::StepState::not_needed;
     const bool needed = status.state != flow::StepState::not_needed;
     tellNeed(*presenter, needed);
     const bool made = status.state == flow::StepState::current || status.state == flow::StepState::stale;

@@ -70,7 +70,7 @@ void judge(ui::ColumnDialog& dialog, const std::string& bytes, const std::string
   options.mapping = mapping;
   const auto report = compensation::parse_laser(bytes, file, options);
   if (!report) {
-    const ErrorText text = textOf(report.error());
+    const ErrorText text = textOf(report.error(), Reader::window);
     return dialog.setVerdict(ui::sentencesText({text.sentence, text.remedy}), false);
   }
   double low = INFINITY;

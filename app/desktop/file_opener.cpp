@@ -166,7 +166,7 @@ void FileOpener::say(const QString& sentence, const QString& remedy) {
 }
 
 void FileOpener::show(const Error& error) {
-  const ErrorText text = textOf(error);
+  const ErrorText text = textOf(error, Reader::window);
   m_application.window().currentPage()->setProblem({ui::ProblemKind::failure, text.sentence, text.remedy, {}});
   m_application.bench().log(LogKind::bad, text.sentence);
 }

@@ -227,7 +227,7 @@ ui::ImportState import_state(const ImportReading& reading, const HeaderMap& map)
   state.workbook = reading.form.encoding == "xlsx";
   std::string bad;
   if (reading.problem) {
-    const ErrorText text = textOf(*reading.problem);
+    const ErrorText text = textOf(*reading.problem, Reader::window);
     state.sentence = text.sentence;
     state.remedy = text.remedy;
     const auto at = reading.problem->context.find("column");
@@ -271,7 +271,7 @@ ui::ImportState import_state(const ImportReading& reading, const HeaderMap& map)
     state.columns.append(column);
   }
   if (reading.imported) {
-    for (const Error& warning : reading.imported->warnings) state.notes << lineOf(warning);
+    for (const Error& warning : reading.imported->warnings) state.notes << lineOf(warning, Reader::window);
   }
   return state;
 }

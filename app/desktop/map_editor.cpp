@@ -149,7 +149,7 @@ void MapEditor::fill(ui::MachineState& state) {
         if (value.name != name) continue;
         row.failed = !value.result;
         row.value = value.result ? coreText(controller::text_of(value, entry)) : tr("refused");
-        row.raw = value.result ? QString::fromStdString(value.raw) : lineOf(value.result.error());
+        row.raw = value.result ? QString::fromStdString(value.raw) : lineOf(value.result.error(), Reader::window);
       }
     }
     state.registers.append(row);

@@ -13,7 +13,7 @@ Presenter::Presenter(Workbench& bench, ui::Page* page) : QObject(page), m_bench(
 
 void Presenter::showOnly(const Error& error) {
   tell([error] {
-    const ErrorText text = textOf(error);
+    const ErrorText text = textOf(error, Reader::window);
     const bool cancelled = error.code == ErrorCode::cancelled;
     return ui::Problem{cancelled ? ui::ProblemKind::note : ui::ProblemKind::failure, text.sentence, text.remedy, {}};
   });
@@ -21,7 +21,7 @@ void Presenter::showOnly(const Error& error) {
 
 void Presenter::show(const Error& error) {
   showOnly(error);
-  if (error.code != ErrorCode::cancelled) m_bench.log(LogKind::bad, textOf(error).sentence);
+  if (error.code != ErrorCode::cancelled) m_bench.log(LogKind::bad, textOf(error, Reader::window).sentence);
 }
 
 void Presenter::tell(std::function<ui::Problem()> problem) {

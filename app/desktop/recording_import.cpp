@@ -149,7 +149,7 @@ void RecordingImport::loadMap() {
     return read();
   }
   ui::ImportState state = m_dialog->state();
-  const ErrorText text = textOf(map.error());
+  const ErrorText text = textOf(map.error(), Reader::window);
   state.sentence = text.sentence;
   state.remedy = text.remedy;
   m_dialog->setState(state);

@@ -34,7 +34,7 @@ Workbench::Workbench(QObject* parent)
     m_look.reset();
     // It is tried every second: the same trouble is told once, and counted when it is over.
     if (m_lastProblem != error.code) {
-      log(LogKind::bad, lineOf(error));
+      log(LogKind::bad, lineOf(error, Reader::window));
       m_attempts = 0;
     }
     m_lastProblem = error.code;
@@ -115,7 +115,7 @@ void Workbench::useJob(commissioning::Job job) {
       dropCameras();
       Q_EMIT profileChanged();
     } else {
-      log(LogKind::warning, lineOf(profile.error()));
+      log(LogKind::warning, lineOf(profile.error(), Reader::window));
     }
   }
   Q_EMIT jobChanged();
@@ -228,13 +228,6 @@ const recording::Recording& Workbench::warmupRun() const {
     m_warmupSeries = series;
   }
   return m_warmupRun;
-}
-
-bool Workbench::hasErrors() const {
-  const auto& channels = warmupRun().channels;
-  return std::any_of(channels.begin(), channels.end(), [](const auto& channel) {
-    return channel.kind() == recording::ChannelKind::error && recording::present_count(channel) > 0;
-  });
 }
 
 Status Workbench::loadProfile(const std::filesystem::path& path) {

@@ -73,8 +73,6 @@ class Workbench : public QObject {
   const nlohmann::json& body(const std::string& kind) const;
   /// The warm-up run, until another one is kept; without rows when there is none.
   const recording::Recording& warmupRun() const;
-  /// Whether it holds errors: without them nothing can be fitted.
-  bool hasErrors() const;
 
   // The machine
   Status loadProfile(const std::filesystem::path& path);

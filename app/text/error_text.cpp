@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/text/core_text.h"
+#include "app/text/window_remedies.h"
 
 namespace zerodrift {
 namespace {
@@ -467,15 +468,17 @@ QString stepName(const std::string& id) {
   return QString::fromStdString(id);
 }
 
-ErrorText textOf(const Error& error) {
+ErrorText textOf(const Error& error, Reader reader) {
   for (const Row& row : rows) {
-    if (row.code == error.code) return {filled(row.sentence, error), filled(row.remedy, error)};
+    if (row.code != error.code) continue;
+    const char* remedy = reader == Reader::window ? window_remedy(error.code) : nullptr;
+    return {filled(row.sentence, error), filled(remedy == nullptr ? row.remedy : remedy, error)};
   }
   return {QString::fromStdString(describe(error)), {}};
 }
 
-QString lineOf(const Error& error) {
-  const ErrorText text = textOf(error);
+QString lineOf(const Error& error, Reader reader) {
+  const ErrorText text = textOf(error, reader);
   return text.remedy.isEmpty() ? text.sentence : text.sentence + QStringLiteral(" ") + text.remedy;
 }
 

@@ -12,9 +12,12 @@ struct ErrorText {
   QString remedy;    // what to do
 };
 
-ErrorText textOf(const Error& error);
+/// Whose hands the remedy speaks to: a header map is a file and an option there, a table in a dialog here.
+enum class Reader { command_line, window };
+
+ErrorText textOf(const Error& error, Reader reader = Reader::command_line);
 /// Both in one line, for the command line and the log.
-QString lineOf(const Error& error);
+QString lineOf(const Error& error, Reader reader = Reader::command_line);
 /// A step or the artefact it makes, in words: "warmup" is "warm-up".
 QString stepName(const std::string& id);
 

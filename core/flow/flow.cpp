@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/commissioning/job.h"
+#include "core/recording/recording.h"
 
 namespace zerodrift::flow {
 
@@ -32,6 +33,19 @@ std::optional<Reason> outdated(const Artefact& made, const std::string& kind, co
   return std::nullopt;
 }
 
+/// Not where the warm-up run is there and has no channel of an error.
+Result<bool> may_hold_errors(const Job& job) {
+  ZD_TRY(const auto warmup, job.latest("warmup"));
+  if (!warmup) return true;
+  ZD_TRY(const auto body, warmup->document());
+  const auto run = body.is_object() ? body.value("series", commissioning::SeriesId{0}) : 0;
+  ZD_TRY(const auto all, job.series());
+  const auto at = std::find_if(all.begin(), all.end(), [&](const auto& series) { return series.id == run; });
+  return at == all.end() || std::any_of(at->channels.begin(), at->channels.end(), [](const std::string& channel) {
+           return recording::kind_of(channel) == recording::ChannelKind::error;
+         });
+}
+
 }  // namespace
 
 std::string_view name_of(StepState state) {
@@ -58,10 +72,17 @@ std::string Flow::maker_of(std::string_view kind) const {
   return at == m_steps.end() ? std::string() : at->id;
 }
 
-bool Flow::spares(std::string_view kind, commissioning::JobKind job) const {
-  return job == commissioning::JobKind::files && std::any_of(m_steps.begin(), m_steps.end(), [&](const StepInfo& step) {
-           return step.makes == kind && step.controller;
-         });
+Result<Flow::Scope> Flow::scope_of(const Job& job) {
+  Scope scope;
+  ZD_TRY(const commissioning::JobKind kind, commissioning::kind_of(job));
+  scope.controller = kind != commissioning::JobKind::files;
+  ZD_TRY(scope.errors, may_hold_errors(job));
+  return scope;
+}
+
+bool Flow::spares(std::string_view kind, const Scope& scope) const {
+  return std::any_of(m_steps.begin(), m_steps.end(),
+                     [&](const StepInfo& step) { return step.makes == kind && !scope.covers(step); });
 }
 
 StepStatus Flow::status_of(const StepInfo& step, const LatestOf& latest, const StateOf& made_by) const {
@@ -109,11 +130,11 @@ Result<std::vector<StepStatus>> Flow::status(const Job& job) const {
     ZD_TRY(latest[step.makes], job.latest(step.makes));
   }
   StateOf made_by;
-  ZD_TRY(const commissioning::JobKind kind, commissioning::kind_of(job));
+  ZD_TRY(const Scope scope, scope_of(job));
   std::vector<StepStatus> all;
   for (const StepInfo& step : m_steps) {
     all.push_back(status_of(step, latest, made_by));
-    if (spares(step.makes, kind)) all.back() = {&step, StepState::not_needed, {}, {}, all.back().artefact};
+    if (!scope.covers(step)) all.back() = {&step, StepState::not_needed, {}, {}, all.back().artefact};
     made_by[step.makes] = all.back().state;
   }
   return all;
@@ -142,7 +163,7 @@ Result<Artefact> Flow::take_in(Job& job, std::string_view id, const StepRun& run
 
 Result<Artefact> Flow::perform(Job& job, std::string_view id, const StepRun& run, const TaskContext& context) const {
   ZD_TRY(const StepInfo* step, find(id));
-  ZD_TRY(const commissioning::JobKind kind_of_job, commissioning::kind_of(job));
+  ZD_TRY(const Scope scope, scope_of(job));
   std::vector<InputRef> held;
   std::string missing;
   const auto hold = [&](const std::string& kind, bool optional) -> Status {
@@ -154,7 +175,7 @@ Result<Artefact> Flow::perform(Job& job, std::string_view id, const StepRun& run
     }
     return {};
   };
-  for (const std::string& kind : step->needs) ZD_CHECK(hold(kind, spares(kind, kind_of_job)));
+  for (const std::string& kind : step->needs) ZD_CHECK(hold(kind, spares(kind, scope)));
   for (const std::string& kind : step->uses) ZD_CHECK(hold(kind, true));
   if (!missing.empty()) return fail(ErrorCode::step_blocked, {{"step", std::string(id)}, {"needs", missing}});
 

@@ -18,7 +18,7 @@ enum class StepState {
   ready,       // can be done, and was not yet
   current,     // done, from what the job holds now
   stale,       // done, but from something else
-  not_needed,  // it is about a controller, and the job is one from files only
+  not_needed,  // about a controller in a job from files only, or about errors where the run holds none
 };
 std::string_view name_of(StepState state);
 
@@ -68,8 +68,15 @@ class Flow {
   using LatestOf = std::map<std::string, std::optional<commissioning::Artefact>, std::less<>>;
   using StateOf = std::map<std::string, StepState, std::less<>>;
   StepStatus status_of(const StepInfo& step, const LatestOf& latest, const StateOf& made_by) const;
+  /// What the steps have to be about in this job.
+  struct Scope {
+    bool controller = true;
+    bool errors = true;
+    bool covers(const StepInfo& step) const { return (controller || !step.controller) && (errors || !step.errors); }
+  };
+  static Result<Scope> scope_of(const commissioning::Job& job);
   /// Of what an unneeded step would make, nothing waits.
-  bool spares(std::string_view kind, commissioning::JobKind job) const;
+  bool spares(std::string_view kind, const Scope& scope) const;
   std::string maker_of(std::string_view kind) const;
   Result<const StepInfo*> find(std::string_view step) const;
 

@@ -9,13 +9,13 @@ std::span<const StepInfo> standard_steps() {
       {"machine", "step.machine.title", {}, {}, "machine", false, true},
       {"calibrate", "step.calibrate.title", {"machine"}, {}, "calibration", false, true},
       {"warmup", "step.warmup.title", {"machine", "calibration"}, {}, "warmup"},
-      {"sensors", "step.sensors.title", {"warmup"}, {}, "sensors"},
-      {"fit", "step.fit.title", {"warmup", "sensors"}, {}, "model"},
+      {"sensors", "step.sensors.title", {"warmup"}, {}, "sensors", false, false, true},
+      {"fit", "step.fit.title", {"warmup", "sensors"}, {}, "model", false, false, true},
       {"describe", "step.describe.title", {}, {}, "description", true},
       {"physics", "step.physics.title", {"machine", "warmup"}, {"description"}, "physics"},
       {"axis", "step.axis.title", {}, {}, "axis_table", true},
-      {"upload", "step.upload.title", {"machine", "model"}, {"axis_table"}, "upload", false, true},
-      {"verify", "step.verify.title", {"warmup", "calibration", "upload"}, {}, "verification", false, true},
+      {"upload", "step.upload.title", {"machine", "model"}, {"axis_table"}, "upload", false, true, true},
+      {"verify", "step.verify.title", {"warmup", "calibration", "upload"}, {}, "verification", false, true, true},
       {"report", "step.report.title", {"verification", "warmup"}, {"model", "physics", "axis_table"}, "report"},
   };
   return steps;

@@ -26,6 +26,7 @@ struct StepInfo {
   std::string makes;               // kind
   bool branch = false;             // beside the main line: the job is complete without it
   bool controller = false;         // reads from a controller or writes to one: not needed in a job from files only
+  bool errors = false;             // is about the errors of the warm-up run: not needed where the run holds none
 };
 
 /// machine, calibrate, warmup, sensors, fit, physics, upload, verify, report; describe and axis as branches. Every step

@@ -59,6 +59,93 @@
     </message>
 </context>
 <context>
+    <name>ImportWords</name>
+    <message>
+        <source>holds words</source>
+        <translation>只有文字</translation>
+    </message>
+    <message>
+        <source>holds nothing</source>
+        <translation>没有内容</translation>
+    </message>
+    <message>
+        <source>counts the rows</source>
+        <translation>行号</translation>
+    </message>
+    <message>
+        <source>alarms of the logger</source>
+        <translation>记录仪的报警</translation>
+    </message>
+    <message>
+        <source>a second time</source>
+        <translation>第二个时间</translation>
+    </message>
+    <message>
+        <source>perhaps %1</source>
+        <translation>可能是 %1</translation>
+    </message>
+    <message>
+        <source>decimal comma</source>
+        <translation>小数逗号</translation>
+    </message>
+    <message>
+        <source>decimal point</source>
+        <translation>小数点</translation>
+    </message>
+    <message>
+        <source>comma</source>
+        <translation>逗号</translation>
+    </message>
+    <message>
+        <source>semicolon</source>
+        <translation>分号</translation>
+    </message>
+    <message>
+        <source>tab</source>
+        <translation>制表符</translation>
+    </message>
+    <message>
+        <source>blanks</source>
+        <translation>空格</translation>
+    </message>
+    <message>
+        <source>time in %1 from the start</source>
+        <translation>时间自开始以 %1 计</translation>
+    </message>
+    <message>
+        <source>time in %1 since 1970, from %2</source>
+        <translation>时间自 1970 年以 %1 计，始于 %2</translation>
+    </message>
+    <message>
+        <source>no time column: rows come evenly</source>
+        <translation>没有时间列：各行间隔相等</translation>
+    </message>
+    <message>
+        <source>time of day</source>
+        <translation>时刻</translation>
+    </message>
+    <message>
+        <source>date and time, from %1</source>
+        <translation>日期和时间，始于 %1</translation>
+    </message>
+    <message>
+        <source>date and time as %1, from %2</source>
+        <translation>日期和时间（%1），始于 %2</translation>
+    </message>
+    <message>
+        <source>sheet %1</source>
+        <translation>工作表 %1</translation>
+    </message>
+    <message>
+        <source>separated by %1</source>
+        <translation>以%1分隔</translation>
+    </message>
+    <message>
+        <source>%1 rows over %2</source>
+        <translation>%1 行，历时 %2</translation>
+    </message>
+</context>
+<context>
     <name>Lists</name>
     <message>
         <source>, </source>
@@ -5936,6 +6023,82 @@
         <source>{file}, line {line}, column {column}: found {found}; expected {expected}.</source>
         <translation>{file} 第 {line} 行 {column} 列：内容为 {found}；应为 {expected}。</translation>
     </message>
+    <message>
+        <source>Correct the header, or import the file and say in the table what it is.</source>
+        <translation>请更正表头，或导入该文件并在表格中说明其含义。</translation>
+    </message>
+    <message>
+        <source>Correct it; if the sample is missing, leave the cell empty or enter the word under Missing in the import dialog.</source>
+        <translation>请更正；若样本缺失，请将单元格留空，或在导入对话框的“缺失”中填入该词。</translation>
+    </message>
+    <message>
+        <source>Correct it in the file, or say what the column holds where the columns are asked.</source>
+        <translation>请在文件中更正，或在询问各列时说明该列的内容。</translation>
+    </message>
+    <message>
+        <source>Save the file as UTF-8 and import it again.</source>
+        <translation>请将文件另存为 UTF-8 后重新导入。</translation>
+    </message>
+    <message>
+        <source>Choose the decimal sign in the import dialog.</source>
+        <translation>请在导入对话框中选择小数符号。</translation>
+    </message>
+    <message>
+        <source>Write one of them otherwise, or choose the decimal sign in the import dialog.</source>
+        <translation>请改写其中一个，或在导入对话框中选择小数符号。</translation>
+    </message>
+    <message>
+        <source>Say for each column in the table of the import dialog what it is.</source>
+        <translation>请在导入对话框的表格中逐列说明其含义。</translation>
+    </message>
+    <message>
+        <source>Load another map, or say in the table what the columns are.</source>
+        <translation>请载入另一份列名映射，或在表格中说明各列的含义。</translation>
+    </message>
+    <message>
+        <source>Correct what the column is, its unit or its scale, in its row of the table.</source>
+        <translation>请在表格中该列所在的行更正其类型、单位或比例。</translation>
+    </message>
+    <message>
+        <source>Choose &quot;time&quot; for the column that holds it, in its row of the table.</source>
+        <translation>请在表格中存放时间的列所在的行选择“时间”。</translation>
+    </message>
+    <message>
+        <source>Choose the unit of the times in the row of that column.</source>
+        <translation>请在该列所在的行选择时间的单位。</translation>
+    </message>
+    <message>
+        <source>Enter the format in the row of that column, for example %d/%m/%Y %H:%M:%S.</source>
+        <translation>请在该列所在的行填入格式，例如 %d/%m/%Y %H:%M:%S。</translation>
+    </message>
+    <message>
+        <source>Correct the line, or enter the format in the row of that column, for example %d.%m.%Y %H:%M:%S.</source>
+        <translation>请更正该行数据，或在该列所在的行填入格式，例如 %d.%m.%Y %H:%M:%S。</translation>
+    </message>
+    <message>
+        <source>If they are not, choose the unit in the row of that column.</source>
+        <translation>若不是，请在该列所在的行选择单位。</translation>
+    </message>
+    <message>
+        <source>Enter the format in the row of that column to keep the date.</source>
+        <translation>若要保留日期，请在该列所在的行填入格式。</translation>
+    </message>
+    <message>
+        <source>Choose it in the row of that column if it is.</source>
+        <translation>若是，请在该列所在的行选择它。</translation>
+    </message>
+    <message>
+        <source>Choose another unit in the row of that column if that is wrong.</source>
+        <translation>若有误，请在该列所在的行选择其他单位。</translation>
+    </message>
+    <message>
+        <source>If so, enter it under Missing in the import dialog.</source>
+        <translation>若是，请在导入对话框的“缺失”中填入它。</translation>
+    </message>
+    <message>
+        <source>Check the name, or import the file again with the channel&apos;s name.</source>
+        <translation>请检查名称，或重新导入文件并使用该通道名称。</translation>
+    </message>
 </context>
 <context>
     <name>happenings</name>
@@ -6401,6 +6564,10 @@
     <message>
         <source>The recording holds no error, so there is nothing to fit. Its heat can be explained, in Physics.</source>
         <translation>记录中没有误差，因此没有可拟合的内容。其热行为可在“物理分析”页解释。</translation>
+    </message>
+    <message>
+        <source>The recording holds no error, so there is nothing to compensate.</source>
+        <translation>记录中没有误差，因此没有可补偿的内容。</translation>
     </message>
 </context>
 <context>
@@ -6977,6 +7144,29 @@
     <message>
         <source>The machine holds another</source>
         <translation>机床中为另一张表</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::RecordingImport</name>
+    <message>
+        <source>Reading the file</source>
+        <translation>正在读取文件</translation>
+    </message>
+    <message>
+        <source>It must have been recorded with the compensation off.</source>
+        <translation>该记录必须是在补偿断开时记录的。</translation>
+    </message>
+    <message>
+        <source>Header map</source>
+        <translation>列映射</translation>
+    </message>
+    <message>
+        <source>Header maps (*.json)</source>
+        <translation>列映射 (*.json)</translation>
+    </message>
+    <message>
+        <source>Save map</source>
+        <translation>保存映射</translation>
     </message>
 </context>
 <context>
@@ -8667,6 +8857,163 @@
     <message>
         <source>About, licences</source>
         <translation>关于、许可证</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::ImportDialog</name>
+    <message>
+        <source>not used</source>
+        <translation>不使用</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>temperature</source>
+        <translation>温度</translation>
+    </message>
+    <message>
+        <source>room temperature</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>displacement</source>
+        <translation>位移</translation>
+    </message>
+    <message>
+        <source>tilt</source>
+        <translation>倾角</translation>
+    </message>
+    <message>
+        <source>spindle speed</source>
+        <translation>主轴转速</translation>
+    </message>
+    <message>
+        <source>coolant</source>
+        <translation>冷却液</translation>
+    </message>
+    <message>
+        <source>spindle load</source>
+        <translation>主轴负载</translation>
+    </message>
+    <message>
+        <source>other input</source>
+        <translation>其他输入</translation>
+    </message>
+    <message>
+        <source>by unit</source>
+        <translation>按单位</translation>
+    </message>
+    <message>
+        <source>format, e.g. %d.%m.%Y %H:%M:%S</source>
+        <translation>格式，如 %d.%m.%Y %H:%M:%S</translation>
+    </message>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation>
+            <numerusform>另有 %n 条</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Import a recording</source>
+        <translation>导入记录</translation>
+    </message>
+    <message>
+        <source>Column of the file</source>
+        <translation>文件中的列</translation>
+    </message>
+    <message>
+        <source>is</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>Location or format</source>
+        <translation>位置或格式</translation>
+    </message>
+    <message>
+        <source>Decimal sign</source>
+        <translation>小数符号</translation>
+    </message>
+    <message>
+        <source>Separator</source>
+        <translation>分隔符</translation>
+    </message>
+    <message>
+        <source>Sheet</source>
+        <translation>工作表</translation>
+    </message>
+    <message>
+        <source>as found</source>
+        <translation>按文件</translation>
+    </message>
+    <message>
+        <source>point</source>
+        <translation>点</translation>
+    </message>
+    <message>
+        <source>comma</source>
+        <translation>逗号</translation>
+    </message>
+    <message>
+        <source>semicolon</source>
+        <translation>分号</translation>
+    </message>
+    <message>
+        <source>tab</source>
+        <translation>制表符</translation>
+    </message>
+    <message>
+        <source>blanks</source>
+        <translation>空格</translation>
+    </message>
+    <message>
+        <source>Load map</source>
+        <translation>载入映射</translation>
+    </message>
+    <message>
+        <source>What the columns are, from a file that was saved for another recording of this logger</source>
+        <translation>各列的含义，取自为该记录仪的另一记录保存的文件</translation>
+    </message>
+    <message>
+        <source>Save map</source>
+        <translation>保存映射</translation>
+    </message>
+    <message>
+        <source>Keeps what the columns are, for the next recording of this logger</source>
+        <translation>保存各列的含义，供该记录仪的下一个记录使用</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Missing</source>
+        <translation>缺失</translation>
+    </message>
+    <message>
+        <source>further words</source>
+        <translation>其他字样</translation>
+    </message>
+    <message>
+        <source>Words that stand for a missing sample in this file, with commas between them</source>
+        <translation>在此文件中表示缺失采样的字样，以逗号分隔</translation>
     </message>
 </context>
 <context>
@@ -11291,273 +11638,6 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>The temperatures and errors of your recording appear here. Drop a logger&apos;s table anywhere on the window, or choose it: text, CSV or a workbook, with any names and units.</source>
         <translation>您的记录中的温度和误差将显示在这里。把记录仪的表格拖到窗口任意处，或选择它：文本、CSV 或工作簿，名称和单位不限。</translation>
-    </message>
-</context>
-<context>
-    <name>ImportWords</name>
-    <message>
-        <source>holds words</source>
-        <translation>只有文字</translation>
-    </message>
-    <message>
-        <source>holds nothing</source>
-        <translation>没有内容</translation>
-    </message>
-    <message>
-        <source>counts the rows</source>
-        <translation>行号</translation>
-    </message>
-    <message>
-        <source>alarms of the logger</source>
-        <translation>记录仪的报警</translation>
-    </message>
-    <message>
-        <source>a second time</source>
-        <translation>第二个时间</translation>
-    </message>
-    <message>
-        <source>perhaps %1</source>
-        <translation>可能是 %1</translation>
-    </message>
-    <message>
-        <source>decimal comma</source>
-        <translation>小数逗号</translation>
-    </message>
-    <message>
-        <source>decimal point</source>
-        <translation>小数点</translation>
-    </message>
-    <message>
-        <source>comma</source>
-        <translation>逗号</translation>
-    </message>
-    <message>
-        <source>semicolon</source>
-        <translation>分号</translation>
-    </message>
-    <message>
-        <source>tab</source>
-        <translation>制表符</translation>
-    </message>
-    <message>
-        <source>blanks</source>
-        <translation>空格</translation>
-    </message>
-    <message>
-        <source>time in %1 from the start</source>
-        <translation>时间自开始以 %1 计</translation>
-    </message>
-    <message>
-        <source>time in %1 since 1970, from %2</source>
-        <translation>时间自 1970 年以 %1 计，始于 %2</translation>
-    </message>
-    <message>
-        <source>no time column: rows come evenly</source>
-        <translation>没有时间列：各行间隔相等</translation>
-    </message>
-    <message>
-        <source>time of day</source>
-        <translation>时刻</translation>
-    </message>
-    <message>
-        <source>date and time, from %1</source>
-        <translation>日期和时间，始于 %1</translation>
-    </message>
-    <message>
-        <source>date and time as %1, from %2</source>
-        <translation>日期和时间（%1），始于 %2</translation>
-    </message>
-    <message>
-        <source>sheet %1</source>
-        <translation>工作表 %1</translation>
-    </message>
-    <message>
-        <source>separated by %1</source>
-        <translation>以%1分隔</translation>
-    </message>
-    <message>
-        <source>%1 rows over %2</source>
-        <translation>%1 行，历时 %2</translation>
-    </message>
-</context>
-<context>
-    <name>zerodrift::desktop::RecordingImport</name>
-    <message>
-        <source>Reading the file</source>
-        <translation>正在读取文件</translation>
-    </message>
-    <message>
-        <source>It must have been recorded with the compensation off.</source>
-        <translation>该记录必须是在补偿断开时记录的。</translation>
-    </message>
-    <message>
-        <source>Header map</source>
-        <translation>列映射</translation>
-    </message>
-    <message>
-        <source>Header maps (*.json)</source>
-        <translation>列映射 (*.json)</translation>
-    </message>
-    <message>
-        <source>Save map</source>
-        <translation>保存映射</translation>
-    </message>
-</context>
-<context>
-    <name>zerodrift::ui::ImportDialog</name>
-    <message>
-        <source>not used</source>
-        <translation>不使用</translation>
-    </message>
-    <message>
-        <source>time</source>
-        <translation>时间</translation>
-    </message>
-    <message>
-        <source>temperature</source>
-        <translation>温度</translation>
-    </message>
-    <message>
-        <source>room temperature</source>
-        <translation>室温</translation>
-    </message>
-    <message>
-        <source>displacement</source>
-        <translation>位移</translation>
-    </message>
-    <message>
-        <source>tilt</source>
-        <translation>倾角</translation>
-    </message>
-    <message>
-        <source>spindle speed</source>
-        <translation>主轴转速</translation>
-    </message>
-    <message>
-        <source>coolant</source>
-        <translation>冷却液</translation>
-    </message>
-    <message>
-        <source>spindle load</source>
-        <translation>主轴负载</translation>
-    </message>
-    <message>
-        <source>other input</source>
-        <translation>其他输入</translation>
-    </message>
-    <message>
-        <source>by unit</source>
-        <translation>按单位</translation>
-    </message>
-    <message>
-        <source>format, e.g. %d.%m.%Y %H:%M:%S</source>
-        <translation>格式，如 %d.%m.%Y %H:%M:%S</translation>
-    </message>
-    <message numerus="yes">
-        <source>and %n more</source>
-        <translation>
-            <numerusform>另有 %n 条</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Import a recording</source>
-        <translation>导入记录</translation>
-    </message>
-    <message>
-        <source>Column of the file</source>
-        <translation>文件中的列</translation>
-    </message>
-    <message>
-        <source>is</source>
-        <translation>是</translation>
-    </message>
-    <message>
-        <source>Channel</source>
-        <translation>通道</translation>
-    </message>
-    <message>
-        <source>Unit</source>
-        <translation>单位</translation>
-    </message>
-    <message>
-        <source>Scale</source>
-        <translation>比例</translation>
-    </message>
-    <message>
-        <source>Axis</source>
-        <translation>轴</translation>
-    </message>
-    <message>
-        <source>Location or format</source>
-        <translation>位置或格式</translation>
-    </message>
-    <message>
-        <source>Decimal sign</source>
-        <translation>小数符号</translation>
-    </message>
-    <message>
-        <source>Separator</source>
-        <translation>分隔符</translation>
-    </message>
-    <message>
-        <source>Sheet</source>
-        <translation>工作表</translation>
-    </message>
-    <message>
-        <source>as found</source>
-        <translation>按文件</translation>
-    </message>
-    <message>
-        <source>point</source>
-        <translation>点</translation>
-    </message>
-    <message>
-        <source>comma</source>
-        <translation>逗号</translation>
-    </message>
-    <message>
-        <source>semicolon</source>
-        <translation>分号</translation>
-    </message>
-    <message>
-        <source>tab</source>
-        <translation>制表符</translation>
-    </message>
-    <message>
-        <source>blanks</source>
-        <translation>空格</translation>
-    </message>
-    <message>
-        <source>Load map</source>
-        <translation>载入映射</translation>
-    </message>
-    <message>
-        <source>What the columns are, from a file that was saved for another recording of this logger</source>
-        <translation>各列的含义，取自为该记录仪的另一记录保存的文件</translation>
-    </message>
-    <message>
-        <source>Save map</source>
-        <translation>保存映射</translation>
-    </message>
-    <message>
-        <source>Keeps what the columns are, for the next recording of this logger</source>
-        <translation>保存各列的含义，供该记录仪的下一个记录使用</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>取消</translation>
-    </message>
-    <message>
-        <source>Missing</source>
-        <translation>缺失</translation>
-    </message>
-    <message>
-        <source>further words</source>
-        <translation>其他字样</translation>
-    </message>
-    <message>
-        <source>Words that stand for a missing sample in this file, with commas between them</source>
-        <translation>在此文件中表示缺失采样的字样，以逗号分隔</translation>
     </message>
 </context>
 </TS>

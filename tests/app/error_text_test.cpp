@@ -29,6 +29,16 @@ class ErrorTextTest : public QObject {
     }
   }
 
+  /// In the window nobody writes a header map: the dialogs' tables are it.
+  void noRemedyInTheWindowSpeaksOfAHeaderMap() {
+    for (int i = 0; i < error_code_count(); ++i) {
+      const QString remedy = textOf({static_cast<ErrorCode>(i), {}}, Reader::window).remedy;
+      QVERIFY(!remedy.isEmpty());
+      for (const char* word : {"header map", "column map", "--map"})
+        QVERIFY2(!remedy.contains(word), qPrintable(remedy));
+    }
+  }
+
   /// What stands in the gap may end a sentence by itself.
   void noSentenceEndsTwice() {
     const auto ending = [](const char* reason) {

@@ -116,6 +116,28 @@ TEST_F(FlowTest, AJobFromFilesNeedsNoController) {
   EXPECT_EQ(next(), "machine");
 }
 
+TEST_F(FlowTest, ARunWithoutErrorsLeadsToPhysics) {
+  const auto keep_run = [&](const std::string& channel) {
+    const auto run = [&](Job& in, const TaskContext&) -> Result<NewArtefact> {
+      ZD_TRY(const auto series, in.start_series("warm-up", {"T1_C", channel}));
+      ZD_CHECK(in.finish_series(series));
+      return NewArtefact::of("warmup", {{"series", series}});
+    };
+    return flow.take_in(*job, "warmup", run, {});
+  };
+  ASSERT_TRUE(commissioning::set_kind(*job, commissioning::JobKind::files));
+  ASSERT_TRUE(keep_run("heater_on"));
+  EXPECT_EQ(in(StepState::not_needed), (Ids{"machine", "calibrate", "sensors", "fit", "upload", "verify"}));
+  EXPECT_EQ(next(), "physics");
+  EXPECT_EQ(of("report").state, StepState::ready);
+  ASSERT_TRUE(keep_run("dZ_um"));
+  EXPECT_EQ(next(), "sensors");
+
+  ASSERT_TRUE(commissioning::set_kind(*job, commissioning::JobKind::machine));
+  ASSERT_TRUE(keep_run("heater_on"));
+  EXPECT_EQ(in(StepState::not_needed), (Ids{"sensors", "fit", "upload", "verify"}));
+}
+
 TEST_F(FlowTest, IsCompleteWithoutTheBranch) {
   perform_all();
   EXPECT_EQ(next(), "");

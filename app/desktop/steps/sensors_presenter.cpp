@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/text/core_text.h"
+#include "core/flow/flow.h"
 #include "core/flow/steps/inputs.h"
 #include "core/report/limits.h"
 #include "ui/pages/sensors_page.h"
@@ -84,7 +85,9 @@ flow::SensorsOptions SensorsPresenter::asked() {
 void SensorsPresenter::enter() {
   refresh();
   // The clustering asks nothing of the user: it is there when the page opens.
-  if (bench().hasErrors() && !bench().has("sensors") && !bench().tasks().running()) run(asked(), {});
+  const auto job = bench().job();
+  const bool due = job != nullptr && flow::status_of(*job, "sensors").state == flow::StepState::ready;
+  if (due && !bench().tasks().running()) run(asked(), {});
 }
 
 void SensorsPresenter::undo() {
