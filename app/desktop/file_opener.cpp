@@ -16,6 +16,7 @@
 #include "core/base/resources.h"
 #include "core/flow/steps/import_step.h"
 #include "core/recording/import/importer.h"
+#include "ui/widgets/recording_list.h"
 
 namespace zerodrift::desktop {
 namespace {
@@ -110,15 +111,14 @@ void FileOpener::openRecording(const QString& path) {
   auto& bench = m_application.bench();
   const auto& kept = bench.body("warmup");
   if (m_asking) {
-    const QString deed = bench.job() == nullptr ? tr("Use in a new job")
-                         : kept.is_object()     ? tr("Replace the run")
-                                                : tr("Use this recording");
     if (m_import == nullptr) {
       m_import = new RecordingImport(&m_application.window());
-      connect(m_import, &RecordingImport::taken, this, &FileOpener::take);
+      connect(
+          m_import, &RecordingImport::taken, this,
+          [this](const auto& run, const QString& name, const auto& how, int place) { takeAt(place, run, name, how); });
     }
     const bool mapped = kept.is_object() && kept.contains("import");
-    m_import->open(path, mapped ? kept["import"].value("map", nlohmann::json()) : nlohmann::json(), deed);
+    m_import->open(path, mapped ? kept["import"].value("map", nlohmann::json()) : nlohmann::json(), places());
     return;
   }
   const auto imported = recording::import_file(path.toStdString());
@@ -128,6 +128,28 @@ void FileOpener::openRecording(const QString& path) {
     return show(fit.error());
   }
   take(imported->recording, name, how_imported(*imported, {}));
+}
+
+/// Beside the run of a job from files only in each role, or in its place.
+QVector<RecordingImport::Place> FileOpener::places() const {
+  const auto& bench = m_application.bench();
+  const bool run = bench.has("warmup");
+  if (bench.job() == nullptr) return {{{}, tr("Use in a new job")}};
+  if (!run || bench.kind() != commissioning::JobKind::files) {
+    return {{{}, run ? tr("Replace the run") : tr("Use this recording")}};
+  }
+  QVector<RecordingImport::Place> all;
+  for (const QString& role : ui::RecordingList::roleNames()) all.append({role, tr("Add the recording")});
+  all.append({tr("first run, in its place"), tr("Replace the run")});
+  return all;
+}
+
+void FileOpener::takeAt(int place, const recording::Recording& run, const QString& name, const nlohmann::json& how) {
+  const bool beside = place < places().size() - 1;
+  if (!beside) return take(run, name, how);
+  auto* warmup = qobject_cast<WarmupPresenter*>(m_application.presenter(QStringLiteral("warmup")));
+  m_application.openPage(warmup->id());
+  warmup->addRecording(run, name, how, static_cast<ui::RecordingUse>(place));
 }
 
 void FileOpener::take(const recording::Recording& run, const QString& name, const nlohmann::json& how) {

@@ -6,6 +6,7 @@
 #include <QStringList>
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/desktop/recording_import.h"
 #include "core/base/error.h"
 
 namespace zerodrift::recording {
@@ -15,7 +16,6 @@ struct Recording;
 namespace zerodrift::desktop {
 
 class Application;
-class RecordingImport;
 
 class FileOpener : public QObject {
   Q_OBJECT
@@ -39,6 +39,8 @@ class FileOpener : public QObject {
   void openTable(const QString& path);
   void openRecording(const QString& path);
   void take(const recording::Recording& run, const QString& name, const nlohmann::json& how);
+  QVector<RecordingImport::Place> places() const;
+  void takeAt(int place, const recording::Recording& run, const QString& name, const nlohmann::json& how);
   /// On the page that is open.
   void say(const QString& sentence, const QString& remedy);
   void show(const Error& error);

@@ -40,10 +40,11 @@ QString RecordingImport::file() const {
   return QFileInfo(m_path).fileName();
 }
 
-void RecordingImport::open(const QString& path, const nlohmann::json& kept, const QString& take) {
+void RecordingImport::open(const QString& path, const nlohmann::json& kept, const QVector<Place>& places) {
   if (m_dialog) m_dialog->reject();
   m_path = path;
-  m_take = take;
+  m_places = places;
+  m_place = 0;
   m_kept = kept;
   m_bytes.reset();
   m_map = {};
@@ -53,6 +54,10 @@ void RecordingImport::open(const QString& path, const nlohmann::json& kept, cons
   m_dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(m_dialog, &ui::ImportDialog::columnEdited, this, &RecordingImport::editColumn);
   connect(m_dialog, &ui::ImportDialog::tableEdited, this, &RecordingImport::editTable);
+  connect(m_dialog, &ui::ImportDialog::placeChosen, this, [this](int place) {
+    m_place = place;
+    refresh();
+  });
   connect(m_dialog, &ui::ImportDialog::mapLoadRequested, this, &RecordingImport::loadMap);
   connect(m_dialog, &ui::ImportDialog::mapSaveRequested, this, &RecordingImport::saveMap);
   connect(m_dialog, &QDialog::accepted, this, &RecordingImport::take);
@@ -113,7 +118,11 @@ void RecordingImport::refresh() {
   if (!m_dialog) return;
   ui::ImportState state = import_state(m_reading, m_map);
   state.file = file();
-  state.take = m_take;
+  state.take = m_places.value(m_place).take;
+  state.place = m_place;
+  for (const Place& place : std::as_const(m_places)) {
+    if (!place.name.isEmpty()) state.places << place.name;
+  }
   state.reading = m_reader.running();
   if (state.ready) state.notes.prepend(tr("It must have been recorded with the compensation off."));
   if (m_bytes == nullptr && !m_reading.problem) {
@@ -172,7 +181,7 @@ void RecordingImport::take() {
   if (!m_map.columns.empty() || !m_map.time.columns.empty()) {
     QSettings().setValue(settings_key(m_reading.names), QString::fromStdString(json_text(recording::to_json(m_map))));
   }
-  Q_EMIT taken(m_reading.imported->recording, file(), how_imported(*m_reading.imported, m_map));
+  Q_EMIT taken(m_reading.imported->recording, file(), how_imported(*m_reading.imported, m_map), m_place);
 }
 
 }  // namespace zerodrift::desktop

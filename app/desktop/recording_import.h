@@ -34,14 +34,18 @@ class RecordingImport : public QObject {
   ~RecordingImport() override;
 
   /// Reads the file and shows what it is. `kept`: the map of the run that the job holds, used when its columns are
-  /// here.
-  void open(const QString& path, const nlohmann::json& kept, const QString& take);
+  /// here. `places`: where in the job it can go, and what the button says for each; the first is proposed.
+  struct Place {
+    QString name;  // empty where there is one place alone
+    QString take;
+  };
+  void open(const QString& path, const nlohmann::json& kept, const QVector<Place>& places);
   /// Null: nothing is being imported.
   ui::ImportDialog* dialog() const { return m_dialog; }
 
  Q_SIGNALS:
   /// `how`: what the job keeps of it; the map is in it.
-  void taken(const zerodrift::recording::Recording& run, const QString& name, const nlohmann::json& how);
+  void taken(const zerodrift::recording::Recording& run, const QString& name, const nlohmann::json& how, int place);
 
  private:
   void read();
@@ -59,7 +63,8 @@ class RecordingImport : public QObject {
   QPointer<ui::ImportDialog> m_dialog;
   TaskRunner m_reader;
   QString m_path;
-  QString m_take;
+  QVector<Place> m_places;
+  int m_place = 0;
   std::shared_ptr<const std::string> m_bytes;
   recording::HeaderMap m_map;
   nlohmann::json m_kept;

@@ -117,6 +117,7 @@ class RunFeed : public QObject {
   bool m_named = false;
   bool m_compensated = false;
   bool m_imported = false;
+  std::vector<std::string> m_importedNames;     // channels of the imported run that hold anything
   std::map<std::string, QString> m_badSensors;  // now: channel -> what is wrong with it
 };
 

@@ -13,6 +13,10 @@ void RunFeed::showRecording(const recording::Recording& run, const std::vector<c
   m_view->clear();
   m_marks.clear();
   m_pauses.clear();
+  m_importedNames.clear();
+  for (const auto& channel : run.channels) {
+    if (recording::present_count(channel) > 0) m_importedNames.push_back(channel.name);
+  }
   nameChannels();
   m_largest_um = 0.0;
   m_longestHole_s = 0.0;
@@ -67,20 +71,19 @@ void RunFeed::nameImported() {
   QVector<ui::RunChannel> temperatures;
   QVector<ui::RunChannel> errors;
   QVector<ui::RunChannel> inputs;
-  const auto& run = m_bench.warmupRun();
-  const bool speed = run.find("spindle_rpm") != nullptr;
-  for (const auto& channel : run.channels) {
-    if (recording::present_count(channel) == 0) continue;
-    ui::RunChannel named = channel_of(channel.name, m_bench.channelInWords(channel.name));
-    named.tag = m_bench.tagOf(channel.name);
-    const auto kind = channel.kind();
+  const auto& names = m_importedNames;
+  const bool speed = std::find(names.begin(), names.end(), "spindle_rpm") != names.end();
+  for (const std::string& name : names) {
+    ui::RunChannel named = channel_of(name, m_bench.channelInWords(name));
+    named.tag = m_bench.tagOf(name);
+    const auto kind = recording::kind_of(name);
     if (kind == recording::ChannelKind::temperature || kind == recording::ChannelKind::ambient) {
       temperatures.append(named);
     } else if (kind == recording::ChannelKind::error || kind == recording::ChannelKind::tilt) {
       const auto axis = QStringLiteral("XYZ").indexOf(named.tag);
       if (axis >= 0 && named.tag.size() == 1) named.color = ui::axisColor(static_cast<int>(axis));
       errors.append(named);
-    } else if (!speed || channel.name == "spindle_rpm") {  // other inputs have another scale
+    } else if (!speed || name == "spindle_rpm") {  // other inputs have another scale
       inputs.append(named);
     }
   }

@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 69> files = {{
+constexpr std::array<const char*, 73> files = {{
     QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
     QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
     QT_TRANSLATE_NOOP("core", "no random numbers"),
@@ -78,6 +78,10 @@ constexpr std::array<const char*, 69> files = {{
     QT_TRANSLATE_NOOP("core", "sensors of the recording: %1"),
     QT_TRANSLATE_NOOP("core", "the kind of the job is %1"),
     QT_TRANSLATE_NOOP("core", "; "),
+    QT_TRANSLATE_NOOP("core", "a channel of the warm-up run: %1"),
+    QT_TRANSLATE_NOOP("core", "the role of a recording"),
+    QT_TRANSLATE_NOOP("core", "training, other_day or cooling"),
+    QT_TRANSLATE_NOOP("core", "the job's recordings"),
 }};
 
 }  // namespace

@@ -402,7 +402,7 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Nothing was written; check the axis direction and the calibration.")},
 };
 
-constexpr std::array<std::pair<const char*, const char*>, 18> steps = {{
+constexpr std::array<std::pair<const char*, const char*>, 19> steps = {{
     {"machine", QT_TRANSLATE_NOOP("steps", "machine")},
     {"calibrate", QT_TRANSLATE_NOOP("steps", "calibrate")},
     {"calibration", QT_TRANSLATE_NOOP("steps", "calibration")},
@@ -421,6 +421,7 @@ constexpr std::array<std::pair<const char*, const char*>, 18> steps = {{
     {"job", QT_TRANSLATE_NOOP("steps", "job")},
     {"describe", QT_TRANSLATE_NOOP("steps", "description")},
     {"description", QT_TRANSLATE_NOOP("steps", "description")},
+    {"recordings", QT_TRANSLATE_NOOP("steps", "recordings")},
 }};
 
 QString factInWords(const std::string& key, const std::string& value) {

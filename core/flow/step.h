@@ -29,8 +29,8 @@ struct StepInfo {
   bool errors = false;             // is about the errors of the warm-up run: not needed where the run holds none
 };
 
-/// machine, calibrate, warmup, sensors, fit, physics, upload, verify, report; describe and axis as branches. Every step
-/// stands after those it needs.
+/// machine, calibrate, warmup, sensors, fit, physics, upload, verify, report; recordings, describe and axis as
+/// branches. Every step stands after those it needs.
 std::span<const StepInfo> standard_steps();
 /// Null when there is no such step.
 const StepInfo* find_step(std::string_view id);

@@ -39,6 +39,23 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::desktop::WarmupPresenter</name>
+    <message numerus="yes">
+        <source>%n temperatures</source>
+        <translation>
+            <numerusform>%n temperature</numerusform>
+            <numerusform>%n temperatures</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n errors</source>
+        <translation>
+            <numerusform>%n error</numerusform>
+            <numerusform>%n errors</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::desktop::Workbench</name>
     <message numerus="yes">
         <source>Connected to %1 again, after %n attempt(s) that failed</source>

@@ -5164,6 +5164,22 @@
         <source>the kind of the job is %1</source>
         <translation>作业的种类是 %1</translation>
     </message>
+    <message>
+        <source>a channel of the warm-up run: %1</source>
+        <translation>暖机运行的通道：%1</translation>
+    </message>
+    <message>
+        <source>the role of a recording</source>
+        <translation>记录的用途</translation>
+    </message>
+    <message>
+        <source>training, other_day or cooling</source>
+        <translation>training、other_day 或 cooling</translation>
+    </message>
+    <message>
+        <source>the job&apos;s recordings</source>
+        <translation>作业中的记录</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -6302,6 +6318,10 @@
         <source>description</source>
         <translation>描述</translation>
     </message>
+    <message>
+        <source>recordings</source>
+        <translation>记录</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::Application</name>
@@ -6828,6 +6848,14 @@
         <source>Use this recording</source>
         <translation>使用此记录</translation>
     </message>
+    <message>
+        <source>Add the recording</source>
+        <translation>添加记录</translation>
+    </message>
+    <message>
+        <source>first run, in its place</source>
+        <translation>替换首次运行</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::FitPresenter</name>
@@ -6858,6 +6886,10 @@
     <message>
         <source>Updating the model</source>
         <translation>正在更新模型</translation>
+    </message>
+    <message>
+        <source>On %1, another day that it has not seen, it leaves (rms): %2.</source>
+        <translation>在未参与拟合的另一天记录“%1”上，残差均方根为：%2。</translation>
     </message>
 </context>
 <context>
@@ -7606,6 +7638,30 @@
     <message>
         <source>Finishing the interrupted run</source>
         <translation>正在结束中断的运行</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n temperatures</source>
+        <translation>
+            <numerusform>%n 个温度</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n errors</source>
+        <translation>
+            <numerusform>%n 个误差</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>For the physics alone: it has no %1.</source>
+        <translation>仅用于物理分析：缺少 %1。</translation>
+    </message>
+    <message>
+        <source>Tests the fit; explained by the physics.</source>
+        <translation>用于检验拟合，并参与物理解释。</translation>
+    </message>
+    <message>
+        <source>Fitted too; explained by the physics.</source>
+        <translation>参与拟合和物理解释。</translation>
     </message>
 </context>
 <context>
@@ -9015,6 +9071,10 @@
         <source>Words that stand for a missing sample in this file, with commas between them</source>
         <translation>在此文件中表示缺失采样的字样，以逗号分隔</translation>
     </message>
+    <message>
+        <source>Take as</source>
+        <translation>用作</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::LegendRow</name>
@@ -9992,6 +10052,57 @@
     <message>
         <source>%1 left</source>
         <translation>剩余 %1</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::RecordingList</name>
+    <message>
+        <source>training</source>
+        <translation>训练</translation>
+    </message>
+    <message>
+        <source>another day</source>
+        <translation>另一天</translation>
+    </message>
+    <message>
+        <source>cooling</source>
+        <translation>冷却</translation>
+    </message>
+    <message>
+        <source>Recordings</source>
+        <translation>记录</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Serves as</source>
+        <translation>用途</translation>
+    </message>
+    <message>
+        <source>Name of the recording</source>
+        <translation>记录名称</translation>
+    </message>
+    <message>
+        <source>What the recording serves as</source>
+        <translation>记录的用途</translation>
+    </message>
+    <message>
+        <source>Training: fitted too. Another day: the fit is tested on it. Cooling: fitted too, and it shows how the heat goes. The physics explains all of them together.</source>
+        <translation>训练：参与拟合。另一天：用于检验拟合。冷却：参与拟合，并显示热量如何散去。物理分析对全部记录一并解释。</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Takes the recording out of the list. Undo brings it back.</source>
+        <translation>将该记录移出列表；撤销可恢复。</translation>
+    </message>
+    <message>
+        <source>first run</source>
+        <translation>首次运行</translation>
     </message>
 </context>
 <context>
@@ -11638,6 +11749,10 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>The temperatures and errors of your recording appear here. Drop a logger&apos;s table anywhere on the window, or choose it: text, CSV or a workbook, with any names and units.</source>
         <translation>您的记录中的温度和误差将显示在这里。把记录仪的表格拖到窗口任意处，或选择它：文本、CSV 或工作簿，名称和单位不限。</translation>
+    </message>
+    <message>
+        <source>A further run of this machine, or one in place of this</source>
+        <translation>本机床的另一次运行，或替换当前运行</translation>
     </message>
 </context>
 </TS>

@@ -256,6 +256,53 @@ class FilesOnlyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(report->state().blocked.isEmpty());
   }
 
+  /// Further recordings stand beside the first: listed, shown, given a role, removed, and back with Undo.
+  void severalRecordingsOfOneMachine() {
+    Application application(m_theme);
+    auto& bench = application.bench();
+    auto* warmup = page<zerodrift::ui::WarmupPage>(application, "warmup");
+    const auto import = [&](const QString& path, int place) {
+      application.openFiles({path});
+      ImportDialog* dialog = shown(application);
+      if (dialog == nullptr || !dialog->state().ready) return false;
+      auto* box = dialog->findChild<QComboBox*>("place");
+      if (box->isVisible() != (bench.job() != nullptr)) return false;
+      box->setCurrentIndex(place);
+      Q_EMIT box->activated(place);
+      dialog->findChild<QPushButton*>("take")->click();
+      return true;
+    };
+    QVERIFY(import(write("first.csv", by_number()), 0));
+    QVERIFY(warmup->state().recordings.isEmpty());
+    QVERIFY(import(write("second.csv", by_number()), 1));
+    QVERIFY2(warmup->problem().sentence.isEmpty(), qPrintable(warmup->problem().sentence));
+    QVERIFY(import(write("night.csv", by_number(false)), 2));
+    QCOMPARE(warmup->state().recordings.size(), 3);
+    QCOMPARE(warmup->state().shownRecording, 2);
+    QCOMPARE(warmup->state().errors, 0);
+    QCOMPARE(warmup->state().recordings[1].name, QStringLiteral("second"));
+    QCOMPARE(warmup->state().recordings[1].use, zerodrift::ui::RecordingUse::otherDay);
+
+    warmup->findChild<QPushButton*>("removeRecording")->click();
+    QCOMPARE(warmup->state().recordings.size(), 2);
+    application.presenter("warmup")->undo();
+    QCOMPARE(warmup->state().recordings.size(), 3);
+    Q_EMIT warmup->recordingRenamed(1, QStringLiteral("Tuesday"));
+    QCOMPARE(warmup->state().recordings[1].name, QStringLiteral("Tuesday"));
+
+    application.openPage("sensors");
+    QTRY_VERIFY_WITH_TIMEOUT(bench.has("sensors") && !bench.tasks().running(), 60000);
+    application.openPage("fit");
+    QTRY_VERIFY_WITH_TIMEOUT(bench.has("model") && !bench.tasks().running(), 60000);
+    const auto& fit = page<zerodrift::ui::FitPage>(application, "fit")->state();
+    QVERIFY2(fit.advice.join(' ').contains("Tuesday"), qPrintable(fit.advice.join('\n')));
+    QVERIFY(fit.updatedBy.isEmpty());
+    application.openPage("warmup");
+    for (int i = 0; i < 3; ++i) application.presenter("warmup")->undo();
+    QVERIFY(warmup->state().recordings.isEmpty());  // as it began
+    QVERIFY(bench.has("warmup"));
+  }
+
   /// A machine is connected later: the steps that were not needed are.
   void aMachineMayComeLater() {
     Application application(m_theme);
@@ -323,6 +370,14 @@ class FilesOnlyTest : public QObject, private zerodrift::desktop::TestHome {
       QTest::qWait(presenter->id() == QStringLiteral("report") ? 8000 : 300);
       draw(QStringLiteral("10-") + presenter->id());
     }
+    for (const char* name : {"second-day.csv", "night-without-heating-of-the-machine.csv"}) {
+      application.openFiles({write(name, by_number(*name == 's'))});
+      dialog = shown(application);
+      QVERIFY(dialog != nullptr);
+      if (*name == 's') draw("11-import-beside", dialog);
+      dialog->findChild<QPushButton*>("take")->click();
+    }
+    draw("11-recordings");
     application.openFiles({write("typo.csv", "time_s,t1_C\n0,20\n60,2O\n120,21\n")});
     dialog = shown(application);
     QVERIFY(dialog != nullptr);

@@ -26,16 +26,16 @@ QStringList kindsOf(const QStringList& lines) {
 RunView::RunView(QWidget* parent) : QWidget(parent) {
   makePlots();
   makeTables();
-  auto* right = new QVBoxLayout;
-  right->setSpacing(16);
-  right->addWidget(m_cameraCard);
-  right->addWidget(m_errorCard, 1);
-  right->addWidget(m_temperatureCard, 1);
+  m_right = new QVBoxLayout;
+  m_right->setSpacing(16);
+  m_right->addWidget(m_cameraCard);
+  m_right->addWidget(m_errorCard, 1);
+  m_right->addWidget(m_temperatureCard, 1);
   for (Card* card : {m_cameraCard, m_errorCard, m_temperatureCard}) card->setFixedWidth(304);
   auto* row = new QHBoxLayout;
   row->setSpacing(16);
   row->addWidget(m_plotCard, 1);
-  row->addLayout(right);
+  row->addLayout(m_right);
   m_banner = new ProblemBanner(this);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
@@ -245,6 +245,11 @@ void RunView::setFrame(const QImage& image, const CameraMarks& marks) {
 
 void RunView::setCameraShown(bool shown) {
   m_cameraCard->setVisible(shown);
+}
+
+void RunView::setSide(QWidget* side) {
+  side->setFixedWidth(m_errorCard->width());
+  m_right->insertWidget(0, side);
 }
 
 void RunView::setTrouble(const RunTrouble& trouble) {

@@ -13,6 +13,7 @@
 #include "ui/widgets/channel_table.h"
 
 class QLabel;
+class QVBoxLayout;
 
 namespace zerodrift::ui {
 
@@ -63,6 +64,8 @@ class RunView : public QWidget {
   void setFrame(const QImage& image, const CameraMarks& marks);
   void setCameraShown(bool shown);
   void setTrouble(const RunTrouble& trouble);
+  /// Above the tables.
+  void setSide(QWidget* side);
   void retranslate();
 
  Q_SIGNALS:
@@ -79,6 +82,7 @@ class RunView : public QWidget {
   ProblemBanner* m_banner;
   RunTrouble m_trouble;
   QStringList m_dismissed;  // kinds of trouble the user has taken note of
+  QVBoxLayout* m_right;
   Card* m_plotCard;
   Card* m_cameraCard;
   Card* m_errorCard;

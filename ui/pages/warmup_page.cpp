@@ -16,6 +16,12 @@ WarmupPage::WarmupPage(QWidget* parent) : Page("warmup", parent) {
   content()->addWidget(m_plan, 1);
   content()->addWidget(m_run, 1);
   connect(m_run, &RunView::noteRequested, this, &WarmupPage::noteRequested);
+  m_recordings = new RecordingList(m_run);
+  m_run->setSide(m_recordings);
+  connect(m_recordings, &RecordingList::shown, this, &WarmupPage::recordingShown);
+  connect(m_recordings, &RecordingList::renamed, this, &WarmupPage::recordingRenamed);
+  connect(m_recordings, &RecordingList::roleChosen, this, &WarmupPage::recordingRoleChosen);
+  connect(m_recordings, &RecordingList::removeRequested, this, &WarmupPage::recordingRemoved);
   refresh();
 }
 
@@ -156,8 +162,9 @@ QString WarmupPage::sentence() const {
       return tr("The run was interrupted. Everything stored is here; resume or finish with it.");
     case RunPhase::finished:
       if (m_state.imported) {
-        return m_state.errors > 0 ? tr("Imported. Look it over, then go on to the sensors.")
-                                  : tr("Imported, without errors: the heat can be explained, in Physics.");
+        return m_state.errors > 0 || m_state.shownRecording > 0
+                   ? tr("Imported. Look it over, then go on to the sensors.")
+                   : tr("Imported, without errors: the heat can be explained, in Physics.");
       }
       return tr("The run is complete. Look it over, then go on to the sensors.");
   }
@@ -205,7 +212,10 @@ QVector<PageAction> WarmupPage::secondary() const {
       return {{"again", tr("New run"), true, {}, tr("Plans a new run; the interrupted one stays in the job unused")},
               finish};
     case RunPhase::finished:
-      if (m_state.filesOnly) return {{"import", tr("Import another")}, {"export", tr("Save as CSV")}};
+      if (m_state.filesOnly)
+        return {
+            {"import", tr("Import another"), true, {}, tr("A further run of this machine, or one in place of this")},
+            {"export", tr("Save as CSV")}};
       return {import, {"again", tr("New run")}, {"export", tr("Save as CSV")}};
   }
   return {};
@@ -305,6 +315,9 @@ void WarmupPage::render() {
   m_plan->setVisible(planning);
   m_run->setVisible(!planning);
   m_run->retranslate();
+  m_recordings->setVisible(m_state.recordings.size() > 1);
+  m_recordings->retranslate();
+  m_recordings->setRecordings(m_state.recordings, m_state.shownRecording);
   renderPlan();
 }
 

@@ -6,6 +6,7 @@
 #include "ui/pages/page.h"
 #include "ui/pages/run_view.h"
 #include "ui/widgets/plan_timeline.h"
+#include "ui/widgets/recording_list.h"
 
 class QCheckBox;
 class QComboBox;
@@ -28,12 +29,14 @@ enum class RunPhase {
 };
 
 struct WarmupState {
-  bool filesOnly = false;  // the job records nothing: its run is imported
-  bool imported = false;   // the run that is shown comes from a file
-  int temperatures = 0;    // of the imported run
-  int errors = 0;          // 0: it serves for the heat alone
-  QString offline{};       // why no run can be started now; empty: it can
-  QString blocked{};       // why the page cannot be used yet; empty: it can
+  bool filesOnly = false;              // the job records nothing: its run is imported
+  bool imported = false;               // the run that is shown comes from a file
+  int temperatures = 0;                // of the imported run
+  int errors = 0;                      // 0: it serves for the heat alone
+  QVector<RecordingRow> recordings{};  // from files only: the run and those beside it
+  int shownRecording = 0;
+  QString offline{};  // why no run can be started now; empty: it can
+  QString blocked{};  // why the page cannot be used yet; empty: it can
   RunPhase phase = RunPhase::planning;
   QStringList presets{};
   int preset = -1;
@@ -88,6 +91,10 @@ class WarmupPage : public Page {
   void planEdited(const QVector<zerodrift::ui::PlanStepRow>& plan);
   void periodsEdited(double sample_s, double measure_s);
   void noteRequested(double time_s);
+  void recordingShown(int index);
+  void recordingRenamed(int index, const QString& name);
+  void recordingRoleChosen(int index, zerodrift::ui::RecordingUse use);
+  void recordingRemoved(int index);
 
  protected:
   void render() override;
@@ -123,6 +130,7 @@ class WarmupPage : public Page {
   QVector<QLabel*> m_fieldNames;
   QLabel* m_hint;
   RunView* m_run;
+  RecordingList* m_recordings;
   bool m_filling = false;
 };
 

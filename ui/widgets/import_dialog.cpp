@@ -136,7 +136,15 @@ ImportDialog::ImportDialog(QWidget* parent) : QDialog(parent) {
   m_take->setObjectName("take");
   m_take->setProperty("primary", true);
   m_take->setDefault(true);
+  m_place = new QComboBox(this);
+  m_place->setObjectName("place");
+  m_placeName = new QLabel(this);
+  m_placeName->setProperty("role", "muted");
+  m_placeName->setBuddy(m_place);
   auto* foot = new QHBoxLayout;
+  foot->setSpacing(8);
+  foot->addWidget(m_placeName);
+  foot->addWidget(m_place);
   foot->addStretch();
   foot->addWidget(m_cancel);
   foot->addWidget(m_take);
@@ -160,6 +168,9 @@ ImportDialog::ImportDialog(QWidget* parent) : QDialog(parent) {
   connect(m_save, &QPushButton::clicked, this, &ImportDialog::mapSaveRequested);
   connect(m_decimal, &QComboBox::activated, this, &ImportDialog::tableTouched);
   connect(m_separator, &QComboBox::activated, this, &ImportDialog::tableTouched);
+  connect(m_place, &QComboBox::activated, this, [this](int place) {
+    if (!m_filling) Q_EMIT placeChosen(place);
+  });
   connect(m_missing, &QLineEdit::editingFinished, this, &ImportDialog::tableTouched);
   connect(m_sheet, &QLineEdit::editingFinished, this, &ImportDialog::tableTouched);
   retranslate();
@@ -277,6 +288,12 @@ void ImportDialog::setState(const ImportState& state) {
   m_notes->setText(notes.join(QLatin1Char('\n')));
   m_notes->setToolTip(state.notes.join(QLatin1Char('\n')));
   m_notes->setVisible(!notes.isEmpty());
+  m_place->clear();
+  m_place->addItems(state.places);
+  m_place->setCurrentIndex(state.place);
+  for (QWidget* field : {static_cast<QWidget*>(m_place), static_cast<QWidget*>(m_placeName)}) {
+    field->setVisible(!state.places.isEmpty());
+  }
   m_take->setText(state.take);
   m_take->setEnabled(state.ready && !state.reading);
   m_take->setToolTip(state.ready ? QString() : state.sentence);
@@ -343,6 +360,7 @@ void ImportDialog::retranslate() {
   m_load->setToolTip(tr("What the columns are, from a file that was saved for another recording of this logger"));
   m_save->setText(tr("Save map"));
   m_save->setToolTip(tr("Keeps what the columns are, for the next recording of this logger"));
+  m_placeName->setText(tr("Take as"));
   m_cancel->setText(tr("Cancel"));
   m_filling = false;
 }

@@ -69,7 +69,9 @@ struct ImportState {
   bool workbook = false;
   bool reading = false;
   bool ready = false;
-  QString take{};  // the button: "Use this recording"
+  QString take{};        // the button: "Use this recording"
+  QStringList places{};  // where in the job it can go; empty: there is no choice
+  int place = 0;
 };
 
 class ImportDialog : public QDialog {
@@ -86,6 +88,7 @@ class ImportDialog : public QDialog {
  Q_SIGNALS:
   void columnEdited(int row, const zerodrift::ui::ImportColumn& before, const zerodrift::ui::ImportColumn& column);
   void tableEdited(const zerodrift::ui::ImportTable& table);
+  void placeChosen(int place);
   void mapLoadRequested();
   void mapSaveRequested();
 
@@ -123,6 +126,8 @@ class ImportDialog : public QDialog {
   QLineEdit* m_missing;
   QLineEdit* m_sheet;
   QLabel* m_notes;
+  QLabel* m_placeName;
+  QComboBox* m_place;
   QPushButton* m_load;
   QPushButton* m_save;
   QPushButton* m_cancel;

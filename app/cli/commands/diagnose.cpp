@@ -16,6 +16,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/flow/flow.h"
 #include "core/flow/steps/diagnose_step.h"
+#include "core/flow/steps/recordings_step.h"
 
 namespace zerodrift::cli {
 namespace diagnose_command {
@@ -101,7 +102,9 @@ Result<std::vector<recording::Recording>> recordings_of(const DiagnoseArguments&
   if (arguments.job.empty()) return recordings_from(arguments.recordings, arguments.map, warnings);
   ZD_TRY(const auto job, commissioning::Job::open_read_only(arguments.job));
   ZD_TRY(auto run, run_in_job(job));
-  return std::vector<recording::Recording>{std::move(run)};
+  ZD_TRY(auto runs, flow::further_runs(job));
+  runs.insert(runs.begin(), std::move(run));
+  return runs;
 }
 
 Status keep_diagnosis(const DiagnoseArguments& arguments, const diagnosis::Diagnosis& result,

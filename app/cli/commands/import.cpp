@@ -11,6 +11,7 @@
 #include "core/commissioning/job_kind.h"
 #include "core/flow/flow.h"
 #include "core/flow/steps/import_step.h"
+#include "core/flow/steps/recordings_step.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::cli {
@@ -23,6 +24,7 @@ struct Options {
   std::string sheet;
   std::string out;
   std::string job;
+  std::string role;
 };
 
 std::string fate_text(const recording::ColumnFate& fate) {
@@ -49,12 +51,19 @@ std::string text_of(const recording::Imported& imported, const std::string& targ
   return text;
 }
 
-/// The recording as the job's warm-up run; the job is made if it is not there.
+/// The recording as the job's warm-up run, or beside it where it has a role; the job is made if it is not there.
 Status into_job(const Options& options, const recording::Imported& imported, const nlohmann::json& how) {
   const bool made = !std::filesystem::exists(options.job);
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
   if (made) ZD_CHECK(commissioning::set_kind(job, commissioning::JobKind::files));
   const std::string name = std::filesystem::path(options.file).filename().string();
+  if (!options.role.empty()) {
+    ZD_TRY(const auto role, flow::recording_role_from(options.role));
+    const auto add = [&](commissioning::Job& in, const TaskContext&) {
+      return flow::add_recording(in, imported.recording, name, role, how);
+    };
+    return flow::Flow().take_in(job, "recordings", add, {}).map([](const auto&) {});
+  }
   const auto take = [&](commissioning::Job& in, const TaskContext&) {
     return flow::import_warmup(in, imported.recording, name, how);
   };
@@ -101,7 +110,12 @@ void add_import(Cli& cli) {
   app.add_option("--sheet", options->sheet, "Sheet of a workbook (default: the first)");
   app.add_option("--out", options->out, "Recording to write (CSV)");
   app.add_option("--job", options->job, "Job to put the recording into, made if it is not there");
+  app.add_option("--as", options->role,
+                 "With --job: beside the warm-up run of the job, instead of in its place: training (fitted too), "
+                 "other_day (the fit is tested on it) or cooling; the diagnosis explains all of them together")
+      ->check(CLI::IsMember({"training", "other_day", "cooling"}));
   app.parse_complete_callback([options] {
+    if (!options->role.empty() && options->job.empty()) throw CLI::RequiredError("--job with --as");
     if (options->out.empty() == options->job.empty()) throw CLI::RequiredError("--out or --job: one of them");
   });
 }

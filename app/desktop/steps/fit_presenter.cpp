@@ -222,7 +222,9 @@ void FitPresenter::fill(ui::FitState& state) {
   state.oneCycle = model->quality.cycles < 2;
   if (range > 0) state.removed_percent = 100.0 * std::max(0.0, 1.0 - peak / range);
   for (const auto& sensor : model->sensors) state.sensors << bench().channelInWords(sensor);
-  if (model->recordings.size() > 1) state.updatedBy = QString::fromStdString(model->recordings.back());
+  const auto body = bench().body("model");
+  const std::size_t fitted = 1 + body.value("fitted_too", nlohmann::json::array()).size();
+  if (model->recordings.size() > fitted) state.updatedBy = QString::fromStdString(model->recordings.back());
   state.proposed.clear();
   state.methods = methods_of(bench(), **artefact, state.proposed);
   double low = 1e9;
@@ -238,6 +240,16 @@ void FitPresenter::fill(ui::FitState& state) {
     }
   }
   if (high > low) state.validity = tr("%1 to %2 °C").arg(low, 0, 'f', 0).arg(high, 0, 'f', 0);
+  for (const auto& test : body.value("tests", nlohmann::json::array())) {
+    QStringList left;
+    for (const auto& error : test.value("errors", nlohmann::json::array())) {
+      const double rms_um = error["rms_um"].is_number() ? error["rms_um"].get<double>() : std::nan("");
+      left << QStringLiteral("%1 %2 µm").arg(bench().tagOf(error.value("channel", ""))).arg(rms_um, 0, 'f', 1);
+    }
+    if (left.isEmpty()) continue;
+    state.advice << tr("On %1, another day that it has not seen, it leaves (rms): %2.")
+                        .arg(QString::fromStdString(test.value("recording", "")), ui::listText(left));
+  }
   for (const auto& advice : model->quality.advice) state.advice << bench().inWords(advice);
   for (const auto& finding : model->findings) state.advice << bench().inWords(analysis::describe(finding));
   const recording::Recording& run = bench().warmupRun();

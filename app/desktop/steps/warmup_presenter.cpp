@@ -58,6 +58,7 @@ WarmupPresenter::WarmupPresenter(Workbench& bench, ui::WarmupPage* page)
   connect(page, &ui::Page::secondaryTriggered, this, &WarmupPresenter::secondary);
   connect(page, &ui::Page::emptyActionTriggered, this, &WarmupPresenter::importWanted);
   connect(&feed(), &RunFeed::updated, this, &WarmupPresenter::refresh);
+  wireRecordings();
 }
 
 void WarmupPresenter::forget() {
@@ -65,6 +66,8 @@ void WarmupPresenter::forget() {
   m_preset = 0;
   m_plan = m_presets.empty() ? acquisition::Plan{} : m_presets.front();
   m_undo.clear();
+  m_recording = 0;
+  m_recordingsBefore.clear();
   m_interrupted.reset();
 }
 
@@ -83,6 +86,11 @@ void WarmupPresenter::propose(const acquisition::Plan& plan) {
 }
 
 void WarmupPresenter::undo() {
+  if (!m_recordingsBefore.empty()) {
+    const auto before = std::move(m_recordingsBefore.back());
+    m_recordingsBefore.pop_back();
+    return changeRecordings(before);
+  }
   if (running() || m_undo.empty()) return;
   m_plan = m_undo.back();
   m_undo.pop_back();
@@ -204,7 +212,7 @@ void WarmupPresenter::fillRun(ui::WarmupState& state) {
 
 void WarmupPresenter::fillKept(ui::WarmupState& state, const json& body) {
   state.phase = ui::RunPhase::finished;
-  showKept(body);
+  if (!state.filesOnly || m_recording == 0) showKept(body);
   state.elapsed_s = body.value("duration_s", 0.0);
   state.timeLeft_s = 0.0;
   state.largestError_um = feed().largestError_um();
@@ -213,6 +221,7 @@ void WarmupPresenter::fillKept(ui::WarmupState& state, const json& body) {
   state.samples = body.value("rows", 0LL);
   state.longestHole_s = feed().longestHole_s();
   fillImported(state, body);
+  if (state.filesOnly) fillRecordings(state);
 }
 
 void WarmupPresenter::fillImported(ui::WarmupState& state, const json& body) {

@@ -5,9 +5,11 @@
 
 #include "app/desktop/run_presenter.h"
 #include "core/acquisition/plan.h"
+#include "core/flow/steps/recordings_step.h"
 
 namespace zerodrift::ui {
 class WarmupPage;
+enum class RecordingUse;
 struct WarmupState;
 }  // namespace zerodrift::ui
 
@@ -25,6 +27,9 @@ class WarmupPresenter : public RunPresenter {
   void setPlan(const acquisition::Plan& plan);
   /// A further run, planned elsewhere.
   void propose(const acquisition::Plan& plan);
+  /// Beside the run of a job from files only.
+  void addRecording(const recording::Recording& run, const QString& name, const nlohmann::json& how,
+                    ui::RecordingUse use);
 
  Q_SIGNALS:
   void importWanted();
@@ -35,6 +40,11 @@ class WarmupPresenter : public RunPresenter {
   void start(std::function<void(bool good)> done);
   void fillRun(ui::WarmupState& state);
   void fillImported(ui::WarmupState& state, const nlohmann::json& body);
+  void fillRecordings(ui::WarmupState& state);
+  void changeRecordings(const std::vector<flow::FurtherRecording>& recordings);
+  void changeRecording(int index, const std::function<void(flow::FurtherRecording&)>& change);
+  void wireRecordings();
+  std::vector<flow::FurtherRecording> recordings() const;
   void fillKept(ui::WarmupState& state, const nlohmann::json& body);
   void fillInterrupted(ui::WarmupState& state);
   void finishInterrupted();
@@ -47,6 +57,8 @@ class WarmupPresenter : public RunPresenter {
   acquisition::Plan m_plan;
   std::vector<acquisition::Plan> m_undo;
   int m_preset = 0;
+  int m_recording = 0;  // that is shown; 0: the run itself
+  std::vector<std::vector<flow::FurtherRecording>> m_recordingsBefore;
   std::optional<flow::RecordedRun> m_interrupted;  // as it was drawn last
 };
 

@@ -9,6 +9,7 @@
 #include "core/flow/steps/describe_step.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/physics_step.h"
+#include "core/flow/steps/recordings_step.h"
 #include "core/recording/csv.h"
 
 namespace zerodrift::flow {
@@ -87,6 +88,8 @@ Result<NewArtefact> find_missing(const commissioning::Job& job, const TaskContex
   ZD_TRY(const auto warmup, need(job, "physics", "warmup"));
   std::vector<recording::Recording> runs(1);
   ZD_TRY(runs.front(), run_of(job, warmup));
+  ZD_TRY(const auto further, further_runs(job));
+  runs.insert(runs.end(), further.begin(), further.end());
   if (const auto verification = need(job, "physics", "verification")) {
     if (auto second = run_of(job, *verification)) runs.push_back(std::move(*second));
   }

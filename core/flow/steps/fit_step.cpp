@@ -8,9 +8,12 @@
 
 #include "core/analysis/ageing.h"
 #include "core/analysis/fit.h"
+#include "core/analysis/predict.h"
+#include "core/base/json.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/table_words.h"
 #include "core/flow/steps/inputs.h"
+#include "core/flow/steps/recordings_step.h"
 
 namespace zerodrift::flow {
 
@@ -81,6 +84,32 @@ Result<commissioning::NewArtefact> artefact_of(const analysis::Model& model, con
   return commissioning::NewArtefact::of("model", document, std::move(inputs));
 }
 
+/// Which runs were fitted, and what the model leaves on those of another day.
+Status add_runs(const commissioning::Job& job, const analysis::Model& model,
+                const std::vector<recording::Recording>& fitted, const recording::Recording& warmup,
+                commissioning::NewArtefact& made) {
+  ZD_TRY(const auto unseen, test_runs(job, warmup));
+  if (fitted.size() < 2 && unseen.empty()) return {};
+  ZD_TRY(json body, parse_json(made.body, "model"));
+  body["fitted_too"] = json::array();
+  for (std::size_t r = 1; r < fitted.size(); ++r) body["fitted_too"].push_back(fitted[r].name);
+  body["tests"] = json::array();
+  for (const auto& run : unseen) {
+    ZD_TRY(const auto prediction, analysis::predict(model, run));
+    json errors = json::array();
+    for (const auto& error : prediction.errors) {
+      if (error.residual.count == 0) continue;
+      errors.push_back({{"channel", error.error},
+                        {"rms_um", number(error.residual.rms_um)},
+                        {"peak_um", number(error.residual.peak_um)},
+                        {"removed_percent", number(error.residual.removed_percent)}});
+    }
+    body["tests"].push_back({{"recording", run.name}, {"errors", std::move(errors)}});
+  }
+  made.body = json_text(body);
+  return {};
+}
+
 }  // namespace
 
 analysis::Model by_axes(analysis::Model model, const json& warmup) {
@@ -130,9 +159,13 @@ Result<commissioning::NewArtefact> fit_model(const commissioning::Job& job, cons
   // A controller that computes the table itself runs static models only: every figure is of what compensates, and what
   // a dynamic one would have left is said.
   fit_options.on_controller = accepts_table;
-  ZD_TRY(const auto model, analysis::fit({run}, fit_options, context));
-  return artefact_of(model, options.method == "auto" && accepts_table ? alternative_of(model) : std::string(), profile,
-                     machine.has_value(), warmup.body, {warmup.id, sensors.id});
+  ZD_TRY(const auto runs, training_runs(job, run));
+  ZD_TRY(const auto model, analysis::fit(runs, fit_options, context));
+  ZD_TRY(auto made,
+         artefact_of(model, options.method == "auto" && accepts_table ? alternative_of(model) : std::string(), profile,
+                     machine.has_value(), warmup.body, {warmup.id, sensors.id}));
+  ZD_CHECK(add_runs(job, model, runs, run, made));
+  return made;
 }
 
 Result<FitStepOptions> fit_asked_for(const commissioning::Job& job) {

@@ -3,6 +3,8 @@
 // Makes the artefact "model": {"model": {...zerodrift-model/1...}, "summary", "runs_on_controller",
 //   "figures": [{channel, rms_fit_um, rms_held_out_um, peak_held_out_um}],
 //   "table": [{axis, sensor, um_per_K, reference_C}], "offset_um": {"X": ...}, "candidates": [...]}
+// With further recordings also "fitted_too": [names] and "tests": [{"recording", "errors": [{channel, rms_um, peak_um,
+// removed_percent}]}] on those of another day.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

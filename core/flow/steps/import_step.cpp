@@ -68,11 +68,13 @@ std::vector<acquisition::PlanStep> steps_of(const Recording& run) {
   return steps;
 }
 
-Result<commissioning::SeriesId> keep(commissioning::Job& job, const Recording& run, const acquisition::Plan& plan) {
+}  // namespace
+
+Result<commissioning::SeriesId> keep_run(commissioning::Job& job, const Recording& run, const std::string& name,
+                                         const json& details) {
   std::vector<std::string> channels;
   for (const auto& channel : run.channels) channels.push_back(channel.name);
-  const json details = {{"plan", acquisition::to_json(plan)}, {"machine_serial", 0}, {"origin_s", 0.0}};
-  ZD_TRY(const auto series, job.start_series("warm-up", channels, json_text(details)));
+  ZD_TRY(const auto series, job.start_series(name, channels, json_text(details)));
   std::vector<double> row(channels.size());
   for (std::size_t i = 0; i < run.rows(); ++i) {
     for (std::size_t c = 0; c < channels.size(); ++c) row[c] = run.channels[c].values[i];
@@ -82,8 +84,6 @@ Result<commissioning::SeriesId> keep(commissioning::Job& job, const Recording& r
   ZD_CHECK(job.finish_series(series));
   return series;
 }
-
-}  // namespace
 
 Status fit_for_warmup(const Recording& run, const std::string& file, bool errors_needed) {
   const std::size_t temperatures = most_present(run, ChannelKind::temperature);
@@ -120,7 +120,8 @@ Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const 
   const std::size_t measurements = most_present(run, ChannelKind::error);
   plan.measure_period_s =
       std::max(plan.sample_period_s, duration_s / static_cast<double>(std::max<std::size_t>(measurements, 1)));
-  ZD_TRY(const auto series, keep(job, run, plan));
+  const json details = {{"plan", acquisition::to_json(plan)}, {"machine_serial", 0}, {"origin_s", 0.0}};
+  ZD_TRY(const auto series, keep_run(job, run, "warm-up", details));
   json body = {{"series", series},
                {"plan", acquisition::to_json(plan)},
                {"source", "file"},

@@ -16,6 +16,10 @@ namespace zerodrift::flow {
 /// Without an error it serves for a question of heat alone (diagnose), where `errors_needed` is false.
 Status fit_for_warmup(const recording::Recording& run, const std::string& file, bool errors_needed = true);
 
+/// The run as a finished series of the job.
+Result<commissioning::SeriesId> keep_run(commissioning::Job& job, const recording::Recording& run,
+                                         const std::string& name, const nlohmann::json& details);
+
 /// `how` is kept as "import": how the file was read, with the date of its start. Given it, errors are not needed.
 Result<commissioning::NewArtefact> import_warmup(commissioning::Job& job, const recording::Recording& run,
                                                  const std::string& file, const nlohmann::json& how = nullptr);

@@ -13,6 +13,7 @@
 #include "core/analysis/statistics.h"
 #include "core/analysis/training.h"
 #include "core/flow/steps/inputs.h"
+#include "core/flow/steps/recordings_step.h"
 
 namespace zerodrift::flow {
 
@@ -123,7 +124,9 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   ZD_TRY(const auto clusters, std::move(clustered));
   json body = analysis::to_json(clusters);
   // What the fit gets when nobody says: the set with the least error to expect, which need not be the published one.
-  ZD_TRY(const auto training, analysis::make_training({run}, {}));
+  ZD_TRY(auto runs, training_runs(job, whole));
+  for (auto& one : runs) one = without(std::move(one), left_out);
+  ZD_TRY(const auto training, analysis::make_training(runs, {}));
   analysis::ChoiceOptions choice_options;
   choice_options.sensitive_points = clusters.sensitive_points;
   choice_options.few = clusters.sensitive_points.size();

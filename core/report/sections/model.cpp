@@ -174,6 +174,32 @@ Table coefficients_of(const Source& source, const nlohmann::json& body) {
   return table;
 }
 
+/// What the model leaves on runs of another day, of which it has seen nothing.
+Table tests_of(const Source& source, const nlohmann::json& body) {
+  Table table;
+  table.id = "model_tests";
+  table.title = source.say("What the model leaves on recordings of another day, µm");
+  table.header = {source.say("recording"), source.say("direction"), source.say("RMS"), source.say("largest"),
+                  source.say("removed, %")};
+  table.trace = source.at("model", "/tests");
+  int run = 0;
+  for (const auto& test : list_of(body, "tests")) {
+    int number = 0;
+    for (const auto& error : list_of(test, "errors")) {
+      const std::string channel = text_of(error, "channel");
+      const std::string pointer = fmt::format("/tests/{}/errors/{}/", run, number++);
+      const auto figure = [&](const char* key, int digits) {
+        return cell(number_of(error, key), digits, fmt::format("test_{}_{}_{}", run + 1, channel, key),
+                    source.at("model", pointer + key));
+      };
+      table.rows.push_back({text_of(test, "recording"), tag_of(channel, source.labels()), figure("rms_um", 2),
+                            figure("peak_um", 2), figure("removed_percent", 1)});
+    }
+    ++run;
+  }
+  return table;
+}
+
 }  // namespace
 
 std::optional<Section> model_section(const Source& source) {
@@ -182,6 +208,7 @@ std::optional<Section> model_section(const Source& source) {
   Section section{"model", source.say("Compensation model"), {}};
   section.blocks.emplace_back(summary_of(source, model->body));
   section.blocks.emplace_back(figures_of(source, model->body));
+  if (auto table = tests_of(source, model->body); !table.rows.empty()) section.blocks.emplace_back(std::move(table));
   add_plots(source, model->body, section);
   if (auto table = candidates_of(source, model->body); !table.rows.empty()) {
     section.blocks.emplace_back(std::move(table));

@@ -78,6 +78,34 @@ Table temperatures_of(const Source& source, const LoadedRun& run) {
   return table;
 }
 
+/// What else was recorded on this machine, and what each run serves for.
+Table further_runs_of(const Source& source) {
+  Table table;
+  table.id = "further_recordings";
+  table.title = source.say("Further recordings");
+  table.header = {source.say("name"),         source.say("serves as"), source.say("hours"), source.say("rows"),
+                  source.say("temperatures"), source.say("errors"),    source.say("file")};
+  table.trace = source.at("recordings", "/recordings");
+  const LoadedArtefact* kept = source.find("recordings");
+  if (kept == nullptr) return table;
+  int number = 0;
+  for (const auto& one : list_of(kept->body, "recordings")) {
+    const std::string pointer = fmt::format("/recordings/{}/", number++);
+    const std::string role = text_of(one, "role");
+    const auto count = [&](const char* key) {
+      return cell(number_of(one, key), 0, fmt::format("recording_{}_{}", number, key),
+                  source.at("recordings", pointer + key));
+    };
+    table.rows.push_back({text_of(one, "name"),
+                          source.say(role == "cooling"    ? "cooling"
+                                     : role == "training" ? "training"
+                                                          : "another day"),
+                          shown(number_of(one, "duration_s") / 3600.0, 1), count("rows"), count("temperatures"),
+                          count("errors"), text_of(one, "file")});
+  }
+  return table;
+}
+
 }  // namespace
 
 std::optional<Section> warmup_section(const Source& source) {
@@ -98,6 +126,7 @@ std::optional<Section> warmup_section(const Source& source) {
   }
   if (auto notes = notes_of(source, *run); !notes.rows.empty()) section.blocks.emplace_back(std::move(notes));
   section.blocks.emplace_back(temperatures_of(source, *run));
+  if (auto further = further_runs_of(source); !further.rows.empty()) section.blocks.emplace_back(std::move(further));
   return section;
 }
 
