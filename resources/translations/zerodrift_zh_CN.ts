@@ -59,6 +59,257 @@
     </message>
 </context>
 <context>
+    <name>FormWords</name>
+    <message>
+        <source>yes</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>否</translation>
+    </message>
+    <message>
+        <source>Length</source>
+        <translation>长度</translation>
+    </message>
+    <message>
+        <source>From the fixed end, where it is held along x, to its free end</source>
+        <translation>从固定端（沿 x 方向被固定处）到自由端</translation>
+    </message>
+    <message>
+        <source>Outer diameter</source>
+        <translation>外径</translation>
+    </message>
+    <message>
+        <source>Bore</source>
+        <translation>孔径</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>Material</source>
+        <translation>材料</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>其他</translation>
+    </message>
+    <message>
+        <source>Conductivity</source>
+        <translation>导热系数</translation>
+    </message>
+    <message>
+        <source>Density</source>
+        <translation>密度</translation>
+    </message>
+    <message>
+        <source>Heat capacity</source>
+        <translation>热容</translation>
+    </message>
+    <message>
+        <source>Expansion</source>
+        <translation>热膨胀系数</translation>
+    </message>
+    <message>
+        <source>not known: it is identified</source>
+        <translation>未知：将被辨识</translation>
+    </message>
+    <message>
+        <source>Surface</source>
+        <translation>表面积</translation>
+    </message>
+    <message>
+        <source>Its temperature is given</source>
+        <translation>温度为给定值</translation>
+    </message>
+    <message>
+        <source>The measured temperature is taken as it is, and not simulated: a bed, a cooling circuit</source>
+        <translation>直接采用测得的温度而不仿真：床身、冷却回路</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Rated power</source>
+        <translation>额定功率</translation>
+    </message>
+    <message>
+        <source>Efficiency</source>
+        <translation>效率</translation>
+    </message>
+    <message>
+        <source>Rated speed</source>
+        <translation>额定转速</translation>
+    </message>
+    <message>
+        <source>Mean diameter</source>
+        <translation>平均直径</translation>
+    </message>
+    <message>
+        <source>Lubrication f0</source>
+        <translation>润滑系数 f0</translation>
+    </message>
+    <message>
+        <source>Load factor f1</source>
+        <translation>载荷系数 f1</translation>
+    </message>
+    <message>
+        <source>Load, preload</source>
+        <translation>载荷、预紧力</translation>
+    </message>
+    <message>
+        <source>Oil viscosity</source>
+        <translation>油黏度</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>通道</translation>
+    </message>
+    <message>
+        <source>Heat for each unit</source>
+        <translation>每单位发热量</translation>
+    </message>
+    <message>
+        <source>Friction</source>
+        <translation>摩擦力</translation>
+    </message>
+    <message>
+        <source>Its size is not known</source>
+        <translation>大小未知</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>类型</translation>
+    </message>
+    <message>
+        <source>From</source>
+        <translation>起点</translation>
+    </message>
+    <message>
+        <source>Place from the fixed end of the part</source>
+        <translation>距部件固定端的位置</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>终点</translation>
+    </message>
+    <message>
+        <source>On</source>
+        <translation>位于</translation>
+    </message>
+    <message>
+        <source>ambient: it measures the room</source>
+        <translation>ambient：测量室温</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>位置</translation>
+    </message>
+    <message>
+        <source>Accuracy</source>
+        <translation>准确度</translation>
+    </message>
+    <message>
+        <source>Lag</source>
+        <translation>滞后</translation>
+    </message>
+    <message>
+        <source>Direction</source>
+        <translation>方向</translation>
+    </message>
+    <message>
+        <source>Expansion of</source>
+        <translation>膨胀部件</translation>
+    </message>
+    <message>
+        <source>Sign</source>
+        <translation>符号</translation>
+    </message>
+    <message>
+        <source>-1: it counts against the growth of the part</source>
+        <translation>-1：与部件伸长方向相反</translation>
+    </message>
+    <message>
+        <source>What else may move it</source>
+        <translation>其他可能的位移</translation>
+    </message>
+    <message>
+        <source>First part</source>
+        <translation>部件一</translation>
+    </message>
+    <message>
+        <source>Second part</source>
+        <translation>部件二</translation>
+    </message>
+    <message>
+        <source>at</source>
+        <translation>位置</translation>
+    </message>
+    <message>
+        <source>Conductance</source>
+        <translation>热导</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>Film to the air</source>
+        <translation>对空气的换热系数</translation>
+    </message>
+    <message>
+        <source>Temperature at the start</source>
+        <translation>初始温度</translation>
+    </message>
+    <message>
+        <source>the first sample</source>
+        <translation>首个样本</translation>
+    </message>
+    <message>
+        <source>Parts and their heat</source>
+        <translation>部件及其热源</translation>
+    </message>
+    <message>
+        <source>Couplings</source>
+        <translation>热连接</translation>
+    </message>
+    <message>
+        <source>Temperature sensors</source>
+        <translation>温度传感器</translation>
+    </message>
+    <message>
+        <source>Displacements</source>
+        <translation>位移</translation>
+    </message>
+    <message>
+        <source>losses of a motor</source>
+        <translation>电机损耗</translation>
+    </message>
+    <message>
+        <source>friction of a bearing</source>
+        <translation>轴承摩擦</translation>
+    </message>
+    <message>
+        <source>friction of a screw nut</source>
+        <translation>丝杠螺母摩擦</translation>
+    </message>
+    <message>
+        <source>friction of a guide</source>
+        <translation>导轨摩擦</translation>
+    </message>
+    <message>
+        <source>watts by a logged channel</source>
+        <translation>按记录通道的功率</translation>
+    </message>
+    <message>
+        <source>an unknown heat that follows the speed</source>
+        <translation>随转速变化的未知热量</translation>
+    </message>
+</context>
+<context>
     <name>ImportWords</name>
     <message>
         <source>holds words</source>
@@ -222,6 +473,121 @@
     <message>
         <source>Confirm on one point first: %1</source>
         <translation>请先用一个点确认：%1</translation>
+    </message>
+</context>
+<context>
+    <name>Typical</name>
+    <message>
+        <source>Steel, unalloyed</source>
+        <translation>非合金钢</translation>
+    </message>
+    <message>
+        <source>Bearing steel 100Cr6</source>
+        <translation>轴承钢 100Cr6</translation>
+    </message>
+    <message>
+        <source>Stainless steel</source>
+        <translation>不锈钢</translation>
+    </message>
+    <message>
+        <source>Grey cast iron</source>
+        <translation>灰铸铁</translation>
+    </message>
+    <message>
+        <source>Nodular cast iron</source>
+        <translation>球墨铸铁</translation>
+    </message>
+    <message>
+        <source>Aluminium alloy</source>
+        <translation>铝合金</translation>
+    </message>
+    <message>
+        <source>Brass</source>
+        <translation>黄铜</translation>
+    </message>
+    <message>
+        <source>Mineral casting</source>
+        <translation>矿物铸件</translation>
+    </message>
+    <message>
+        <source>Granite</source>
+        <translation>花岗岩</translation>
+    </message>
+    <message>
+        <source>Invar</source>
+        <translation>殷钢</translation>
+    </message>
+    <message>
+        <source>%1, %2 × %3</source>
+        <translation>%1，%2 × %3</translation>
+    </message>
+    <message>
+        <source>one row, oil mist or oil and air</source>
+        <translation>单列，油雾或油气润滑</translation>
+    </message>
+    <message>
+        <source>one row, grease</source>
+        <translation>单列，脂润滑</translation>
+    </message>
+    <message>
+        <source>one row, oil bath</source>
+        <translation>单列，油浴</translation>
+    </message>
+    <message>
+        <source>two rows, oil bath</source>
+        <translation>双列，油浴</translation>
+    </message>
+    <message>
+        <source>spindle grease, warm</source>
+        <translation>主轴润滑脂，温热</translation>
+    </message>
+    <message>
+        <source>still air, inside a cover</source>
+        <translation>静止空气，罩内</translation>
+    </message>
+    <message>
+        <source>workshop</source>
+        <translation>车间</translation>
+    </message>
+    <message>
+        <source>moved air, fan</source>
+        <translation>流动空气，风扇</translation>
+    </message>
+    <message>
+        <source>through balls or rollers</source>
+        <translation>经由滚珠或滚子</translation>
+    </message>
+    <message>
+        <source>small flange, bolted</source>
+        <translation>小法兰，螺栓连接</translation>
+    </message>
+    <message>
+        <source>large face, bolted and greased</source>
+        <translation>大接合面，螺栓连接并涂脂</translation>
+    </message>
+    <message>
+        <source>10 kg of steel</source>
+        <translation>10 kg 钢</translation>
+    </message>
+    <message>
+        <source>50 kg of steel</source>
+        <translation>50 kg 钢</translation>
+    </message>
+    <message>
+        <source>200 kg of cast iron</source>
+        <translation>200 kg 铸铁</translation>
+    </message>
+    <message>
+        <source>calibrated</source>
+        <translation>已校准</translation>
+    </message>
+    <message>
+        <source>resistance thermometer, class B</source>
+        <translation>热电阻，B 级</translation>
+    </message>
+    <message>
+        <source>thermocouple</source>
+        <translation>热电偶</translation>
     </message>
 </context>
 <context>
@@ -6893,6 +7259,57 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::desktop::MachineForm</name>
+    <message>
+        <source>Open a machine description</source>
+        <translation>打开机床描述</translation>
+    </message>
+    <message>
+        <source>Machine descriptions (*.json)</source>
+        <translation>机床描述 (*.json)</translation>
+    </message>
+    <message>
+        <source>Export the description</source>
+        <translation>导出描述</translation>
+    </message>
+    <message>
+        <source>Rod: spindle, screw, ram</source>
+        <translation>杆件：主轴、丝杠、滑枕</translation>
+    </message>
+    <message>
+        <source>Lump: housing, column, motor body</source>
+        <translation>集总体：箱体、立柱、电机机体</translation>
+    </message>
+    <message>
+        <source>Heat source of the selected part</source>
+        <translation>所选部件的热源</translation>
+    </message>
+    <message>
+        <source>Coupling of two parts</source>
+        <translation>两个部件的热连接</translation>
+    </message>
+    <message>
+        <source>Temperature sensor</source>
+        <translation>温度传感器</translation>
+    </message>
+    <message>
+        <source>Displacement</source>
+        <translation>位移</translation>
+    </message>
+    <message>
+        <source>Expected: %1</source>
+        <translation>应为：%1</translation>
+    </message>
+    <message>
+        <source>%1, %2: something must be entered.</source>
+        <translation>%1，%2：必须填写。</translation>
+    </message>
+    <message>
+        <source>%1, %2: this value cannot be.</source>
+        <translation>%1，%2：该值不可能。</translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::desktop::MachinePresenter</name>
     <message>
         <source>The virtual machine could not be started: %1.</source>
@@ -9126,6 +9543,49 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::ui::MachineDialog</name>
+    <message>
+        <source>Describe the machine</source>
+        <translation>描述机床</translation>
+    </message>
+    <message>
+        <source>Enter what a drawing and the data sheets say. What is not known may stay empty where it says so.</source>
+        <translation>请填写图纸和数据手册中的值。注明可空的项目，未知时可留空。</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>撤销</translation>
+    </message>
+    <message>
+        <source>Open machine.json</source>
+        <translation>打开 machine.json</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>导出</translation>
+    </message>
+    <message>
+        <source>Saves the description as machine.json, for the command line and for another job</source>
+        <translation>将描述保存为 machine.json，供命令行和其他作业使用</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Use this description</source>
+        <translation>使用此描述</translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::MachineDrawing</name>
     <message>
         <source>Machine with its sensors</source>
@@ -9958,24 +10418,28 @@
         <translation>没有图纸时的起点：每个传感器自成一体，其大小由程序求得</translation>
     </message>
     <message>
-        <source>Other description</source>
-        <translation>更换描述</translation>
-    </message>
-    <message>
-        <source>Simulated is %1. A machine.json takes its place</source>
-        <translation>目前仿真的是 %1。一个 machine.json 将取代它</translation>
-    </message>
-    <message>
         <source>The machine is not described yet</source>
         <translation>机床尚未描述</translation>
     </message>
     <message>
-        <source>Open a machine.json: its parts, heat sources and where each sensor sits. Without a drawing begin with a lump for each sensor.</source>
-        <translation>打开 machine.json：其中有部件、热源和每个传感器的位置。没有图纸时，先为每个传感器用一个集总体。</translation>
-    </message>
-    <message>
         <source>The description has no rod: see the channels.</source>
         <translation>描述中没有杆件：请看通道。</translation>
+    </message>
+    <message>
+        <source>Describe the machine</source>
+        <translation>描述机床</translation>
+    </message>
+    <message>
+        <source>Edit description</source>
+        <translation>编辑描述</translation>
+    </message>
+    <message>
+        <source>Simulated is %1. It is changed here, or a machine.json takes its place</source>
+        <translation>当前仿真依据：%1。可在此修改，或用 machine.json 替换</translation>
+    </message>
+    <message>
+        <source>Enter its parts, heat sources and where each sensor sits; typical values are offered. Or open a machine.json. Without a drawing begin with a lump for each sensor.</source>
+        <translation>请填写部件、热源以及各传感器的位置；会提供典型值。也可打开 machine.json。没有图纸时，先为每个传感器用一个集总体。</translation>
     </message>
 </context>
 <context>

@@ -22,6 +22,7 @@
 #include "ui/pages/sensors_page.h"
 #include "ui/pages/warmup_page.h"
 #include "ui/widgets/import_dialog.h"
+#include "ui/widgets/machine_dialog.h"
 
 using zerodrift::commissioning::JobKind;
 using zerodrift::desktop::Application;
@@ -303,6 +304,79 @@ class FilesOnlyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(bench.has("warmup"));
   }
 
+  /// The machine is described in the form: drawn, checked as it is entered, taken back, kept in the job.
+  void theMachineIsDescribedInTheForm() {
+    Application application(m_theme);
+    auto& bench = application.bench();
+    application.findChild<FileOpener*>()->setAsking(false);
+    application.openFiles({write("spindle.csv", by_number())});
+    application.openPage("physics");
+    auto* physics = page<zerodrift::ui::PhysicsPage>(application, "physics");
+    QVERIFY(physics->state().undescribed);
+    pressPrimary(application);
+    auto* form = application.window().findChild<zerodrift::ui::MachineDialog*>();
+    QVERIFY(form != nullptr && form->isVisible());
+    QVERIFY2(form->state().sentence.isEmpty(), qPrintable(form->state().sentence));
+    QCOMPARE(form->state().sketch.parts.size(), 1);
+    QCOMPARE(form->state().sketch.parts[0].sensors.size(), 4);
+    const auto enter = [&](const char* key, const QString& value) {
+      auto* editor = form->findChild<QWidget*>(QStringLiteral("field:") + QString::fromLatin1(key));
+      if (auto* box = qobject_cast<QComboBox*>(editor)) {
+        const int at = box->findText(value, Qt::MatchStartsWith);
+        if (at < 0) return false;
+        box->setCurrentIndex(at);
+        Q_EMIT box->activated(at);
+        return true;
+      }
+      auto* edit = qobject_cast<QLineEdit*>(editor);
+      if (edit == nullptr) return false;
+      edit->setText(value);
+      edit->setModified(true);
+      Q_EMIT edit->editingFinished();
+      return true;
+    };
+    const auto add = [&](const char* kind) {
+      form->findChild<QAction*>(QStringLiteral("add:") + QString::fromLatin1(kind))->trigger();
+    };
+    QVERIFY(enter("length_mm", QStringLiteral("0,4")));  // metres
+    QVERIFY(!form->state().sentence.isEmpty());
+    QVERIFY(!form->findChild<QPushButton*>("take")->isEnabled());
+    QVERIFY(form->findChild<QLabel*>("problem:length_mm")->text().contains("is it in metres"));
+    form->findChild<QPushButton*>("undoForm")->click();
+    QVERIFY(form->state().sentence.isEmpty());
+    QVERIFY(enter("material", QStringLiteral("Aluminium")));
+    QVERIFY(enter("id", QStringLiteral("ram")));  // the sensors go with it
+    QVERIFY2(form->state().sentence.isEmpty(), qPrintable(form->state().sentence));
+    add("source");
+    QVERIFY(enter("mean_diameter_mm", QStringLiteral("77.5")));
+    QCOMPARE(form->state().sketch.parts[0].sources.size(), 1);
+    add("lump");
+    add("coupling");
+    QCOMPARE(form->state().sketch.couplings.size(), 1);
+    add("sensor");
+    QVERIFY(!form->state().sentence.isEmpty());  // every temperature is placed already
+    form->findChild<QPushButton*>("undoForm")->click();
+    form->findChild<QPushButton*>("take")->click();
+    QVERIFY2(physics->problem().sentence.isEmpty(), qPrintable(physics->problem().sentence));
+    QVERIFY(!physics->state().undescribed);
+    const auto& machine = bench.body("description")["machine"];
+    QCOMPARE(machine["components"].size(), std::size_t{2});
+    QCOMPARE(machine["components"][0]["material"]["density_kg_m3"].get<double>(), 2700.0);
+    QCOMPARE(machine["components"][0]["heat_sources"][0]["mean_diameter_mm"].get<double>(), 77.5);
+    QCOMPARE(machine["sensors"][0]["component"].get<std::string>(), std::string("ram"));
+
+    Q_EMIT physics->secondaryTriggered("describe");  // and edited again: a part goes with what joins it
+    QTRY_VERIFY((form = application.window().findChild<zerodrift::ui::MachineDialog*>()) != nullptr &&
+                form->isVisible());
+    Q_EMIT form->selected("components[1]");
+    form->findChild<QPushButton*>("removePart")->click();
+    QVERIFY2(form->state().sentence.isEmpty(), qPrintable(form->state().sentence));
+    QCOMPARE(form->state().sketch.parts.size(), 1);
+    QCOMPARE(form->state().sketch.couplings.size(), 0);
+    form->findChild<QPushButton*>("cancel")->click();
+    QCOMPARE(bench.body("description")["machine"]["components"].size(), std::size_t{2});
+  }
+
   /// A machine is connected later: the steps that were not needed are.
   void aMachineMayComeLater() {
     Application application(m_theme);
@@ -357,6 +431,15 @@ class FilesOnlyTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(bench.job() != nullptr);
     application.openPage("physics");
     draw("02-physics-empty");
+    Q_EMIT application.presenter("physics")->page()->primaryTriggered();
+    auto* form = application.window().findChild<zerodrift::ui::MachineDialog*>();
+    for (const char* kind : {"source", "lump", "coupling"}) Q_EMIT form->addRequested(kind);
+    Q_EMIT form->selected("components[0]");
+    draw("03-form", form);
+    Q_EMIT form->selected("components[0].heat_sources[0]");
+    Q_EMIT form->edited("components[0].heat_sources[0]", "to_mm", "4000");
+    draw("04-form-source", form);
+    form->reject();
     application.openFiles({machine});
     for (auto* presenter : application.presenters()) {
       application.openPage(presenter->id());

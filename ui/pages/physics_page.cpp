@@ -176,7 +176,7 @@ QString PhysicsPage::sentence() const {
 }
 
 PageAction PhysicsPage::primary() const {
-  if (m_state.undescribed) return {"primary", tr("Open machine.json")};
+  if (m_state.undescribed) return {"primary", tr("Describe the machine")};
   if (m_state.verdict == PhysicsVerdict::none || !m_state.blocked.isEmpty()) {
     return {"primary", tr("Find what is missing"), m_state.blocked.isEmpty(), m_state.blocked};
   }
@@ -190,7 +190,7 @@ QVector<PageAction> PhysicsPage::secondary() const {
                             true,
                             {},
                             tr("A start without a drawing: each sensor is a body of its own, its sizes are found")};
-  if (m_state.undescribed) return {lumps};
+  if (m_state.undescribed) return {{"load", tr("Open machine.json")}, lumps};
   const TrialStage stage = m_state.trial.stage;
   const bool running = stage == TrialStage::sealed || stage == TrialStage::searching;
   QVector<PageAction> actions;
@@ -208,11 +208,12 @@ QVector<PageAction> PhysicsPage::secondary() const {
                   {},
                   tr("Where on the component a sensor follows the "
                      "deformation best")});
-  actions.append({"describe",
-                  tr("Other description"),
-                  true,
-                  {},
-                  tr("Simulated is %1. A machine.json takes its place").arg(m_state.description)});
+  actions.append(
+      {"describe",
+       tr("Edit description"),
+       true,
+       {},
+       tr("Simulated is %1. It is changed here, or a machine.json takes its place").arg(m_state.description)});
   if (m_state.verdict != PhysicsVerdict::none) actions.append({"find", tr("Search again")});
   return actions;
 }
@@ -249,11 +250,10 @@ void PhysicsPage::render() {
     return;
   }
   if (m_state.undescribed) {
-    showEmpty(
-        Icon::machine, tr("The machine is not described yet"),
-        tr("Open a machine.json: its parts, heat sources and where each sensor sits. Without a drawing begin with "
-           "a lump for each sensor."),
-        tr("Open machine.json"));
+    showEmpty(Icon::machine, tr("The machine is not described yet"),
+              tr("Enter its parts, heat sources and where each sensor sits; typical values are offered. Or open a "
+                 "machine.json. Without a drawing begin with a lump for each sensor."),
+              tr("Describe the machine"));
     return;
   }
   showContent();

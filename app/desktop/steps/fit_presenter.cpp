@@ -16,6 +16,7 @@
 #include "core/recording/csv.h"
 #include "core/report/limits.h"
 #include "ui/pages/fit_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 

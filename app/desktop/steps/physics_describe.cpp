@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 
+#include "app/desktop/machine_form.h"
 #include "app/desktop/steps/physics_presenter.h"
 #include "core/base/json.h"
 #include "core/flow/steps/describe_step.h"
@@ -42,6 +43,19 @@ void PhysicsPresenter::describeByLumps() {
   const auto header = bench().job()->header().value_or(commissioning::JobHeader{});
   const std::string name = header.machine.empty() ? tr("A lump for each sensor").toStdString() : header.machine;
   takeDescription(flow::lump_for_each_sensor(bench().warmupRun(), name), tr("a lump for each sensor"));
+}
+
+void PhysicsPresenter::describeByForm() {
+  if (const Status idle = bench().idle(); !idle) return show(idle.error());
+  if (m_form == nullptr) {
+    m_form = new MachineForm(m_page->window());
+    m_form->setParent(this);
+    connect(m_form, &MachineForm::taken, this,
+            [this](const nlohmann::json& machine) { takeDescription(machine, QStringLiteral("machine.json")); });
+  }
+  const auto own = flow::description_of(*bench().job());
+  const nlohmann::json machine = own && *own ? (*own)->machine : nlohmann::json();
+  m_form->open(machine, form_channels(bench().warmupRun()));
 }
 
 }  // namespace zerodrift::desktop

@@ -86,9 +86,9 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
           [this](const QString& effect, bool adopt) { judge(effect, adopt, false); });
   connect(page, &ui::PhysicsPage::rejected, this, [this](const QString& effect) { judge(effect, false, true); });
   connect(page, &ui::PhysicsPage::experimentRequested, this, &PhysicsPresenter::proposePlan);
-  connect(page, &ui::Page::emptyActionTriggered, this, &PhysicsPresenter::chooseDescription);
+  connect(page, &ui::Page::emptyActionTriggered, this, &PhysicsPresenter::describeByForm);
   connect(page, &ui::Page::primaryTriggered, this, [this] {
-    if (m_page->state().undescribed) return chooseDescription();
+    if (m_page->state().undescribed) return describeByForm();
     if (m_page->state().verdict == ui::PhysicsVerdict::none) {
       find({});
     } else {
@@ -100,7 +100,8 @@ PhysicsPresenter::PhysicsPresenter(Workbench& bench, ui::PhysicsPage* page) : Pr
       m_page->showView(2);
       openTrial();
     }
-    if (action == QStringLiteral("describe")) chooseDescription();
+    if (action == QStringLiteral("describe")) describeByForm();
+    if (action == QStringLiteral("load")) chooseDescription();
     if (action == QStringLiteral("lumps")) describeByLumps();
     if (action == QStringLiteral("trial")) tryBlind();
     if (action == QStringLiteral("region")) findRegion();

@@ -11,6 +11,8 @@
 
 namespace zerodrift::desktop {
 
+class MachineForm;
+
 class PhysicsPresenter : public Presenter {
   Q_OBJECT
 
@@ -32,6 +34,7 @@ class PhysicsPresenter : public Presenter {
   void takeDescription(const nlohmann::json& machine, const QString& file);
   void chooseDescription();
   void describeByLumps();
+  void describeByForm();
   void judge(const QString& effect, bool adopt, bool reject);
   void keepJudgements(const Judgements& judgements);
   void tryBlind();
@@ -45,6 +48,7 @@ class PhysicsPresenter : public Presenter {
   const Compared& compared();
 
   ui::PhysicsPage* m_page;
+  MachineForm* m_form = nullptr;
   int m_component = 0;
   bool m_regionAsked = false;
   std::vector<Judgements> m_undo;

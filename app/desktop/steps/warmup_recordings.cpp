@@ -6,6 +6,7 @@
 #include "app/desktop/steps/warmup_presenter.h"
 #include "core/flow/flow.h"
 #include "ui/pages/warmup_page.h"
+#include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
 
 namespace zerodrift::desktop {
