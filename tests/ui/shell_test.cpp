@@ -12,6 +12,7 @@
 #include "ui/shell/main_window.h"
 #include "ui/shell/theme.h"
 #include "ui/widgets/colors.h"
+#include "ui/widgets/data_table.h"
 #include "ui/widgets/progress_strip.h"
 
 using namespace zerodrift::ui;
@@ -65,6 +66,8 @@ class ShellTest : public QObject {
   void quitsByKeyboard();
   void bannerShowsProblemAndAction();
   void keyboardReachesRailActionsAndFoot();
+  void enterPressesTheFocusedButton();
+  void tablesCanBeCopied();
   void paletteFindsStepsAndActions();
   void lampsCarryText();
   void logCanBeCopied();
@@ -255,6 +258,42 @@ void ShellTest::keyboardReachesRailActionsAndFoot() {
                            "primary", "back", "lamp-compensation"}) {
     QVERIFY2(reached.contains(name), name);
   }
+}
+
+void ShellTest::enterPressesTheFocusedButton() {
+  MainWindow window;
+  auto* page = new PlainPage("a");
+  window.addPage(page);
+  window.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&window));
+  window.activateWindow();
+  QSignalSpy pressed(page, &Page::primaryTriggered);
+  auto* primary = window.findChild<QPushButton*>("primary");
+  primary->setFocus();
+  QTest::keyClick(primary, Qt::Key_Return);
+  QCOMPARE(pressed.size(), 1);
+  QTest::keyClick(primary, Qt::Key_Enter, Qt::KeypadModifier);
+  QCOMPARE(pressed.size(), 2);
+  page->setEnabledAction(false);
+  QTest::keyClick(&window, Qt::Key_Return);
+  QCOMPARE(pressed.size(), 2);
+}
+
+void ShellTest::tablesCanBeCopied() {
+  DataTable table;
+  table.setColumns({{"Channel"}, {"rms", 60, true}});
+  table.setRows({{{"T1"}, {"0.5"}}, {{"T2"}, {"1.5"}}});
+  table.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&table));
+  table.activateWindow();
+  auto* view = table.findChild<QAbstractItemView*>();
+  view->setFocus();
+  view->clearSelection();
+  QTest::keyClick(view, Qt::Key_C, Qt::ControlModifier);
+  QCOMPARE(QGuiApplication::clipboard()->text(), QStringLiteral("Channel\trms\nT1\t0.5\nT2\t1.5"));
+  table.selectRow(1);
+  QTest::keyClick(view, Qt::Key_C, Qt::ControlModifier);
+  QCOMPARE(QGuiApplication::clipboard()->text(), QStringLiteral("Channel\trms\nT2\t1.5"));
 }
 
 void ShellTest::paletteFindsStepsAndActions() {

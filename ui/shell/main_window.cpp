@@ -390,6 +390,16 @@ void MainWindow::retranslate() {
   showHead();
 }
 
+/// A button leaves Enter to its window: the one that has the focus is pressed, as by the space bar.
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  const bool enter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+  auto* button = qobject_cast<QAbstractButton*>(focusWidget());
+  if (enter && !(event->modifiers() & ~Qt::KeypadModifier) && button != nullptr && button->isEnabled()) {
+    return button->click();
+  }
+  QMainWindow::keyPressEvent(event);
+}
+
 void MainWindow::changeEvent(QEvent* event) {
   if (event->type() == QEvent::LanguageChange) retranslate();
   if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) m_rail->setDark(colors().dark);

@@ -1,5 +1,6 @@
 #include "ui/widgets/channel_table.h"
 
+#include "ui/widgets/copy_rows.h"
 #include "ui/widgets/fitted_text.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/whole_rows.h"
@@ -150,6 +151,7 @@ ChannelTable::ChannelTable(QWidget* parent) : QWidget(parent) {
   m_view->setColumnWidth(stateColumn, 74);
   m_view->viewport()->installEventFilter(this);
   new WholeRows(this, m_view);
+  copyRows(m_view);
   connect(m_view->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) { Q_EMIT selected(now.isValid() ? m_model->rows[now.row()].id : QString()); });
   connect(m_view, &QTableView::clicked, this, [this](const QModelIndex& at) {

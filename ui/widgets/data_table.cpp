@@ -1,5 +1,6 @@
 #include "ui/widgets/data_table.h"
 
+#include "ui/widgets/copy_rows.h"
 #include "ui/widgets/fitted_text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/whole_rows.h"
@@ -87,6 +88,7 @@ DataTable::DataTable(QWidget* parent) : QWidget(parent) {
   m_table->horizontalHeader()->setHighlightSections(false);
   m_table->viewport()->installEventFilter(this);
   new WholeRows(this, m_table);
+  copyRows(m_table);
   connect(m_table, &QTableWidget::currentCellChanged, this, [this](int row, int, int before, int) {
     if (!m_filling && row != before) Q_EMIT rowSelected(row);
   });
