@@ -58,6 +58,9 @@ class NetworkBuilder {
   int environment(Environment environment);
   int probe(Probe probe);
   int conductivity(const std::string& component) const { return m_conductivity.at(component); }
+  /// Parameter by which the conduction between cells `face - 1` and `face` of a rod differs from its conductivity; -1:
+  /// none.
+  int conduction_share(const std::string& component, int face) const;
   int capacity(const std::string& component) const { return m_capacity.at(component); }
   /// Adds a node of its own (a body behind a surface); returns its index.
   int add_node(double volume, int capacity_parameter, double initial_C);
@@ -113,6 +116,7 @@ class NetworkBuilder {
   BuildOptions m_options;
   Network m_network;
   std::map<std::string, int> m_conductivity;
+  std::map<std::string, std::vector<int>> m_conduction_shares;  // of each stretch of a rod
   std::map<std::string, int> m_capacity;
   std::map<std::string, double> m_initial_C;
   std::map<std::string, std::vector<BearingModifier>> m_modifiers;

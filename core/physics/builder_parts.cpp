@@ -1,4 +1,6 @@
 // What every machine has: conduction, capacities, couplings, sensors, displacements.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,21 +27,43 @@ static int cells_of(const Component& rod) {
   return static_cast<int>(std::min(cells, most));
 }
 
+/// Of the described section's conduction.
+static Strength share_law(const LawPoint& point) {
+  Strength s;
+  s.value = point.values[0] * point.values[1];
+  s.by_parameter[0] = point.values[1];
+  s.by_parameter[1] = point.values[0];
+  return s;
+}
+
 /// A row of cells of this section with conduction along it; the component's conductivity and capacity are there.
 void NetworkBuilder::add_cells(const Component& component, int first, int count, double section_m2, const char* label) {
   const double cell_m = component.length_mm * m_per_mm / count;
-  Term conduction;
-  conduction.kind = TermKind::link;
-  conduction.law_kind = LawKind::constant;
-  conduction.label = component.id + label;
+  const std::vector<int>& shares = m_conduction_shares[component.id];
+  const int stretches = std::max(1, static_cast<int>(shares.size()));
+  std::vector<Term> conduction(static_cast<std::size_t>(stretches));
   for (int i = 0; i < count; ++i) {
     add_node(component.material.density_kg_m3 * section_m2 * cell_m, m_capacity[component.id],
              reference_C(component.id));
-    if (i > 0) conduction.links.push_back({first + i - 1, first + i, section_m2 / cell_m});
+    Term& stretch = conduction[static_cast<std::size_t>(i * stretches / count)];
+    if (i > 0) stretch.links.push_back({first + i - 1, first + i, section_m2 / cell_m});
   }
-  conduction.parameters = {m_conductivity[component.id]};
-  conduction.law = proportional_law;
-  add(std::move(conduction));
+  for (std::size_t i = 0; i < conduction.size(); ++i) {
+    conduction[i].kind = TermKind::link;
+    conduction[i].law_kind = LawKind::constant;
+    conduction[i].label = component.id + label;
+    conduction[i].parameters = {m_conductivity[component.id]};
+    conduction[i].law = proportional_law;
+    if (!shares.empty()) conduction[i].parameters.push_back(shares[i]), conduction[i].law = share_law;
+    add(std::move(conduction[i]));
+  }
+}
+
+int NetworkBuilder::conduction_share(const std::string& component, int face) const {
+  const auto shares = m_conduction_shares.find(component);
+  if (shares == m_conduction_shares.end() || shares->second.empty()) return -1;
+  const auto stretches = static_cast<int>(shares->second.size());
+  return shares->second[static_cast<std::size_t>(face * stretches / place(component).count)];
 }
 
 void NetworkBuilder::add_rod(const Component& component) {
@@ -62,6 +86,13 @@ void NetworkBuilder::add_rod(const Component& component) {
   c.mean = c.start = m.heat_capacity_J_kgK;
   c.sigma = m_machine.tolerances.heat_capacity;
   m_capacity[component.id] = add_parameter(c);
+  for (std::size_t i = 0; i < component.conduction_shares.size(); ++i) {
+    Parameter share = k;
+    share.key = fmt::format("conduction_share:{}", i);
+    share.mean = share.start = component.conduction_shares[i];
+    share.sigma = component.conduction_sigma;
+    m_conduction_shares[component.id].push_back(add_parameter(share));
+  }
   const double section_m2 = (1.0 - at.inner_share) * component.section_m2();
   add_cells(component, at.first, at.count, section_m2, "/conduction");
   if (component.inner) add_inner_body(component, at);
@@ -122,7 +153,7 @@ void NetworkBuilder::add_couplings() {
     if (coupling.conductance_W_K && *coupling.conductance_W_K > 0.0) {
       g.mean = g.start = *coupling.conductance_W_K;
       g.logarithmic = true;
-      g.sigma = m_machine.tolerances.conductance;
+      g.sigma = std::hypot(m_machine.tolerances.conductance, coupling.spreading_sigma);
     } else {
       // Unknown: somewhere around a time constant of an hour and a half, a factor of five either way.
       const Component& inner = first.prescribed ? second : first;

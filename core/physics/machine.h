@@ -93,6 +93,10 @@ struct Component {
   bool area_is_guessed = false;
   std::vector<HeatSource> sources;
   std::optional<InnerBody> inner;  // rods
+  /// Rods: how much better each of as many equal stretches conducts along the rod than the described section; empty:
+  /// all as described.
+  std::vector<double> conduction_shares;
+  double conduction_sigma = 0.0;  // of ln(share): how uneven the rod may be. Not in machine.json
   double section_m2() const;
   double perimeter_m() const;
   /// The source that a sensor at this place sits on, within a quarter of the diameter; null: none.
@@ -108,6 +112,7 @@ struct Coupling {
   CouplingEnd first;
   CouplingEnd second;
   std::optional<double> conductance_W_K;
+  double spreading_sigma = 0.0;  // of ln(conductance), beside the tolerance: see inner_bodies. Not in machine.json
 };
 
 /// What tells a coupling's parameter apart: the two components, and which of the couplings between them.

@@ -161,6 +161,10 @@ Component read_component(JsonObject& o) {
     component.material.expansion_1_K = m.number("expansion_1_K", expansion_range);
   }
   for (JsonObject& s : o.objects_or_empty("heat_sources")) component.sources.push_back(read_source(s, component));
+  if (!component.lump) component.conduction_shares = o.numbers_or_empty("conduction_shares");
+  for (const double share : component.conduction_shares) {
+    if (!(share > 0.0)) o.reject("conduction_shares", fmt::format("{:g}", share), "numbers above 0");
+  }
   if (JsonObject* inner = component.lump ? nullptr : o.object_if("inner_body")) read_inner_body(*inner, component);
   return component;
 }

@@ -44,6 +44,7 @@ void write_component(json& out, const Component& component) {
     material["density_kg_m3"] = component.material.density_kg_m3;
     material["heat_capacity_J_kgK"] = component.material.heat_capacity_J_kgK;
   }
+  if (!component.conduction_shares.empty()) out["conduction_shares"] = component.conduction_shares;
   if (component.inner) {
     out["inner_body"] = {{"section_share", component.inner->section_share},
                          {"coupling_W_mK", component.inner->coupling_W_mK},

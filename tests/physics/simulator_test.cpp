@@ -35,6 +35,16 @@ nlohmann::json cartridge_json() {
   return document;
 }
 
+/// Its stretches conduct differently, and it has a joint.
+nlohmann::json uneven_json() {
+  nlohmann::json document = cartridge_json();
+  document["components"][0]["conduction_shares"] = {1.3, 0.6, 0.9, 1.1};
+  document["effects"].push_back("contact_resistance");
+  document["effect_parameters"]["contact_resistance"] = {
+      {"component", "spindle"}, {"resistance_m2K_W", 2e-3}, {"position_mm", 210.3}, {"half_width_mm", 12.0}};
+  return document;
+}
+
 /// The motor's heat goes through a body of its own into both.
 nlohmann::json motor_body_json(double heat_capacity_J_K) {
   nlohmann::json document = cartridge_json();
@@ -160,6 +170,7 @@ TEST(Simulator, DerivativesAgreeWithCentralDifferences) {
   expect_exact_derivatives(coupled_json());
   expect_exact_derivatives(cartridge_json());
   expect_exact_derivatives(motor_body_json(1500.0));
+  expect_exact_derivatives(uneven_json());
 }
 
 TEST(Simulator, AShaftTightInItsCartridgeIsOneBody) {

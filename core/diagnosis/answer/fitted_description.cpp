@@ -1,5 +1,7 @@
 #include "core/diagnosis/answer/fitted_description.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/physics/builder.h"
@@ -61,6 +63,9 @@ void take_value(Machine& machine, const physics::Parameter& p, double value) {
     if (p.key == "heat_capacity_J_K") component.heat_capacity_J_K = value, component.capacity_is_guessed = false;
     if (p.key == "area_mm2") component.area_mm2 = value, component.area_is_guessed = false;
     if (p.key == "expansion_1_K") component.material.expansion_1_K = value;
+    for (std::size_t i = 0; i < component.conduction_shares.size(); ++i) {
+      if (p.key == fmt::format("conduction_share:{}", i)) component.conduction_shares[i] = value;
+    }
     if (component.inner) take_inside(*component.inner, p, value);
     for (auto& source : component.sources) {
       if (p.key == "scale:" + source.id) source.scale = value;

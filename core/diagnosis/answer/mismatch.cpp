@@ -65,13 +65,44 @@ std::vector<std::pair<double, double>> off_in(const Weighed& weighed, std::size_
   return stretches(time_s, off);
 }
 
+/// What the first recording's series would show without the effects of the best explanation, all else as fitted.
+std::vector<std::vector<double>> without_effects(const Weighed& weighed) {
+  inference::Hypothesis described = weighed.best.model().hypothesis();
+  described.effects.clear();
+  const auto model = std::make_shared<inference::JointModel>(described, weighed.best.model().shared_evidence());
+  Fit fit(model, weighed.best.sizes());
+  fit.start_from(weighed.best, false);
+  return model->predict(0, fit.z(), {}, nullptr);
+}
+
+/// How far the machine as described is off in each of the reported channels, in usual discrepancies: the change that
+/// the effects make and what they leave. Where nothing is named, what is left when everything else was fitted to it.
+std::vector<double> sizes_of_mismatch(const Weighed& weighed) {
+  const std::vector<std::vector<double>> less = without_effects(weighed);
+  const bool named = !weighed.best.model().hypothesis().effects.empty();
+  std::vector<double> sizes;
+  for (const std::size_t c : weighed.reported()) {
+    const inference::MeasuredSeries& series = weighed.evidence.runs().front().series[c];
+    const std::vector<double>& shown = weighed.best.predicted().front()[c];
+    double squares = 0.0;
+    for (std::size_t k = 0; k < shown.size(); ++k)
+      squares += std::pow(series.present[k] ? shown[k] - less[c][k] : 0, 2);
+    const double change = std::sqrt(squares / std::max(1, series.samples));
+    sizes.push_back(std::hypot(change, leftover(named ? weighed.best : weighed.base, c)) / series.slow);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 void tell_mismatch(const Weighed& weighed, Diagnosis& answer) {
+  const std::vector<double> size = sizes_of_mismatch(weighed);
   std::vector<const ChannelReport*> order;
   for (const ChannelReport& one : answer.channels) order.push_back(&one);
-  std::stable_sort(order.begin(), order.end(),
-                   [](auto* a, auto* b) { return a->excess_refitted > b->excess_refitted; });
+  const auto size_of = [&](const ChannelReport* one) {
+    return size[static_cast<std::size_t>(one - answer.channels.data())];
+  };
+  std::stable_sort(order.begin(), order.end(), [&](auto* a, auto* b) { return size_of(a) > size_of(b); });
   for (const ChannelReport* one : order) {
     if (one->excess_refitted > 1.0 || answer.mismatch.channels.empty())
       answer.mismatch.channels.push_back(one->channel);

@@ -16,6 +16,7 @@ constexpr double air_gap_W_m2K = 135.0;  // conduction through 0.2 mm of air
 constexpr double gap_rise = 0.7;         // at full speed, as the air in it turns over and the balls roll
 constexpr double bearing_contact_W_K = 30.0;
 constexpr double shaft_of_mean_diameter = 0.93;  // the balls' circle is a little wider than the shaft
+constexpr double iron_J_m3K = 3.6e6, iron_m2_s = 1.4e-5, iron_W_mK = 50.0;
 constexpr double fast_s = 25.0;                  // a section that evens out quicker is one body
 
 /// Mean diameter of the bearings, 0 without any.
@@ -71,14 +72,51 @@ double crosses_s(double length_m, double diffusivity_m2_s) {
   return length_m * length_m / (std::numbers::pi * std::numbers::pi * diffusivity_m2_s);
 }
 
+/// Edge of a lump, as a cube of iron of its capacity.
+std::optional<double> edge_m(const Component& lump) {
+  if (!lump.heat_capacity_J_K || lump.capacity_is_guessed) return std::nullopt;
+  return std::cbrt(*lump.heat_capacity_J_K / iron_J_m3K);
+}
+
+/// Heat that enters a part through a joint spreads in it before it is even over the section: 1 / (2 k d) into a half
+/// space through a disc of diameter d (Holm 1967), and of the joint nobody states more than its area. K/W.
+double spreading_K_W(const Component& part) {
+  if (part.prescribed) return 0.0;
+  if (part.lump) return 0.5 / (iron_W_mK * edge_m(part).value_or(1e9));
+  return 0.5 / (part.material.conductivity_W_mK * 1e-3 * part.outer_diameter_mm);
+}
+
+void let_joints_spread(physics::Machine& machine) {
+  for (auto& joint : machine.couplings) {
+    const Component *first = machine.find(joint.first.component), *second = machine.find(joint.second.component);
+    if (first == nullptr || second == nullptr || !joint.conductance_W_K) continue;
+    joint.spreading_sigma = std::log1p(*joint.conductance_W_K * (spreading_K_W(*first) + spreading_K_W(*second)));
+  }
+}
+
+/// A rod that carries other parts is a casting, a column with its guideways, a lantern with its flange: the section
+/// that is described is a mean, and no stretch of about half a diameter has to be like the next. Where the section
+/// changes or something touches it, the heat's way is longer or shorter by a part of a diameter.
+void let_rods_be_uneven(physics::Machine& machine) {
+  constexpr double fewest = 2.0, most = 8.0, longer = 0.15;
+  for (Component& part : machine.components) {
+    if (part.lump || part.prescribed || !touches_lump(machine, part.id)) continue;
+    if (part.conduction_shares.empty()) {
+      const double stretches = std::clamp(std::round(2.0 * part.length_mm / part.outer_diameter_mm), fewest, most);
+      part.conduction_shares.assign(static_cast<std::size_t>(stretches), 1.0);
+    }
+    const double stretch_mm = part.length_mm / static_cast<double>(part.conduction_shares.size());
+    part.conduction_sigma = longer * part.outer_diameter_mm / stretch_mm;
+  }
+}
+
 /// How late a sensor may be on a part whose section the description takes as even though nobody knows where in it the
 /// heat enters: a lump, taken as a cube of iron of its capacity, and a rod that exchanges heat with one.
 std::optional<double> lateness_s(const physics::Machine& machine, const Component& part) {
-  constexpr double iron_J_m3K = 3.6e6, iron_m2_s = 1.4e-5;
   if (part.prescribed) return std::nullopt;
   if (part.lump) {
-    if (!part.heat_capacity_J_K || part.capacity_is_guessed) return std::nullopt;
-    return crosses_s(std::cbrt(*part.heat_capacity_J_K / iron_J_m3K), iron_m2_s);
+    const auto edge = edge_m(part);
+    return edge ? std::optional(crosses_s(*edge, iron_m2_s)) : std::nullopt;
   }
   if (!touches_lump(machine, part.id)) return std::nullopt;
   const physics::Material& m = part.material;
@@ -99,6 +137,8 @@ void let_sensors_be_late(physics::Machine& machine) {
 
 physics::Machine with_inner_bodies(physics::Machine machine) {
   let_sensors_be_late(machine);
+  let_joints_spread(machine);
+  let_rods_be_uneven(machine);
   for (Component& component : machine.components) {
     if (component.lump || component.prescribed || component.inner) continue;
     const physics::Material& m = component.material;

@@ -117,6 +117,20 @@ Law step_law(const Probe& probe, int first, double sensor_m, double cell_m) {
   };
 }
 
+/// Of a rod that conducts unevenly: the law of `at.values[2]`, a conductivity, times the last parameter.
+Law uneven(Law even) {
+  return [even = std::move(even)](const LawPoint& at) {
+    constexpr std::size_t k = 2, share = 4;
+    std::array<double, share> values{at.values[0], at.values[1], at.values[k] * at.values[share], at.values[3]};
+    LawPoint there = at;
+    there.values = values.data();
+    Strength s = even(there);
+    s.by_parameter[share] = s.by_parameter[k] * at.values[k];
+    s.by_parameter[k] *= at.values[share];
+    return s;
+  };
+}
+
 /// Sensors read the outer cells.
 void add_steps(NetworkBuilder& builder, const std::string& id, const std::vector<int>& parameters) {
   const auto at = builder.place(id);
@@ -130,6 +144,10 @@ void add_steps(NetworkBuilder& builder, const std::string& id, const std::vector
     step.probe = builder.probe({{last, 1.0}, {last - 1, -1.0}});
     step.parameters = parameters;
     step.law = step_law(probe, at.first, m_per_mm * sensor.position_mm, at.cell_m);
+    if (const int share = builder.conduction_share(id, last - at.first); share >= 0) {
+      step.parameters.push_back(share);
+      step.law = uneven(std::move(step.law));
+    }
     seen->steps.push_back(std::move(step));
   }
 }
@@ -156,6 +174,10 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
       term.links = {{first + face - 1, first + face, 1.0}};
       term.parameters = {resistance, place, builder.conductivity(id), half_width};
       term.law = face_law(face, at.cell_m, section_share * component.section_m2());
+      if (const int share = builder.conduction_share(id, face); share >= 0) {
+        term.parameters.push_back(share);
+        term.law = uneven(std::move(term.law));
+      }
       builder.add(std::move(term));
     }
   };
