@@ -57,6 +57,7 @@ machine = {
                  "law_watts": {"on": 3.0, "n": 1.0}, "full_speed_rpm": 6000},
                 {"id": "nut", "kind": "nut", "from_mm": 0, "to_mm": 5, "channel": "spindle_rpm", "friction_N": 90},
                 {"id": "guide", "kind": "guide", "from_mm": 0, "to_mm": 5, "channel": "spindle_rpm", "friction_N": 90}],
+            "conduction_shares": [1.1, 0.9],
             "inner_body": {"section_share": 0.3, "coupling_W_mK": 20, "coupling_rise": 0.1, "growth_share": 0.3,
                            "shaft_in_cartridge": False, "heat_share": {"motor": 0.4}, "contact_W_K": {"motor": 9.0},
                            "near_field_K_W": {"T1_C": 0.01}, "near_lag_s": 60}},
