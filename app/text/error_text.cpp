@@ -17,7 +17,7 @@ struct Row {
 
 constexpr std::array rows = {
     Row{ErrorCode::cancelled, QT_TRANSLATE_NOOP("errors", "The work was cancelled."),
-        QT_TRANSLATE_NOOP("errors", "Nothing was changed; start it again when you are ready.")},
+        QT_TRANSLATE_NOOP("errors", "What was finished until then is kept; start it again when you are ready.")},
     Row{ErrorCode::internal,
         QT_TRANSLATE_NOOP("errors", "Something unexpected happened inside the program ({detail})."),
         QT_TRANSLATE_NOOP("errors", "Nothing was lost; please send the log to support.")},

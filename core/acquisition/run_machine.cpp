@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/machine_fault.h"
@@ -19,6 +20,10 @@ constexpr double clock_slack_s = 0.5;
 // The machine's clock went on so much further than ours between two readings: this computer slept.
 constexpr double asleep_s = 20.0;      // machine
 constexpr double asleep_wall_s = 5.0;  // on a quick machine jitter of ours is long
+// A spindle that is off its speed by so much for so long does not follow the command.
+constexpr double other_speed_share = 0.1;  // overrides are in steps of 10 %, drives keep 1 %
+constexpr double other_speed_least_rpm = 50.0;
+constexpr double spin_up_s = 60.0;  // machine; large spindles take half a minute
 
 }  // namespace
 
@@ -57,7 +62,28 @@ auto Run::patiently(Call call) -> decltype(call()) {
 }
 
 Status Run::command(double spindle_rpm, bool coolant_on, bool path_cycle) {
-  return patiently([&] { return m_machine.command(spindle_rpm, coolant_on, path_cycle); });
+  ZD_CHECK(patiently([&] { return m_machine.command(spindle_rpm, coolant_on, path_cycle); }));
+  m_commanded_rpm = spindle_rpm;
+  m_other_speed_since_s.reset();
+  return {};
+}
+
+/// Another program or an operator commands the machine, or an override is turned: what is recorded is not the plan.
+void Run::watch_speed(const MachineSample& sample) {
+  if (!m_commanded_rpm) return;
+  const double wanted_rpm = *m_commanded_rpm;
+  const double allowed_rpm = std::max(other_speed_least_rpm, other_speed_share * wanted_rpm);
+  if (!(std::abs(sample.spindle_rpm - wanted_rpm) > allowed_rpm)) {
+    m_other_speed_since_s.reset();
+    clear("speed");
+    return;
+  }
+  if (!m_other_speed_since_s) m_other_speed_since_s = sample.machine_time_s;
+  if (sample.machine_time_s - *m_other_speed_since_s < spin_up_s) return;
+  raise("speed", {ErrorCode::data_does_not_fit,
+                  {{"what", "the spindle's speed"},
+                   {"found", fmt::format("{:.0f} rpm", sample.spindle_rpm)},
+                   {"expected", fmt::format("{:.0f} rpm, as this run commanded", wanted_rpm)}}});
 }
 
 Result<Stand> Run::come_to_measuring_position() {
@@ -110,6 +136,7 @@ Status Run::accept(const MachineSample& sample) {
     m_time_s = std::max(m_time_s, sample.machine_time_s - m_start.origin_s);
   }
   m_read_at = now;
+  watch_speed(sample);
   if (m_options.each_sample) ZD_CHECK(m_options.each_sample(sample));
   return {};
 }

@@ -46,14 +46,26 @@ class Loop {
   /// Refusals before anything is written.
   Status prepare() {
     ZD_CHECK(m_machine.may_write("Compensating"));
-    ZD_TRY(const auto identity, m_machine.identify());
+    ZD_TRY(const auto identity, patiently([this] { return m_machine.identify(); }));
     if (!identity.accepts_host_offset) {
       return fail(ErrorCode::machine_unsupported,
                   {{"what", "the host offset"}, {"found", "none"}, {"expected", "one to write to"}});
     }
-    if (identity.accepts_table) ZD_CHECK(refuse_active_table());
-    ZD_TRY(m_was_on, m_machine.compensation_on());
+    if (identity.accepts_table) ZD_CHECK(patiently([this] { return refuse_active_table(); }));
+    ZD_TRY(m_was_on, patiently([this] { return m_machine.compensation_on(); }));
     return m_was_on || m_options.switch_on ? Status() : compensation::allow_offset_write(false);
+  }
+
+  /// Asked again while the fault may pass by itself.
+  template <class Call>
+  auto patiently(Call call) -> decltype(call()) {
+    const double end_s = m_clock.steady().count() + m_options.give_up_s;
+    for (;;) {
+      auto answer = call();
+      const bool again = !answer && acquisition::may_pass(answer.error()) && m_clock.steady().count() < end_s;
+      if (!again || m_context.cancelled()) return answer;
+      m_clock.wait_for(Seconds(std::min(m_options.period_s, 0.2)), m_context.stop);
+    }
   }
 
   Status refuse_active_table() {
@@ -67,13 +79,14 @@ class Loop {
 
   /// What an earlier end without an exit left in the registers would move the axes with the switch.
   Status turn_on() {
-    ZD_TRY(auto held_um, read_host_offset(m_machine));
+    const auto held = [this] { return read_host_offset(m_machine); };
+    ZD_TRY(auto held_um, patiently(held));
     const double end_s = m_clock.steady().count() + m_machine.host_seconds(60.0);
     while (!is_zero(held_um)) {
       const Status cleared = m_machine.clear_host_offset();
       if (!cleared && !acquisition::may_pass(cleared.error())) return cleared;
       m_clock.wait_for(Seconds(0.1), m_context.stop);
-      ZD_TRY(held_um, read_host_offset(m_machine));
+      ZD_TRY(held_um, patiently(held));
       if (m_clock.steady().count() > end_s || m_context.cancelled()) break;
     }
     if (!is_zero(held_um)) {

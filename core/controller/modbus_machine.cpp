@@ -334,9 +334,11 @@ Status ModbusMachine::switch_compensation(bool on) {
       // Once a second: a command that came over spoilt is not waited for in vain.
       command_again = after(sent ? 1.0 : 0.1);
     }
-    ZD_TRY(const bool is_on, compensation_on());
-    if (is_on == on) return {};
+    const auto is_on = compensation_on();
+    if (!is_on && !acquisition::may_pass(is_on.error())) return fail(is_on.error());
+    if (is_on && *is_on == on) return {};
     if (std::chrono::steady_clock::now() > end) {
+      if (!is_on) return fail(is_on.error());
       return fail(ErrorCode::machine_not_ready,
                   {{"what", on ? "compensation on" : "compensation off"}, {"reason", "the switch does not follow"}});
     }

@@ -1,6 +1,7 @@
 #include "core/flow/commission.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/acquisition/job_sink.h"
 #include "core/controller/active_table.h"
@@ -51,6 +52,7 @@ class Commissioning {
       ZD_CHECK(name_job(m_job));
     }
     // A table that is active already would falsify what is measured.
+    ZD_TRY(m_switched_off, m_devices.machine->compensation_on());
     ZD_CHECK(switched(false));
     if (!interrupted) {
       CalibrateOptions calibrate_options;
@@ -103,6 +105,15 @@ class Commissioning {
     return {};
   }
 
+  /// Ended before anything was written: the switch as it was found.
+  Status leave(const Error& error) {
+    // Whoever let it be switched off wants it back.
+    if (m_switched_off && !switch_compensation(&m_job, m_devices, Consent::given(), true)) {
+      return fail(ErrorCode::compensation_ended, {{"reason", describe(error)}, {"switch", "off"}});
+    }
+    return fail(error);
+  }
+
  private:
   bool current(const std::string& id) const { return status_of(m_job, id).state == StepState::current; }
 
@@ -138,13 +149,16 @@ class Commissioning {
   }
 
   Status write(const std::optional<compensation::Table>& table) {
-    return step("upload", table ? 0.0 : 0.02, [&](Job& job, const auto& c) {
+    const bool switched_off = std::exchange(m_switched_off, false);
+    const Status done = step("upload", table ? 0.0 : 0.02, [&](Job& job, const auto& c) {
       UploadStepOptions upload_options;
       upload_options.consent = m_options.consent;
       upload_options.table = table;
       upload_options.sign_check = !table;  // checked with the first table
       return upload(job, m_devices, upload_options, c);
     });
+    m_switched_off = switched_off && !done && done.error().code == ErrorCode::not_confirmed;
+    return done;
   }
 
   Status prove(double share) {
@@ -161,6 +175,7 @@ class Commissioning {
   const TaskContext& m_context;
   const Flow m_flow;
   double m_done = 0.0;
+  bool m_switched_off = false;  // by us, and no table was written since
 };
 
 }  // namespace
@@ -178,10 +193,13 @@ Result<CommissionResult> commission(Job& job, const controller::Profile& profile
   ZD_CHECK(acquisition::with_measuring_position(options.plan, profile.measure_position_mm).map([](const auto&) {}));
   ZD_TRY(Devices devices, Devices::open(profile, true, options.permit));
   Commissioning work(job, devices, options, context);
-  ZD_CHECK(work.measure(profile_document));
-  ZD_CHECK(work.analyse());
-  ZD_CHECK(work.compensate());
-  ZD_CHECK(work.correct());
+  const auto all = [&]() -> Status {
+    ZD_CHECK(work.measure(profile_document));
+    ZD_CHECK(work.analyse());
+    ZD_CHECK(work.compensate());
+    return work.correct();
+  };
+  if (const Status done = all(); !done) return fail(work.leave(done.error()).error());
   CommissionResult result;
   ZD_TRY(const Input verification, need(job, "report", "verification"));
   ZD_TRY(const Input uploaded, need(job, "report", "upload"));

@@ -5554,8 +5554,8 @@
         <translation>工作已取消。</translation>
     </message>
     <message>
-        <source>Nothing was changed; start it again when you are ready.</source>
-        <translation>未作任何更改；准备好后可重新开始。</translation>
+        <source>What was finished until then is kept; start it again when you are ready.</source>
+        <translation>此前完成的部分均已保留；准备好后可重新开始。</translation>
     </message>
     <message>
         <source>Something unexpected happened inside the program ({detail}).</source>

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <stdexcept>
 
 #include "core/controller/host_compensator.h"
@@ -169,6 +170,24 @@ TEST_F(HostCompensatorTest, OneExceptionIsOvercome) {
       EXPECT_EQ(summary->lost_turns, 0);
       expect_as_found(true);
     }
+  }
+}
+
+// A gateway that answers every other request with an exception loses turns, from the first request to the switch.
+TEST_F(HostCompensatorTest, HalfOfAllRequestsMayFail) {
+  device.set(17, 0);
+  options.switch_on = true;
+  for (const int code : {6, 11}) {
+    stop = std::stop_source();
+    std::minstd_rand draw(7);
+    device.spoil_where([&](int) { return draw() % 2 == 0; }, refusal(code));
+    int more = 20;
+    const auto summary = run([&, turns = 0](const CompensatorTurn&) mutable {
+      device.set(9, static_cast<std::uint16_t>(100 * ++turns));
+      if (device.float_at(144) < -7.9 && --more == 0) stop.request_stop();
+    });
+    ASSERT_TRUE(summary) << code << ": " << describe(summary.error());
+    expect_as_found(false);
   }
 }
 

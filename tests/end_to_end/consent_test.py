@@ -60,7 +60,7 @@ def test(folder):
     job = os.path.join(folder, "job.zdj")
     report = os.path.join(folder, "report.html")
     with VirtualMachine(folder, 240, 3) as machine:
-        run = ["commission", "--profile", machine.profile, "--plan", plan, "--job", job, "--report", report]
+        run = ["commission", "--profile", machine.profile, "--plan", plan, "--report", report, "--job", job]
         before = words(machine.profile, folder)
         refused(*run)
         assert not os.path.exists(job), "a refused commissioning leaves nothing behind"
@@ -78,12 +78,22 @@ def test(folder):
                                      ("Writing the table", "no")], *run)
         assert code == 1 and "Writing the table was not confirmed" in shown, (code, shown[-2000:])
         assert words(machine.profile, folder) == foreign, "a no is a no"
-        assert trail(job) == [("switch compensation", "started"), ("switch compensation", "done")], trail(job)
+        # The table that was active compensates again.
+        switched = 2 * [("switch compensation", "started"), ("switch compensation", "done")]
+        assert trail(job) == switched, trail(job)
+        stopped = os.path.join(folder, "stopped.zdj")
+        process = subprocess.Popen([os.path.join(BIN, "zerodrift-cli"), *run[:-1], stopped, "--yes"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(12)
+        process.terminate()
+        _, said = process.communicate(timeout=120)
+        assert process.returncode == 1 and "cancelled" in said and "Nothing was changed" not in said, said
+        assert trail(stopped) == switched, trail(stopped)
         # Gone on with: what was measured and analysed is current, and the yes is given.
         code, shown = on_a_terminal([("Writing the table", "yes")] + 2 * [("Writing the table", "yes")], *run)
         assert code == 0, shown[-2000:]
         actions = [action for action, result in trail(job) if result == "done"]
-        assert actions[:3] == ["switch compensation", "test offset", "upload table"], actions
+        assert actions[:4] == ["switch compensation", "switch compensation", "test offset", "upload table"], actions
         written = words(machine.profile, folder)
         assert written != foreign
         refused("verify", "--profile", machine.profile, "--job", job, "--correct")
@@ -94,6 +104,26 @@ def test(folder):
         if json.loads(out)["verdict"] == "passed" and len(trail(job)) == entries:
             assert time.time() - started < 60
             assert words(machine.profile, folder) == written
+        another_table_meanwhile(machine, job, os.path.join(folder, "other.json"))
+    elsewhere = os.path.join(folder, "elsewhere")
+    os.mkdir(elsewhere)
+    with VirtualMachine(elsewhere, 240, 4) as machine:
+        code, _, err = cli("verify", "--profile", machine.profile, "--job", job, check=False)
+        assert code == 1 and "serial" in err, "a job of another machine is not verified here: " + err
+
+
+def another_table_meanwhile(machine, job, table):
+    """What was measured while somebody else wrote a table proves nothing of this job's."""
+    verify = subprocess.Popen([os.path.join(BIN, "zerodrift-cli"), "verify", "--profile", machine.profile, "--job", job],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    time.sleep(5)
+    while verify.poll() is None:
+        code, _, err = cli("push", "--profile", machine.profile, "--yes", "--table", table, check=False)
+        if code == 0:
+            break
+        time.sleep(0.3)
+    _, said = verify.communicate(timeout=300)
+    assert verify.returncode == 1 and "version" in said, (verify.returncode, said)
 
 
 if __name__ == "__main__":

@@ -136,12 +136,16 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   if (warmup.body.contains("zero_um") && warmup.body["zero_um"].is_array()) {
     recorder_options.zero_um = warmup.body["zero_um"].get<std::array<double, 3>>();
   }
+  ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_CHECK(same_machine(job, "verify", identity.serial));
   ZD_TRY(const auto start, devices.machine->read());
   ZD_CHECK(table_is_active(devices, upload.body));
   // The switch may have been turned a moment ago: what is still on its way would count as error.
   ZD_CHECK(devices.machine->wait_for_ramp(true, context.stop).map([](double) {}));
   ZD_TRY(const RecordedRun run, record_run(job, devices, run_options, recorder_options, context));
   if (run.summary.end == acquisition::RunEnd::aborted) return fail(ErrorCode::cancelled);
+  // Whoever wrote another one meanwhile has changed what was measured.
+  ZD_CHECK(table_is_active(devices, upload.body));
   ZD_TRY(const auto after, job.read_series(run.series));
   ZD_TRY(const auto before, run_of(job, warmup));
   json body = run.body();
