@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 345> machines = {{
+constexpr std::array<const char*, 348> machines = {{
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),
@@ -96,6 +96,9 @@ constexpr std::array<const char*, 345> machines = {{
     QT_TRANSLATE_NOOP("core", "the check sum of this content: it was changed after it was made (make the table anew)"),
     QT_TRANSLATE_NOOP("core", "the host offset"),
     QT_TRANSLATE_NOOP("core", "one to write to"),
+    QT_TRANSLATE_NOOP("core", "the spindle's speed"),
+    QT_TRANSLATE_NOOP("core", "%1 rpm"),
+    QT_TRANSLATE_NOOP("core", "%1 rpm, as this run commanded"),
     QT_TRANSLATE_NOOP("core", "the controller's own table"),
     QT_TRANSLATE_NOOP("core", "an active one (version %1) that compensates already"),
     QT_TRANSLATE_NOOP("core", "none beside the host compensator; roll it back first"),

@@ -1179,6 +1179,18 @@
         <translation>一个可写入的偏置</translation>
     </message>
     <message>
+        <source>the spindle&apos;s speed</source>
+        <translation>主轴转速</translation>
+    </message>
+    <message>
+        <source>%1 rpm</source>
+        <translation>%1 r/min</translation>
+    </message>
+    <message>
+        <source>%1 rpm, as this run commanded</source>
+        <translation>本次运行所指令的 %1 r/min</translation>
+    </message>
+    <message>
         <source>the controller&apos;s own table</source>
         <translation>控制器自身的补偿表</translation>
     </message>
