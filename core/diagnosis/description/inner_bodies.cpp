@@ -17,7 +17,7 @@ constexpr double gap_rise = 0.7;         // at full speed, as the air in it turn
 constexpr double bearing_contact_W_K = 30.0;
 constexpr double shaft_of_mean_diameter = 0.93;  // the balls' circle is a little wider than the shaft
 constexpr double iron_J_m3K = 3.6e6, iron_m2_s = 1.4e-5, iron_W_mK = 50.0;
-constexpr double fast_s = 25.0;                  // a section that evens out quicker is one body
+constexpr double fast_s = 25.0;  // a section that evens out quicker is one body
 
 /// Mean diameter of the bearings, 0 without any.
 double bearing_diameter_mm(const Component& component) {
