@@ -153,7 +153,7 @@ void NetworkBuilder::add_couplings() {
     if (coupling.conductance_W_K && *coupling.conductance_W_K > 0.0) {
       g.mean = g.start = *coupling.conductance_W_K;
       g.logarithmic = true;
-      g.sigma = std::hypot(m_machine.tolerances.conductance, coupling.spreading_sigma);
+      g.sigma = m_machine.tolerances.conductance;
     } else {
       // Unknown: somewhere around a time constant of an hour and a half, a factor of five either way.
       const Component& inner = first.prescribed ? second : first;

@@ -112,7 +112,6 @@ struct Coupling {
   CouplingEnd first;
   CouplingEnd second;
   std::optional<double> conductance_W_K;
-  double spreading_sigma = 0.0;  // of ln(conductance), beside the tolerance: see inner_bodies. Not in machine.json
 };
 
 /// What tells a coupling's parameter apart: the two components, and which of the couplings between them.

@@ -60,13 +60,6 @@ TEST(UnevenRod, IsOneThatTouchesALump) {
   EXPECT_TRUE(machine.find("bar")->conduction_shares.empty());  // heated as drawn
 }
 
-TEST(UnevenRod, HasJointsThatConductLessByWhatHeatNeedsToSpread) {
-  const auto described = physics::machine_from_json(lantern(), "machine.json");
-  ASSERT_TRUE(described.has_value());
-  // 1 / (2 k d) of a face of 0.1 m and of a cube of 0.2 m: 0.111 and 0.05 K/W, beside 0.05 of the joint itself.
-  EXPECT_NEAR(with_inner_bodies(*described).couplings.front().spreading_sigma, std::log(1.0 + 20.0 * 0.161), 0.01);
-}
-
 TEST(UnevenRod, IsDescribedWithItsShares) {
   nlohmann::json document = lantern();
   document["components"][1]["conduction_shares"] = {1.0, 0.5};

@@ -35,13 +35,10 @@ nlohmann::json cartridge_json() {
   return document;
 }
 
-/// Its stretches conduct differently, and it has a joint.
+/// Its stretches conduct differently.
 nlohmann::json uneven_json() {
   nlohmann::json document = cartridge_json();
   document["components"][0]["conduction_shares"] = {1.3, 0.6, 0.9, 1.1};
-  document["effects"].push_back("contact_resistance");
-  document["effect_parameters"]["contact_resistance"] = {
-      {"component", "spindle"}, {"resistance_m2K_W", 2e-3}, {"position_mm", 210.3}, {"half_width_mm", 12.0}};
   return document;
 }
 

@@ -16,7 +16,7 @@ constexpr double air_gap_W_m2K = 135.0;  // conduction through 0.2 mm of air
 constexpr double gap_rise = 0.7;         // at full speed, as the air in it turns over and the balls roll
 constexpr double bearing_contact_W_K = 30.0;
 constexpr double shaft_of_mean_diameter = 0.93;  // the balls' circle is a little wider than the shaft
-constexpr double iron_J_m3K = 3.6e6, iron_m2_s = 1.4e-5, iron_W_mK = 50.0;
+constexpr double iron_J_m3K = 3.6e6, iron_m2_s = 1.4e-5;
 constexpr double fast_s = 25.0;  // a section that evens out quicker is one body
 
 /// Mean diameter of the bearings, 0 without any.
@@ -78,22 +78,6 @@ std::optional<double> edge_m(const Component& lump) {
   return std::cbrt(*lump.heat_capacity_J_K / iron_J_m3K);
 }
 
-/// Heat that enters a part through a joint spreads in it before it is even over the section: 1 / (2 k d) into a half
-/// space through a disc of diameter d (Holm 1967), and of the joint nobody states more than its area. K/W.
-double spreading_K_W(const Component& part) {
-  if (part.prescribed) return 0.0;
-  if (part.lump) return 0.5 / (iron_W_mK * edge_m(part).value_or(1e9));
-  return 0.5 / (part.material.conductivity_W_mK * 1e-3 * part.outer_diameter_mm);
-}
-
-void let_joints_spread(physics::Machine& machine) {
-  for (auto& joint : machine.couplings) {
-    const Component *first = machine.find(joint.first.component), *second = machine.find(joint.second.component);
-    if (first == nullptr || second == nullptr || !joint.conductance_W_K) continue;
-    joint.spreading_sigma = std::log1p(*joint.conductance_W_K * (spreading_K_W(*first) + spreading_K_W(*second)));
-  }
-}
-
 /// A rod that carries other parts is a casting, a column with its guideways, a lantern with its flange: the section
 /// that is described is a mean, and no stretch of about half a diameter has to be like the next. Where the section
 /// changes or something touches it, the heat's way is longer or shorter by a part of a diameter.
@@ -137,7 +121,6 @@ void let_sensors_be_late(physics::Machine& machine) {
 
 physics::Machine with_inner_bodies(physics::Machine machine) {
   let_sensors_be_late(machine);
-  let_joints_spread(machine);
   let_rods_be_uneven(machine);
   for (Component& component : machine.components) {
     if (component.lump || component.prescribed || component.inner) continue;
