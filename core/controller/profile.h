@@ -12,28 +12,9 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/controller/device_profile.h"
 
 namespace zerodrift::controller {
-
-enum class LinkKind {
-  tcp,
-  rtu,
-};
-
-struct ControllerSettings {
-  LinkKind kind = LinkKind::tcp;
-  std::string host = "127.0.0.1";
-  int port = 502;
-  std::string device;  // RTU: serial port
-  int baud = 19200;
-  char parity = 'E';  // N, E, O
-  int stop_bits = 1;
-  int unit = 1;
-  int timeout_ms = 1000;
-  std::string register_map = "zerodrift-virtual";  // name of a shipped map, or a path
-  std::shared_ptr<const nlohmann::json> own_map;   // the map itself, where a profile carries it (in a job)
-  int chunk_registers = 64;                        // registers a write when a table is staged; 8 to 123
-};
 
 struct CameraProfile {
   std::string id;
