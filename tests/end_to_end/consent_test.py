@@ -7,7 +7,9 @@ Usage: consent_test.py"""
 import json
 import os
 import pty
+import re
 import subprocess
+import threading
 import time
 
 from virtual_machine import BIN, VirtualMachine, cli, run_in_folder, warm_up_plan, write_json
@@ -23,8 +25,9 @@ def trail(job):
     return [(entry["action"], entry["result"]) for entry in json.loads(out)["entries"]]
 
 
-def on_a_terminal(answers, *arguments):
-    """Runs zerodrift-cli on a terminal of its own; each answer is typed when its question has come."""
+def on_a_terminal(answers, *arguments, seen=None):
+    """Runs zerodrift-cli on a terminal of its own; each answer is typed when its question has come. `seen` is told what
+    stands there."""
     main, other = pty.openpty()
     process = subprocess.Popen([os.path.join(BIN, "zerodrift-cli"), *arguments], stdin=other, stdout=other, stderr=other,
                                close_fds=True)
@@ -39,6 +42,8 @@ def on_a_terminal(answers, *arguments):
         if not read:
             break
         shown += read
+        if seen:
+            seen(shown)
         if answers and answers[0][0] in shown:
             os.write(main, (answers.pop(0)[1] + "\n").encode())
     code = process.wait(600)
@@ -118,16 +123,21 @@ def test(folder):
 
 def another_table_meanwhile(machine, job, table):
     """What was measured while somebody else wrote a table proves nothing of this job's."""
-    verify = subprocess.Popen([os.path.join(BIN, "zerodrift-cli"), "verify", "--profile", machine.profile, "--job", job],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    time.sleep(5)
-    while verify.poll() is None:
-        code, _, err = cli("push", "--profile", machine.profile, "--yes", "--table", table, check=False)
-        if code == 0:
-            break
-        time.sleep(0.3)
-    _, said = verify.communicate(timeout=300)
-    assert verify.returncode == 1 and "version" in said, (verify.returncode, said)
+    measuring = threading.Event()
+
+    def write():
+        measuring.wait(300)
+        cli("push", "--profile", machine.profile, "--yes", "--table", table)
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    # The progress says when the run is under way.
+    code, said = on_a_terminal([], "verify", "--profile", machine.profile, "--job", job,
+                               seen=lambda shown: re.search(r"[1-9]\d* % ", shown) and measuring.set())
+    measuring.set()
+    writer.join()
+    # Told by the table's version at the end, or at once by the switch, which is off while a table is exchanged.
+    assert code == 1 and ("version" in said or "compensation is OFF" in said), (code, said)
 
 
 if __name__ == "__main__":
