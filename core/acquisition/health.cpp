@@ -49,13 +49,15 @@ bool is_ok(const SensorHealth& sensor) {
 }
 
 // Without any change where most others change: stuck. On a machine whose sensors are all quiet nothing can be said.
-void find_stuck(std::vector<SensorHealth>& sensors, std::size_t readings) {
-  if (readings < readings_for_stuck) return;
+void find_stuck(std::vector<SensorHealth>& sensors, const std::vector<std::vector<double>>& by_sensor) {
   const auto moving =
       std::count_if(sensors.begin(), sensors.end(), [](const SensorHealth& s) { return s.noise_C > 0.0; });
   if (2 * moving <= static_cast<std::ptrdiff_t>(sensors.size())) return;
-  for (SensorHealth& sensor : sensors) {
-    if (sensor.state == SensorState::ok && sensor.noise_C == 0.0) sensor.state = SensorState::stuck;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const bool enough = by_sensor[s].size() >= readings_for_stuck;
+    if (enough && sensors[s].state == SensorState::ok && sensors[s].noise_C == 0.0) {
+      sensors[s].state = SensorState::stuck;
+    }
   }
 }
 
@@ -99,7 +101,7 @@ std::vector<SensorHealth> judged(const std::vector<SensorInfo>& sensors,
   for (std::size_t s = 0; s < by_sensor.size(); ++s) {
     out.push_back(judge(s < sensors.size() ? sensors[s] : SensorInfo{}, by_sensor[s]));
   }
-  find_stuck(out, by_sensor.empty() ? 0 : by_sensor.front().size());
+  find_stuck(out, by_sensor);
   return out;
 }
 
@@ -120,6 +122,7 @@ Result<MachineHealth> machine_health(MachineIo& machine, Clock& clock, const Hea
   ZD_TRY(health.identity, machine.identify());
   Readings readings;
   readings.by_sensor.resize(health.identity.sensors.size());
+  std::vector<Seconds> read_at(health.identity.sensors.size(), Seconds(-1.0));
   double first_machine_s = 0.0;
   Seconds first_host{0.0};
   Seconds last_host{0.0};
@@ -138,6 +141,10 @@ Result<MachineHealth> machine_health(MachineIo& machine, Clock& clock, const Hea
     }
     for (std::size_t s = 0; s < readings.by_sensor.size(); ++s) {
       const bool there = s < health.last.temperature_C.size();
+      const Seconds at = s < health.last.temperature_at.size() ? health.last.temperature_at[s] : host_clock().steady();
+      // A value that a device has not renewed is not another reading.
+      if (there && at == read_at[s]) continue;
+      read_at[s] = at;
       readings.by_sensor[s].push_back(there ? health.last.temperature_C[s] : std::nan(""));
     }
     context.progress((i + 1.0) / options.readings, "health");

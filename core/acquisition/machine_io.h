@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/base/result.h"
 
 namespace zerodrift::acquisition {
@@ -47,8 +49,11 @@ struct MachineSample {
   bool alarm = false;
   double ambient_C = 0.0;
   std::vector<double> temperature_C;               // in the order of MachineIdentity::sensors
+  std::vector<Seconds> temperature_at{};           // host time of each, where they are not of one request; else empty
   std::array<double, 3> applied_um{};              // compensation the controller applies now, X Y Z
   std::optional<std::array<double, 5>> probes_um;  // displacement probes X1 X2 Y1 Y2 Z, if there are any
+  Seconds probes_at{0.0};                                       // host time of these
+  std::map<std::string, Error> device_faults{};  // device of the rig -> why its values are missing
 };
 
 class MachineIo {
@@ -61,6 +66,16 @@ class MachineIo {
   /// Moves the linear axes named and returns when the machine stands there, or fails with a timeout.
   virtual Status move_to(const std::map<std::string, double>& target_mm) = 0;
   virtual Status switch_compensation(bool on) = 0;
+  virtual Result<bool> compensation_on() {
+    return read().map([](const MachineSample& sample) { return sample.compensation_on; });
+  }
+  /// Waits until the ramp of the applied compensation has ended and what is applied has come to rest; the percentage
+  /// reached (100 when it does not tell).
+  virtual Result<double> wait_for_ramp(bool on, const std::stop_token& /*stop*/) { return on ? 100.0 : 0.0; }
+  /// A person does what is asked: each act costs their time, and the moment of it is known to that only.
+  virtual bool by_hand() const { return false; }
+  /// What was met on the way to the machine and overcome, in words; each once.
+  virtual std::vector<std::string> remarks() const { return {}; }
   /// Compensation (= -error) in um added by the host, X Y Z; needs the switch on; the machine's watchdog ramps it to 0.
   virtual Status write_host_offset(const std::array<double, 3>& compensation_um) = 0;
 };

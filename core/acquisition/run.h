@@ -58,6 +58,7 @@ class Run {
   Status accept(const MachineSample& sample);
   Status command(double spindle_rpm, bool coolant_on, bool path_cycle);
   void watch_speed(const MachineSample& sample);
+  void watch_devices(const MachineSample& sample);
   Result<Stand> come_to_measuring_position();
   Status has_measuring_position(const MachineSample& sample) const;
   /// Calls again, with growing pauses, while what fails may pass.
@@ -104,6 +105,7 @@ class Run {
   std::optional<std::size_t> m_commanded_step;  // nothing: must be commanded (again)
   std::optional<double> m_commanded_rpm;        // as the machine took it last
   std::optional<double> m_other_speed_since_s;  // machine time of the first reading with another speed than that
+  std::vector<std::string> m_failing_devices;
   std::optional<std::size_t> m_known_step;      // the conditions the trend counts from
   int m_failed_measurements = 0;
   DriftLimit m_drift;

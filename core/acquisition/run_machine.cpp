@@ -86,6 +86,18 @@ void Run::watch_speed(const MachineSample& sample) {
                    {"expected", fmt::format("{:.0f} rpm, as this run commanded", wanted_rpm)}}});
 }
 
+/// What a device of the rig fails to say is missing; the run goes on with the rest.
+void Run::watch_devices(const MachineSample& sample) {
+  for (const std::string& device : m_failing_devices) {
+    if (!sample.device_faults.contains(device)) clear("device " + device);
+  }
+  m_failing_devices.clear();
+  for (const auto& [device, fault] : sample.device_faults) {
+    m_failing_devices.push_back(device);
+    raise("device " + device, {ErrorCode::device_failing, {{"device", device}, {"reason", describe(fault)}}});
+  }
+}
+
 Result<Stand> Run::come_to_measuring_position() {
   const auto& position_mm = m_start.plan.measure_position_mm;
   const auto move = [&] { return patiently([&] { return m_machine.move_to(position_mm); }); };
@@ -137,6 +149,7 @@ Status Run::accept(const MachineSample& sample) {
   }
   m_read_at = now;
   watch_speed(sample);
+  watch_devices(sample);
   if (m_options.each_sample) ZD_CHECK(m_options.each_sample(sample));
   return {};
 }

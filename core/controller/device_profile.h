@@ -32,7 +32,6 @@ enum class DeviceKind {
   modbus,     // "modbus-tcp", "modbus-rtu": modbus holds the link
   mqtt,       // host, port, TLS; signals are "topic" or "topic#/json/pointer"
   mtconnect,  // url; signals are data item ids
-  manual,     // the control without a link: a person does what is asked
 };
 
 struct DeviceProfile {
@@ -52,7 +51,8 @@ struct DeviceProfile {
   std::string url;                // mtconnect: the agent, "http://host:5000/"
 };
 
-/// Where a quantity is read: a device of the profile, and the signal in the device's own words.
+/// Where a quantity is read: a device of the profile, and the signal in the device's own words: a register and, of
+/// several values, which one, from 1 ("temperature_C[3]"), "topic#/json/pointer", or a data item's id.
 struct SignalSource {
   std::string device;  // empty: the control
   std::string signal;

@@ -79,7 +79,7 @@ class Loop {
 
   /// What an earlier end without an exit left in the registers would move the axes with the switch.
   Status turn_on() {
-    const auto held = [this] { return read_host_offset(m_machine); };
+    const auto held = [this] { return m_machine.held_offset_um(); };
     ZD_TRY(auto held_um, patiently(held));
     const double end_s = m_clock.steady().count() + m_machine.host_seconds(60.0);
     while (!is_zero(held_um)) {

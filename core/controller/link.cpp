@@ -13,11 +13,13 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "core/acquisition/machine_fault.h"
 #include "core/controller/rtu_reply.h"
+#include "core/controller/serial_line.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -80,6 +82,20 @@ Error exception_error(int exception, const std::string& what) {
       return Error{ErrorCode::machine_gateway, {{"what", what}, {"exception", std::to_string(exception)}}};
     default:
       return Error{ErrorCode::machine_exception, {{"what", what}, {"exception", std::to_string(exception)}}};
+  }
+}
+
+/// The device's own answer, if not the one that was hoped for.
+bool answered(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::machine_busy:
+    case ErrorCode::machine_gateway:
+    case ErrorCode::machine_failed:
+    case ErrorCode::machine_exception:
+    case ErrorCode::machine_function_missing:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -272,7 +288,9 @@ class Link::Wire {
   SteadyClock::time_point m_started = SteadyClock::now();  // of the last request
 };
 
-Link::Link(ControllerSettings settings) : m_settings(std::move(settings)) {}
+Link::Link(ControllerSettings settings) : m_settings(std::move(settings)) {
+  if (m_settings.kind == LinkKind::rtu) m_line = SerialLine::of(m_settings.device);
+}
 Link::~Link() = default;
 
 void Link::close() {
@@ -280,9 +298,23 @@ void Link::close() {
 }
 
 Result<Link::Pdu> Link::exchange_once(const Pdu& request, const std::string& what, Retry retry) {
-  std::this_thread::sleep_until(m_in_peace_until);
+  std::optional<SerialLine::Turn> turn;
+  if (m_line) {
+    turn.emplace(*m_line);
+    m_line->wait_for_peace();
+  }
+  auto reply = exchange_in_turn(request, what, retry);
+  // Over a serial line nothing tells a late reply from the answer to the next question.
+  if (!reply && m_line && m_wire && !answered(reply.error())) {
+    m_line->leave_in_peace(std::chrono::milliseconds(m_settings.timeout_ms));
+  }
+  return reply;
+}
+
+Result<Link::Pdu> Link::exchange_in_turn(const Pdu& request, const std::string& what, Retry retry) {
   if (m_wire && m_wire->stale(retry == Retry::no)) m_wire.reset();
   if (!m_wire) {
+    if (m_line) ZD_CHECK(m_line->claim());
     ZD_TRY(m_wire, Wire::open(m_settings));
     if (m_was_connected) ++m_health.reconnects;
     m_was_connected = true;
@@ -340,16 +372,7 @@ Result<Link::Pdu> Link::exchange(const Pdu& request, const std::string& what, Re
     if (reply) return reply;
     const ErrorCode code = reply.error().code;
     if (acquisition::may_pass(reply.error())) ++m_health.faults[std::string(name_of(code))];
-    const bool answered = code == ErrorCode::machine_busy || code == ErrorCode::machine_gateway ||
-                          code == ErrorCode::machine_failed || code == ErrorCode::machine_exception ||
-                          code == ErrorCode::machine_function_missing;
-    if (!answered) {
-      // Over a serial line nothing tells a late reply from the answer to the next question.
-      if (m_wire && m_wire->is_serial()) {
-        m_in_peace_until = SteadyClock::now() + std::chrono::milliseconds(m_settings.timeout_ms);
-      }
-      m_wire.reset();
-    }
+    if (!answered(reply.error())) m_wire.reset();
     if (!again(reply.error(), attempt, retry)) return reply;
     ++m_health.retries;
     std::this_thread::sleep_for(std::chrono::milliseconds(std::min(10 << (2 * attempt), 500)));

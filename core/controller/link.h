@@ -8,7 +8,6 @@
 // an adapter does beside the standard and is overcome - no function 6, local echo, zero bytes - is in remarks.
 // One thread at a time.
 
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -22,6 +21,8 @@
 #include "core/controller/register_map.h"
 
 namespace zerodrift::controller {
+
+class SerialLine;
 
 enum class Retry {
   yes,
@@ -66,6 +67,7 @@ class Link {
   Status find_local_echo(const Pdu& request, const std::string& what);
   void keep_remarks();
   Result<Pdu> exchange_once(const Pdu& request, const std::string& what, Retry retry);
+  Result<Pdu> exchange_in_turn(const Pdu& request, const std::string& what, Retry retry);
   bool again(const Error& error, int attempt, Retry retry) const;
 
   ControllerSettings m_settings;
@@ -75,7 +77,7 @@ class Link {
   bool m_was_connected = false;
   std::set<int> m_answered;  // functions that the device has carried out: it does not lack them
   bool m_without_6 = false;  // the device writes single registers by function 16
-  std::chrono::steady_clock::time_point m_in_peace_until{};  // a serial line after a reply that did not come
+  std::shared_ptr<SerialLine> m_line;  // null over TCP
 };
 
 }  // namespace zerodrift::controller

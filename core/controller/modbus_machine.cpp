@@ -13,6 +13,7 @@
 #include "core/base/json.h"
 #include "core/base/resources.h"
 #include "core/compensation/interlock.h"
+#include "core/controller/device_readings.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -95,9 +96,17 @@ Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* war
 }
 
 Result<std::unique_ptr<ModbusMachine>> ModbusMachine::open(const Profile& profile, access::Permit permit) {
+  if (profile.manual) {
+    return fail(ErrorCode::machine_unsupported,
+                {{"what", "the link to the control"}, {"found", "a manual control"}, {"expected", "Modbus"}});
+  }
   ZD_TRY(RegisterMap map, map_of(profile));
-  return std::make_unique<ModbusMachine>(profile, std::move(map), permit);
+  auto machine = std::make_unique<ModbusMachine>(profile, std::move(map), permit);
+  ZD_TRY(machine->m_devices, DeviceReadings::open(profile));
+  return machine;
 }
+
+ModbusMachine::~ModbusMachine() = default;
 
 ModbusMachine::ModbusMachine(Profile profile, RegisterMap map, access::Permit permit)
     : m_profile(std::move(profile)), m_map(std::move(map)), m_permit(permit), m_link([this] {
@@ -237,10 +246,13 @@ Result<MachineIdentity> ModbusMachine::identify() {
   }
   const Register* temperatures = m_map.find("temperature_C");
   const int available = bits_of(values, "sensor_count", temperatures == nullptr ? 0 : temperatures->count);
-  if (static_cast<int>(m_profile.sensors.size()) > available) {
+  for (int number = static_cast<int>(m_profile.sensors.size()); number > available; --number) {
+    if (!m_profile.sensors[static_cast<std::size_t>(number - 1)].source.device.empty()) continue;
     return fail(not_fitting("the number of temperature sensors", std::to_string(available),
-                            fmt::format("the {} of the profile", m_profile.sensors.size())));
+                            fmt::format("the {} of the profile", number)));
   }
+  if (!m_profile.signals.probes.empty()) identity.has_probes = true;
+  if (m_devices) m_devices->wait_for_first();
   for (const auto& sensor : m_profile.sensors) {
     identity.sensors.push_back({sensor.channel, sensor.label, sensor.place, sensor.accuracy_C});
   }
@@ -280,6 +292,8 @@ Result<MachineSample> ModbusMachine::read() {
     sample.probes_um.emplace();
     std::copy_n(at->second.begin(), std::min<std::size_t>(5, at->second.size()), sample.probes_um->begin());
   }
+  sample.probes_at = host_clock().steady();
+  if (m_devices) m_devices->put_into(sample);
   return sample;
 }
 
@@ -344,6 +358,17 @@ Status ModbusMachine::switch_compensation(bool on) {
     }
     pause_ms(10);
   }
+}
+
+std::vector<std::string> ModbusMachine::remarks() const {
+  std::vector<std::string> all;
+  for (const auto& [name, count] : health().faults) {
+    all.push_back(fmt::format("link: {} {} times, overcome", name, count));
+  }
+  all.insert(all.end(), health().remarks.begin(), health().remarks.end());
+  const auto of_devices = m_devices ? m_devices->remarks() : std::vector<std::string>();
+  all.insert(all.end(), of_devices.begin(), of_devices.end());
+  return all;
 }
 
 Status ModbusMachine::beat() {
@@ -418,6 +443,12 @@ Status ModbusMachine::write_host_offset(const std::array<double, 3>& compensatio
   if (!m_watchdog_set) ZD_CHECK(set_watchdog(default_watchdog_s));
   ZD_CHECK(beat());
   return write_values("host_offset_um", {compensation_um.begin(), compensation_um.end()});
+}
+
+Result<std::array<double, 3>> ModbusMachine::held_offset_um() {
+  ZD_TRY(const RegisterValues values, read_values({"host_offset_um"}));
+  const auto& held = values.at("host_offset_um");
+  return std::array<double, 3>{held.at(0), held.at(1), held.at(2)};
 }
 
 Status ModbusMachine::clear_host_offset() {

@@ -17,6 +17,8 @@
 
 namespace zerodrift::controller {
 
+class DeviceReadings;
+
 using RegisterValues = std::map<std::string, std::vector<double>>;  // register name -> its values
 
 /// The map a profile brings with it, or names. Of a profile out of a job only a map of the program is read.
@@ -24,11 +26,13 @@ Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* war
 
 class ModbusMachine : public acquisition::MachineIo {
  public:
-  /// Loads the profile's register map; the first request connects. Without a permit to write every write is
+  /// Loads the profile's register map and starts to ask the rig's devices; the first request connects. Without a permit to write every write is
   /// access_locked before a byte is sent.
   static Result<std::unique_ptr<ModbusMachine>> open(const Profile& profile,
                                                      access::Permit permit = access::Permit::read_only());
+  /// The control alone.
   ModbusMachine(Profile profile, RegisterMap map, access::Permit permit);
+  ~ModbusMachine() override;
 
   Result<acquisition::MachineIdentity> identify() override;
   Result<acquisition::MachineSample> read() override;
@@ -37,6 +41,8 @@ class ModbusMachine : public acquisition::MachineIo {
   Status switch_compensation(bool on) override;
   /// Also beats the host heartbeat. interlock_compensation_off while the switch is off.
   Status write_host_offset(const std::array<double, 3>& compensation_um) override;
+  /// What the offset registers hold, X Y Z.
+  Result<std::array<double, 3>> held_offset_um();
   /// Takes the host offset out of the registers at once, with the switch off as well: 0 compensates nothing. With the
   /// switch on it is no way out, for the axes would jump.
   Status clear_host_offset();
@@ -51,15 +57,18 @@ class ModbusMachine : public acquisition::MachineIo {
   /// Raw words of an array register of words (a table area).
   Result<std::vector<std::uint16_t>> read_words(const std::string& name, int count);
   Status write_words(const std::string& name, int offset, std::span<const std::uint16_t> words);
-  Result<bool> compensation_on();
+  Result<bool> compensation_on() override;
   Status beat();
   static constexpr double default_watchdog_s = 5.0;  // host seconds
   /// How long the controller waits for a heartbeat before it takes the host offset out. Longer
   /// only where one thread must look away for a while.
   Status set_watchdog(double host_s);
-  /// Waits until the ramp of the applied compensation has ended and what is applied has come to rest; the percentage
-  /// reached (100 when it does not tell).
-  Result<double> wait_for_ramp(bool on, const std::stop_token& stop = {});
+  Result<double> wait_for_ramp(bool on, const std::stop_token& stop = {}) override;
+
+  /// The link's faults that were overcome, its remarks, and those of the rig's devices.
+  std::vector<std::string> remarks() const override;
+  /// Null where the control reads everything by itself.
+  const DeviceReadings* devices() const { return m_devices.get(); }
 
   const LinkHealth& health() const { return m_link.health(); }
   Link& link() { return m_link; }
@@ -77,6 +86,7 @@ class ModbusMachine : public acquisition::MachineIo {
   RegisterMap m_map;
   access::Permit m_permit;
   Link m_link;
+  std::shared_ptr<DeviceReadings> m_devices;
   bool m_single_reads = false;  // the device refused a read across a gap
   bool m_watchdog_set = false;
   std::uint16_t m_beat = 0;

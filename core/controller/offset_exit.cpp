@@ -70,7 +70,7 @@ class OffsetExit {
 
   /// Nothing is left to do when the controller holds 0.
   Status step(double passed_s) {
-    ZD_TRY(m_held_um, read_host_offset(m_machine));
+    ZD_TRY(m_held_um, m_machine.held_offset_um());
     if (is_zero(*m_held_um)) return {};
     if (m_options.may_write) ZD_CHECK(m_options.may_write());
     ZD_TRY(const bool on, m_machine.compensation_on());
@@ -90,7 +90,7 @@ class OffsetExit {
   }
 
   std::string held_text() {
-    if (const auto held = read_host_offset(m_machine)) return text_of_offset(*held);
+    if (const auto held = m_machine.held_offset_um()) return text_of_offset(*held);
     if (!m_held_um) return "unknown";
     return "unknown, last read " + text_of_offset(*m_held_um);
   }
@@ -115,12 +115,6 @@ Status leave_without_offset(ModbusMachine& machine, const OffsetExitOptions& opt
 
 std::string text_of_offset(const std::array<double, 3>& offset_um) {
   return fmt::format("X {:.1f}, Y {:.1f}, Z {:.1f} um", offset_um[0], offset_um[1], offset_um[2]);
-}
-
-Result<std::array<double, 3>> read_host_offset(ModbusMachine& machine) {
-  ZD_TRY(const RegisterValues values, machine.read_values({"host_offset_um"}));
-  const auto& held = values.at("host_offset_um");
-  return std::array<double, 3>{held.at(0), held.at(1), held.at(2)};
 }
 
 bool is_zero(const std::array<double, 3>& offset_um) {

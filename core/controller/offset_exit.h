@@ -41,8 +41,6 @@ Status without_throwing(Work work) {
 
 /// "X 0.0, Y 0.0, Z -8.0 um"
 std::string text_of_offset(const std::array<double, 3>& offset_um);
-/// What the offset registers hold, X Y Z.
-Result<std::array<double, 3>> read_host_offset(ModbusMachine& machine);
 bool is_zero(const std::array<double, 3>& offset_um);
 
 }  // namespace zerodrift::controller

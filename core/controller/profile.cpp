@@ -6,6 +6,7 @@
 
 #include "core/base/json.h"
 #include "core/base/redact.h"
+#include "core/controller/profile_devices.h"
 #include "core/controller/register_map.h"
 
 namespace zerodrift::controller {
@@ -14,29 +15,6 @@ namespace {
 constexpr NumberRange factor_range{0.0, 100000.0, true, "a number above 0, at most 100000"};
 
 constexpr NumberRange latency_range{0.1, 60.0, false, "a time from 0.1 to 60 s"};
-
-ControllerSettings read_controller(JsonObject& o) {
-  ControllerSettings c;
-  c.kind = o.word("kind", {"modbus-tcp", "modbus-rtu"}) == "modbus-tcp" ? LinkKind::tcp : LinkKind::rtu;
-  if (c.kind == LinkKind::tcp) {
-    c.host = o.text("host");
-    c.port = o.integer_or("port", 502, 1, 65535);
-  } else {
-    c.device = o.text("device");
-    c.baud = o.integer_or("baud", c.baud, 300, 4000000);
-    const std::string parity = o.has("parity") ? o.word("parity", {"N", "E", "O", "none", "even", "odd"}) : "E";
-    c.parity = static_cast<char>(std::toupper(static_cast<unsigned char>(parity[0])));
-    c.stop_bits = o.integer_or("stop_bits", c.stop_bits, 1, 2);
-  }
-  c.unit = o.integer_or("unit", 1, 0, 255);
-  c.timeout_ms = o.integer_or("timeout_ms", 1000, 20, 60000);
-  c.register_map = o.text_or("register_map", c.register_map);
-  if (const nlohmann::json* map = o.raw("register_map_document"); map != nullptr && map->is_object()) {
-    c.own_map = std::make_shared<const nlohmann::json>(*map);
-  }
-  c.chunk_registers = o.integer_or("chunk_registers", c.chunk_registers, 8, 123);
-  return c;
-}
 
 std::array<int, 4> region_of(const JsonObject& o, const std::string& key, const std::vector<double>& numbers) {
   std::array<int, 4> region{};
@@ -93,6 +71,7 @@ SensorProfile read_sensor(JsonObject& o) {
   sensor.place = o.text_or("place", "");
   sensor.position_mm = o.number_if("position_mm");
   sensor.accuracy_C = o.number_or("accuracy_C", 0.1, positive);
+  sensor.source = read_source(o);
   return sensor;
 }
 
@@ -101,7 +80,7 @@ Profile read_body(JsonObject& o) {
   o.word("format", {"zerodrift-profile/1"});
   profile.name = o.text_or("name", "");
   profile.time_factor = o.number_or("time_factor", 1.0, factor_range);
-  profile.controller = read_controller(o.object("controller"));
+  read_devices(o, profile);
   for (JsonObject& camera : o.objects_or_empty("cameras")) profile.cameras.push_back(read_camera(camera));
   if (JsonObject* errors = o.object_if("errors"); errors != nullptr) {
     const bool probes = errors->word("source", {"camera", "probes"}) == "probes";
@@ -112,6 +91,7 @@ Profile read_body(JsonObject& o) {
   }
   profile.calibration_span_mm = o.number_or("calibration_span_mm", 1.6, positive);
   for (JsonObject& sensor : o.objects_or_empty("sensors")) profile.sensors.push_back(read_sensor(sensor));
+  read_signals(o, profile);
   if (JsonObject* limits = o.object_if("limits"); limits != nullptr) {
     profile.max_um = limits->number_or("max_um", profile.max_um, positive);
     profile.max_um_per_s = limits->number_or("max_um_per_s", profile.max_um_per_s, positive);
@@ -138,6 +118,7 @@ Result<Profile> profile_from_json(const nlohmann::json& document, const std::str
                                   std::vector<std::string>* warnings) {
   ZD_TRY(Profile profile, from_json<Profile>(document, file, warnings, read_body));
   profile.file = file;
+  for (DeviceProfile& device : profile.devices) device.file = file;
   const auto machine = document.find("machine");
   if (machine == document.end() || machine->is_null()) return profile;
   if (machine->is_string()) {
@@ -157,13 +138,20 @@ Result<nlohmann::json> document_for_job(const nlohmann::json& document, const Pr
   if (const auto machine = kept.find("machine"); machine != kept.end() && machine->is_string() && profile.machine) {
     *machine = *profile.machine;
   }
-  const auto controller = kept.find("controller");
-  if (controller == kept.end() || profile.controller.own_map) return kept;
-  const std::string& name = profile.controller.register_map;
-  const auto path = register_map_file(name, std::filesystem::path(profile.file).parent_path());
-  if (path.empty()) return kept;
-  ZD_TRY((*controller)["register_map_document"], read_json_file(path));
-  (*controller)["register_map"] = std::filesystem::path(name).stem().string();
+  const auto folder = std::filesystem::path(profile.file).parent_path();
+  const auto with_map = [&](nlohmann::json& settings) -> Status {
+    if (!settings.is_object() || settings.contains("register_map_document")) return {};
+    const std::string name = settings.value("register_map", "");
+    const auto path = register_map_file(name, folder);
+    if (path.empty()) return {};
+    ZD_TRY(settings["register_map_document"], read_json_file(path));
+    settings["register_map"] = std::filesystem::path(name).stem().string();
+    return {};
+  };
+  if (const auto controller = kept.find("controller"); controller != kept.end()) ZD_CHECK(with_map(*controller));
+  if (const auto devices = kept.find("devices"); devices != kept.end() && devices->is_array()) {
+    for (nlohmann::json& device : *devices) ZD_CHECK(with_map(device));
+  }
   return kept;
 }
 
@@ -176,9 +164,16 @@ Result<Profile> profile_from_job(const nlohmann::json& document) {
     return refused("machine", machine->get<std::string>());
   }
   ZD_TRY(Profile profile, profile_from_json(document, "the job's profile"));
-  const std::string& map = profile.controller.register_map;
-  if (!profile.controller.own_map && map.find_first_of("/\\.") != std::string::npos) {
-    return refused("controller.register_map", map);
+  const auto reaches_out = [](const ControllerSettings& settings) {
+    return !settings.own_map && settings.register_map.find_first_of("/\\.") != std::string::npos;
+  };
+  if (reaches_out(profile.controller)) return refused("controller.register_map", profile.controller.register_map);
+  for (DeviceProfile& device : profile.devices) {
+    if (reaches_out(device.modbus)) return refused("devices.register_map", device.modbus.register_map);
+    for (const std::string& path : {device.ca_file, device.credentials_file}) {
+      if (!path.empty()) return refused("devices.credentials_file", path);
+    }
+    device.of_job = true;
   }
   for (const auto& camera : profile.cameras) {
     if (!leads_to_a_camera(camera.url)) return refused("cameras.url", without_secrets(camera.url));

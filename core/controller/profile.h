@@ -33,11 +33,23 @@ struct SensorProfile {
   std::string place;
   std::optional<double> position_mm;
   double accuracy_C = 0.1;
+  SignalSource source;  // without a device the control's register of the sensor's place in the list
 };
 
 enum class ErrorSourceKind {
   camera,
   probes,
+};
+
+/// Quantities that are read from another device than the control.
+struct Signals {
+  std::optional<SignalSource> ambient;
+  std::optional<SignalSource> speed;
+  std::optional<SignalSource> load;
+  std::optional<SignalSource> coolant;
+  std::optional<SignalSource> compensation_state;
+  std::map<std::string, SignalSource> positions;  // "X" -> mm
+  std::vector<SignalSource> probes;               // X1 X2 Y1 Y2 Z, or none
 };
 
 struct Profile {
@@ -46,11 +58,15 @@ struct Profile {
   std::string name;
   double time_factor = 1.0;  // machine seconds a host second
   ControllerSettings controller;
+  bool manual = false;                 // the control has no link: a person does what is asked (manual_control.h)
+  std::uint32_t serial = 0;            // of a machine whose control cannot be asked
+  std::vector<DeviceProfile> devices;  // read beside the control
+  Signals signals;
   std::vector<CameraProfile> cameras;
   ErrorSourceKind error_source = ErrorSourceKind::camera;
   std::map<std::string, double> measure_position_mm;  // empty: the profile has none
   double calibration_span_mm = 1.6;
-  std::vector<SensorProfile> sensors;  // in the order of the controller's temperature registers
+  std::vector<SensorProfile> sensors;  // their order gives the numbers in a controller's table
   double max_um = 200.0;
   double max_um_per_s = 2.0;
   double max_um_per_K = 50.0;                     // the steepest coefficient the controller takes
@@ -68,6 +84,9 @@ Result<nlohmann::json> document_for_job(const nlohmann::json& document, const Pr
 /// maps that the program brings.
 Result<Profile> profile_from_job(const nlohmann::json& document);
 Result<Profile> read_profile(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
+
+/// Null when there is none of this name.
+const DeviceProfile* find_device(const Profile& profile, const std::string& id);
 
 /// Number of a sensor in a table's words: the position in the profile, from 1; ambient_C is 0.
 Result<int> sensor_number(const Profile& profile, const std::string& channel);

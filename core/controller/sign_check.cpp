@@ -67,11 +67,184 @@ std::pair<double, double> seen_in(const std::vector<Look>& all, std::size_t dire
   return {weights.dot(error), weights.transpose().cwiseProduct(sigma).norm()};
 }
 
+/// Where a test offset is put on and taken off.
+class TestOffset {
+ public:
+  virtual ~TestOffset() = default;
+  virtual Result<acquisition::MachineIdentity> identify() = 0;
+  /// The switch on, and what the machine applies at rest.
+  virtual Status begin() = 0;
+  /// Puts the offset on the axis, or takes it off (0), and waits until it rests.
+  virtual Status put(std::size_t axis, double offset_um) = 0;
+  virtual Result<bool> still_holds(std::size_t axis, double offset_um) = 0;
+  virtual Result<double> time_s() = 0;
+  /// Offset 0 and the switch as it was found, whatever happened; `reason` is why it ends.
+  virtual Status end(const std::string& reason) = 0;
+  /// Whether the offset is on, look by look.
+  virtual std::array<bool, 4> order() const = 0;
+};
+
+/// Over the registers of a controller: another offset costs nothing.
+class LinkedOffset : public TestOffset {
+ public:
+  LinkedOffset(ModbusMachine& machine, double size_um, const TaskContext& context)
+      : m_machine(machine), m_size_um(size_um), m_context(context) {}
+
+  Result<acquisition::MachineIdentity> identify() override { return m_machine.identify(); }
+
+  Status begin() override {
+    ZD_TRY(m_was_on, m_machine.compensation_on());
+    m_begun = true;
+    ZD_CHECK(m_machine.switch_compensation(true));
+    ZD_CHECK(m_machine.set_watchdog(watchdog_s));
+    ZD_CHECK(m_machine.wait_for_ramp(true).map([](double) {}));
+    return settle(0.0);
+  }
+
+  Status put(std::size_t axis, double offset_um) override {
+    std::array<double, 3> offset{};
+    offset[axis] = offset_um;
+    ZD_TRY(const auto before, m_machine.read());
+    // What is held counts, not what was written: the controller may have taken some of it out.
+    ZD_TRY(const auto held_um, m_machine.held_offset_um());
+    const double change = offset_um - held_um[axis];
+    ZD_CHECK(m_machine.write_host_offset(offset));
+    return settle(std::abs(change) / m_machine.profile().max_um_per_s, before.applied_um[axis] + change, axis);
+  }
+
+  Result<bool> still_holds(std::size_t axis, double offset_um) override {
+    ZD_TRY(const auto held_um, m_machine.held_offset_um());
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!(std::abs(held_um[i] - (i == axis ? offset_um : 0.0)) < 0.05 * m_size_um)) return false;
+    }
+    return true;
+  }
+
+  Result<double> time_s() override {
+    ZD_TRY(const auto sample, m_machine.read());
+    return time_of(sample);
+  }
+
+  Status end(const std::string& reason) override {
+    if (!m_begun) return {};
+    // The way back is not cancelled: offset 0, then the switch.
+    OffsetExitOptions exit;
+    exit.rate_um_s = std::numeric_limits<double>::infinity();  // the controller limits the test offset's rate by itself
+    exit.patience_s = watchdog_s;
+    exit.switch_off = !m_was_on;
+    const Status guarded = m_machine.set_watchdog(ModbusMachine::default_watchdog_s);
+    ZD_CHECK(leave_without_offset(m_machine, exit, reason));
+    return guarded;
+  }
+
+  std::array<bool, 4> order() const override { return {true, false, true, false}; }
+
+ private:
+  double time_of(const acquisition::MachineSample& sample) const {
+    if (std::isfinite(sample.machine_time_s)) return sample.machine_time_s;
+    const std::chrono::duration<double> host = std::chrono::steady_clock::now().time_since_epoch();
+    return host.count() * m_machine.profile().time_factor;
+  }
+
+  /// Waits, in the machine's time, until what the controller applies rests: ramps, limits of rate and the smoothing of
+  /// its readings all move it for a while. With a goal, until it is near that as well. A controller that does not tell
+  /// what it applies is given the time of the ramp.
+  Status settle(double ramp_s, double goal_um = std::nan(""), std::size_t axis = 0) {
+    if (m_machine.map().find("applied_um") == nullptr) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(1.0 + ramp_s / m_machine.profile().time_factor));
+      return {};
+    }
+    const auto end = std::chrono::steady_clock::now() +
+                     std::chrono::duration<double>(m_machine.host_seconds(settle_timeout_machine_s));
+    std::optional<acquisition::MachineSample> last;
+    for (;;) {
+      ZD_CHECK(m_machine.beat());
+      ZD_TRY(auto now, m_machine.read());
+      const bool near = std::isnan(goal_um) || std::abs(now.applied_um[axis] - goal_um) < share * m_size_um;
+      if (!last) last = now;
+      const double window_s = time_of(now) - time_of(*last);
+      if (window_s >= settle_window_machine_s) {
+        if (near && rests(*last, now, window_s)) return {};
+        last = std::move(now);
+      }
+      if (std::chrono::steady_clock::now() > end) break;
+      if (m_context.cancelled()) return fail(ErrorCode::cancelled);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return fail(ErrorCode::machine_not_ready,
+                {{"what", "the sign check"}, {"reason", "the offset is not applied, or does not come to rest"}});
+  }
+
+  static bool rests(const acquisition::MachineSample& before, const acquisition::MachineSample& now, double window_s) {
+    bool all = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      all = all && std::abs(now.applied_um[i] - before.applied_um[i]) <= settled_um_s * window_s;
+    }
+    return all;
+  }
+
+  ModbusMachine& m_machine;
+  double m_size_um;
+  const TaskContext& m_context;
+  bool m_begun = false;
+  bool m_was_on = false;
+};
+
+/// By a person at the control, whom another offset costs time: each is put on once.
+class OffsetByHand : public TestOffset {
+ public:
+  OffsetByHand(ManualControl& control, const TaskContext& context) : m_control(control), m_context(context) {}
+
+  Result<acquisition::MachineIdentity> identify() override { return m_control.identify(); }
+
+  Status begin() override {
+    ZD_TRY(m_was_on, m_control.compensation_on());
+    m_begun = true;
+    ZD_CHECK(m_control.switch_compensation(true));
+    return m_control.wait_for_ramp(true, m_context.stop).map([](double) {});
+  }
+
+  Status put(std::size_t axis, double offset_um) override {
+    std::array<double, 3> offset{};
+    offset[axis] = offset_um;
+    ZD_CHECK(m_control.write_host_offset(offset));
+    const Profile& profile = m_control.profile();
+    const double settle_s = settle_window_machine_s + std::abs(offset_um) / profile.max_um_per_s;
+    if (host_clock().wait_for(Seconds(settle_s / profile.time_factor), m_context.stop)) return {};
+    return fail(ErrorCode::cancelled);
+  }
+
+  Result<bool> still_holds(std::size_t /*axis*/, double /*offset_um*/) override { return true; }
+
+  Result<double> time_s() override {
+    return host_clock().steady().count() * m_control.profile().time_factor;
+  }
+
+  Status end(const std::string& reason) override {
+    if (!m_begun) return {};
+    Status left = m_control.write_host_offset({});
+    if (left && !m_was_on) left = m_control.switch_compensation(false);
+    if (left) return {};
+    return fail(ErrorCode::compensation_left, {{"reason", reason},
+                                               {"detail", describe(left.error())},
+                                               {"held", "the test offset"},
+                                               {"switch", "on"}});
+  }
+
+  std::array<bool, 4> order() const override { return {true, true, false, false}; }
+
+ private:
+  ManualControl& m_control;
+  const TaskContext& m_context;
+  bool m_begun = false;
+  bool m_was_on = false;
+};
+
 class SignCheck {
  public:
-  SignCheck(ModbusMachine& machine, acquisition::ErrorSource& source, const SignCheckOptions& options,
+  SignCheck(TestOffset& offset, acquisition::ErrorSource& source, const SignCheckOptions& options,
             const TaskContext& context)
-      : m_machine(machine), m_source(source), m_options(options), m_context(context) {}
+      : m_offset(offset), m_source(source), m_options(options), m_context(context) {}
 
   SignCheckRecord run() {
     m_record.result = whole();
@@ -80,28 +253,19 @@ class SignCheck {
 
  private:
   Status whole() {
-    ZD_TRY(const auto identity, m_machine.identify());
+    ZD_TRY(const auto identity, m_offset.identify());
     if (!identity.accepts_host_offset) {
       return fail(ErrorCode::machine_unsupported,
                   {{"what", "the host offset"}, {"found", "none"}, {"expected", "one, for the sign check"}});
     }
-    ZD_TRY(const bool was_on, m_machine.compensation_on());
-    Status checked = m_machine.switch_compensation(true);
+    Status checked = m_offset.begin();
     if (checked) checked = without_throwing([this] { return watched(); });
-    // The way back is not cancelled: offset 0, then the switch.
-    OffsetExitOptions exit;
-    exit.rate_um_s = std::numeric_limits<double>::infinity();  // the controller limits the test offset's rate by itself
-    exit.patience_s = watchdog_s;
-    exit.switch_off = !was_on;
-    const Status guarded = m_machine.set_watchdog(ModbusMachine::default_watchdog_s);
-    ZD_CHECK(leave_without_offset(m_machine, exit, checked ? "the sign check is done" : describe(checked.error())));
-    return checked ? guarded : checked;
+    const Status left = m_offset.end(checked ? "the sign check is done" : describe(checked.error()));
+    if (!left && left.error().code == ErrorCode::compensation_left) return left;
+    return checked ? left : checked;
   }
 
   Status watched() {
-    ZD_CHECK(m_machine.set_watchdog(watchdog_s));
-    ZD_CHECK(m_machine.wait_for_ramp(true).map([](double) {}));
-    ZD_CHECK(settle(0.0));
     for (std::size_t i = 0; i < m_options.axes.size(); ++i) {
       m_context.progress(static_cast<double>(i) / static_cast<double>(m_options.axes.size()), "sign_check");
       ZD_CHECK(one_axis(m_options.axes[i]));
@@ -109,12 +273,12 @@ class SignCheck {
     return {};
   }
 
-  /// Without, with, without, with, without - and again while the answer is in doubt.
+  /// Without, and with and without in the order that suits the machine - and again while the answer is in doubt.
   Status one_axis(const std::string& axis) {
     std::vector<Look> looks;
     ZD_CHECK(look(axis, false, looks));
     for (int round = 1;; ++round) {
-      for (const bool with : {true, false, true, false}) ZD_CHECK(look(axis, with, looks));
+      for (const bool with : m_offset.order()) ZD_CHECK(look(axis, with, looks));
       const SignCheckAxis row = row_of(axis, looks);
       const std::string fault = row.watched || !some_seen(looks, index_of(axis)) ? fault_of(row) : too_few_seen;
       const bool doubt = !fault.empty() || coverage * row.sigma_um[index_of(axis)] > 0.2 * row.commanded_um;
@@ -183,85 +347,25 @@ class SignCheck {
     return text.empty() ? "nothing" : text;
   }
 
-  /// Puts the offset on or off, waits until it rests and measures; again when the offset did not stay meanwhile.
+  /// Puts the offset on or off and measures; again when the offset did not stay meanwhile.
   Status look(const std::string& axis, bool with, std::vector<Look>& looks) {
-    std::array<double, 3> offset{};
-    if (with) offset[index_of(axis)] = m_options.offset_um;
+    const std::size_t index = index_of(axis);
+    const double offset_um = with ? m_options.offset_um : 0.0;
     for (int attempt = 0; attempt < 3; ++attempt) {
-      ZD_TRY(const auto before, m_machine.read());
-      // What is held counts, not what was written: the controller may have taken some of it out.
-      ZD_TRY(const RegisterValues held_before, m_machine.read_values({"host_offset_um"}));
-      const double change = offset[index_of(axis)] - held_before.at("host_offset_um").at(index_of(axis));
-      ZD_CHECK(m_machine.write_host_offset(offset));
-      ZD_CHECK(settle(offset_time_s(change), before.applied_um[index_of(axis)] + change, index_of(axis)));
-      ZD_TRY(const auto start, m_machine.read());
+      ZD_CHECK(m_offset.put(index, offset_um));
+      ZD_TRY(const double start_s, m_offset.time_s());
       ZD_TRY(const auto sample, m_source.measure(acquisition::standing_now(), m_context));
-      ZD_TRY(const auto end, m_machine.read());
-      ZD_TRY(const bool held, still_holds(offset));
+      ZD_TRY(const double end_s, m_offset.time_s());
+      ZD_TRY(const bool held, m_offset.still_holds(index, offset_um));
       if (!held) continue;
-      looks.push_back({0.5 * (time_of(start) + time_of(end)), with ? 1.0 : 0.0, sample});
+      looks.push_back({0.5 * (start_s + end_s), with ? 1.0 : 0.0, sample});
       return {};
     }
     return fail(ErrorCode::machine_not_ready,
                 {{"what", "the sign check"}, {"reason", "the controller takes the test offset out by itself"}});
   }
 
-  Result<bool> still_holds(const std::array<double, 3>& offset_um) {
-    ZD_TRY(const RegisterValues now, m_machine.read_values({"host_offset_um"}));
-    const auto& held = now.at("host_offset_um");
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!(std::abs(held.at(i) - offset_um[i]) < 0.05 * m_options.offset_um)) return false;
-    }
-    return true;
-  }
-
-  /// Machine seconds that a controller may take to go there.
-  double offset_time_s(double change_um) const { return std::abs(change_um) / m_machine.profile().max_um_per_s; }
-
-  double time_of(const acquisition::MachineSample& sample) const {
-    if (std::isfinite(sample.machine_time_s)) return sample.machine_time_s;
-    const std::chrono::duration<double> host = std::chrono::steady_clock::now().time_since_epoch();
-    return host.count() * m_machine.profile().time_factor;
-  }
-
-  /// Waits, in the machine's time, until what the controller applies rests: ramps, limits of rate and the smoothing of
-  /// its readings all move it for a while. With a goal, until it is near that as well. A controller that does not tell
-  /// what it applies is given the time of the ramp.
-  Status settle(double ramp_s, double goal_um = std::nan(""), std::size_t axis = 0) {
-    if (m_machine.map().find("applied_um") == nullptr) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(1.0 + ramp_s / m_machine.profile().time_factor));
-      return {};
-    }
-    const auto end = std::chrono::steady_clock::now() +
-                     std::chrono::duration<double>(m_machine.host_seconds(settle_timeout_machine_s));
-    std::optional<acquisition::MachineSample> last;
-    for (;;) {
-      ZD_CHECK(m_machine.beat());
-      ZD_TRY(auto now, m_machine.read());
-      const bool near = std::isnan(goal_um) || std::abs(now.applied_um[axis] - goal_um) < share * m_options.offset_um;
-      if (!last) last = now;
-      const double window_s = time_of(now) - time_of(*last);
-      if (window_s >= settle_window_machine_s) {
-        if (near && rests(*last, now, window_s)) return {};
-        last = std::move(now);
-      }
-      if (std::chrono::steady_clock::now() > end) break;
-      if (m_context.cancelled()) return fail(ErrorCode::cancelled);
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return fail(ErrorCode::machine_not_ready,
-                {{"what", "the sign check"}, {"reason", "the offset is not applied, or does not come to rest"}});
-  }
-
-  static bool rests(const acquisition::MachineSample& before, const acquisition::MachineSample& now, double window_s) {
-    bool all = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      all = all && std::abs(now.applied_um[i] - before.applied_um[i]) <= settled_um_s * window_s;
-    }
-    return all;
-  }
-
-  ModbusMachine& m_machine;
+  TestOffset& m_offset;
   acquisition::ErrorSource& m_source;
   const SignCheckOptions& m_options;
   const TaskContext& m_context;
@@ -272,7 +376,14 @@ class SignCheck {
 
 SignCheckRecord check_signs(ModbusMachine& machine, acquisition::ErrorSource& source, const SignCheckOptions& options,
                             const TaskContext& context) {
-  return SignCheck(machine, source, options, context).run();
+  LinkedOffset offset(machine, options.offset_um, context);
+  return SignCheck(offset, source, options, context).run();
+}
+
+SignCheckRecord check_signs(ManualControl& control, acquisition::ErrorSource& source, const SignCheckOptions& options,
+                            const TaskContext& context) {
+  OffsetByHand offset(control, context);
+  return SignCheck(offset, source, options, context).run();
 }
 
 nlohmann::json to_json(const SignCheckRecord& record) {

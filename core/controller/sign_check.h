@@ -11,6 +11,7 @@
 #include "core/acquisition/error_source.h"
 #include "core/base/result.h"
 #include "core/base/task_context.h"
+#include "core/controller/devices/manual_control.h"
 #include "core/controller/modbus_machine.h"
 
 namespace zerodrift::controller {
@@ -36,6 +37,9 @@ struct SignCheckRecord {
 /// The machine stands at the measuring position and the source has its zero. The switch is left as it was found and the
 /// offset at 0, whatever happens.
 SignCheckRecord check_signs(ModbusMachine& machine, acquisition::ErrorSource& source, const SignCheckOptions& options,
+                            const TaskContext& context);
+/// The same with a person who enters the offsets.
+SignCheckRecord check_signs(ManualControl& control, acquisition::ErrorSource& source, const SignCheckOptions& options,
                             const TaskContext& context);
 nlohmann::json to_json(const SignCheckRecord& record);
 

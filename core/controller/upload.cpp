@@ -18,6 +18,14 @@ Error not_ready(const std::string& reason) {
   return Error{ErrorCode::machine_not_ready, {{"what", "an upload"}, {"reason", reason}}};
 }
 
+compensation::Temperatures temperatures_of(const Profile& profile, const acquisition::MachineSample& sample) {
+  compensation::Temperatures temperatures{{"ambient_C", sample.ambient_C}};
+  for (std::size_t i = 0; i < profile.sensors.size(); ++i) {
+    temperatures[profile.sensors[i].channel] = sample.temperature_C[i];
+  }
+  return temperatures;
+}
+
 class Upload {
  public:
   Upload(ModbusMachine& machine, const UploadOptions& options, const TaskContext& context)
@@ -56,14 +64,8 @@ class Upload {
     m_was_on = sample.compensation_on;
     enter(UploadState::saving_old, "");
     ZD_CHECK(save_old());
-    ZD_CHECK(compare_tables(sample));
-    if (table != nullptr) {
-      ZD_CHECK(compensation::check_steepness(*table, m_machine.profile().max_um_per_K));
-      for (const auto& outside : compensation::outside_valid_range(*table, temperatures_of(sample))) {
-        m_record.warnings.push_back(
-            outside + ": when the table was written, the machine was outside the range the model was made in");
-      }
-    }
+    ZD_CHECK(compare_tables(m_record, m_machine.profile(), sample));
+    if (table != nullptr) ZD_CHECK(check_for_machine(m_record, *table, m_machine.profile(), sample));
     if (m_options.dry_run) return {};
     if (m_context.cancelled()) return fail(ErrorCode::cancelled);
     if (m_options.keep_old) ZD_CHECK(m_options.keep_old(m_record));
@@ -97,31 +99,6 @@ class Upload {
   }
 
   static int next_sequence(int sequence) { return sequence >= 65535 ? 1 : sequence + 1; }
-
-  compensation::Temperatures temperatures_of(const acquisition::MachineSample& sample) const {
-    const auto& sensors = m_machine.profile().sensors;
-    compensation::Temperatures temperatures{{"ambient_C", sample.ambient_C}};
-    for (std::size_t i = 0; i < sensors.size(); ++i) temperatures[sensors[i].channel] = sample.temperature_C[i];
-    return temperatures;
-  }
-
-  /// The difference, and the limits: at the present temperatures no axis may jump by more than the machine takes.
-  Status compare_tables(const acquisition::MachineSample& sample) {
-    const Profile& profile = m_machine.profile();
-    ZD_TRY(const Table new_table, decode_table(m_record.new_words, profile));
-    ZD_TRY(m_record.old_table, decode_table(m_record.old_words, profile));
-    m_record.old_table.version = m_record.old_sequence;
-    ZD_TRY(m_record.difference,
-           compensation::difference(m_record.old_table, new_table, temperatures_of(sample), sample.axes));
-    for (const auto& axis : m_record.difference) {
-      if (axis.largest_um <= profile.max_um) continue;
-      return fail(ErrorCode::limit_exceeded, {{"what", "the change of the compensation of axis " + axis.axis},
-                                              {"found", fmt::format("{:.1f} um", axis.largest_um)},
-                                              {"limit", fmt::format("{:.0f} um", profile.max_um)}});
-    }
-    ZD_CHECK(compensation::check_steepness(new_table, profile.max_um_per_K));
-    return {};
-  }
 
   Status write() {
     enter(UploadState::switching_off, "");
@@ -213,6 +190,31 @@ class Upload {
 };
 
 }  // namespace
+
+Status compare_tables(UploadRecord& record, const Profile& profile, const acquisition::MachineSample& sample) {
+  ZD_TRY(const Table new_table, decode_table(record.new_words, profile));
+  ZD_TRY(record.old_table, decode_table(record.old_words, profile));
+  record.old_table.version = record.old_sequence;
+  ZD_TRY(record.difference, compensation::difference(record.old_table, new_table, temperatures_of(profile, sample),
+                                                     sample.axes));
+  for (const auto& axis : record.difference) {
+    if (axis.largest_um <= profile.max_um) continue;
+    return fail(ErrorCode::limit_exceeded, {{"what", "the change of the compensation of axis " + axis.axis},
+                                            {"found", fmt::format("{:.1f} um", axis.largest_um)},
+                                            {"limit", fmt::format("{:.0f} um", profile.max_um)}});
+  }
+  return compensation::check_steepness(new_table, profile.max_um_per_K);
+}
+
+Status check_for_machine(UploadRecord& record, const Table& table, const Profile& profile,
+                         const acquisition::MachineSample& sample) {
+  ZD_CHECK(compensation::check_steepness(table, profile.max_um_per_K));
+  for (const auto& outside : compensation::outside_valid_range(table, temperatures_of(profile, sample))) {
+    record.warnings.push_back(outside +
+                              ": when the table was written, the machine was outside the range the model was made in");
+  }
+  return {};
+}
 
 UploadRecord upload_table(ModbusMachine& machine, const Table& table, const UploadOptions& options,
                           const TaskContext& context) {

@@ -7,6 +7,7 @@
 #include "core/controller/active_table.h"
 #include "core/flow/devices.h"
 #include "core/flow/flow.h"
+#include "core/flow/machine_table.h"
 #include "core/flow/rollback_and_switch.h"
 #include "core/flow/steps/calibrate_step.h"
 #include "core/flow/steps/diagnose_step.h"
@@ -143,9 +144,11 @@ class Commissioning {
     if (!current("upload")) return false;
     ZD_TRY(const Input upload, need(m_job, "upload", "upload"));
     if (upload.body.value("kind", "") == controller::name_of(controller::TableOrigin::rollback)) return false;
-    ZD_TRY(const auto mark, controller::read_active_mark(*m_devices.machine));
     const auto words = upload.body.at("record").value("new_words", std::vector<std::uint16_t>{});
-    return !controller::is_empty_table(words.size()) && controller::is_marked(mark, words);
+    if (controller::is_empty_table(words.size())) return false;
+    const Status active = table_is_active(m_devices, upload.body);
+    if (!active && active.error().code != ErrorCode::table_not_active) return fail(active.error());
+    return active.has_value();
   }
 
   Status write(const std::optional<compensation::Table>& table) {
@@ -191,7 +194,7 @@ Result<CommissionResult> commission(Job& job, const controller::Profile& profile
   ZD_CHECK(options.permit.check("A commissioning"));
   ZD_CHECK(options.consent.possible("A commissioning"));
   ZD_CHECK(acquisition::with_measuring_position(options.plan, profile.measure_position_mm).map([](const auto&) {}));
-  ZD_TRY(Devices devices, Devices::open(profile, true, options.permit));
+  ZD_TRY(Devices devices, Devices::open(profile, true, options.permit, options.person));
   Commissioning work(job, devices, options, context);
   const auto all = [&]() -> Status {
     ZD_CHECK(work.measure(profile_document));

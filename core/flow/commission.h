@@ -5,12 +5,14 @@
 // broken off goes on where it stopped, and sensors chosen by hand stay chosen. A step that is out of date is done again
 // as it was asked for.
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/acquisition/plan.h"
 #include "core/base/task_context.h"
 #include "core/commissioning/job.h"
+#include "core/controller/operator.h"
 #include "core/controller/profile.h"
 #include "core/flow/machine_write.h"
 
@@ -20,6 +22,7 @@ struct CommissionOptions {
   acquisition::Plan plan;
   access::Permit permit = access::Permit::read_only();  // it writes: without one nothing is begun
   Consent consent;                                      // asked before each write that stays in the machine
+  std::shared_ptr<controller::Operator> person;         // of a manual control
   double limit_um = 5.0;
   bool keep_views = true;  // the pictures of the calibration's positions
 };

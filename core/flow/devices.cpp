@@ -13,16 +13,31 @@ constexpr int fast_frames = 3;
 
 }  // namespace
 
-Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras, access::Permit permit) {
+Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras, access::Permit permit,
+                              std::shared_ptr<controller::Operator> person) {
   Devices devices;
   devices.profile = profile;
   devices.permit = permit;
-  ZD_TRY(devices.machine, controller::ModbusMachine::open(profile, permit));
+  if (profile.manual) {
+    ZD_TRY(auto control, controller::ManualControl::open(profile, std::move(person), permit));
+    devices.by_hand = control.get();
+    devices.machine = std::move(control);
+  } else {
+    ZD_TRY(auto machine, controller::ModbusMachine::open(profile, permit));
+    devices.link = machine.get();
+    devices.machine = std::move(machine);
+  }
   if (!with_cameras || profile.error_source != controller::ErrorSourceKind::camera) return devices;
   for (const auto& camera : profile.cameras) {
     devices.cameras.push_back({camera, std::make_shared<vision::Camera>(camera.url)});
   }
   return devices;
+}
+
+Result<controller::ModbusMachine*> Devices::linked(const std::string& operation) const {
+  if (link != nullptr) return link;
+  return fail(ErrorCode::machine_unsupported,
+              {{"what", operation}, {"found", "a manual control"}, {"expected", "a control with a link"}});
 }
 
 Result<acquisition::Stand> come_to_measuring_position(Devices& devices) {

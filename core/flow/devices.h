@@ -1,5 +1,6 @@
 #pragma once
-// Opens what a profile names: the controller, the cameras, and the source of errors that goes with a calibration.
+// Opens what a profile names: the machine - its control and the devices beside it -, the cameras, and the source of
+// errors that goes with a calibration.
 
 #include <memory>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/acquisition/error_source.h"
 #include "core/base/result.h"
 #include "core/commissioning/job.h"
+#include "core/controller/devices/manual_control.h"
 #include "core/controller/modbus_machine.h"
 #include "core/controller/profile.h"
 #include "core/vision/camera.h"
@@ -22,13 +24,18 @@ struct CameraDevice {
 struct Devices {
   controller::Profile profile;
   access::Permit permit = access::Permit::read_only();
-  std::unique_ptr<controller::ModbusMachine> machine;
+  std::unique_ptr<acquisition::MachineIo> machine;
+  controller::ModbusMachine* link = nullptr;     // the machine, where its control has a link
+  controller::ManualControl* by_hand = nullptr;  // the machine, where a person is its link
   std::vector<CameraDevice> cameras;  // reading already; empty when the errors come from probes
 
   /// The machine connects at its first request, the cameras by themselves; `with_cameras` false opens none.
-  /// Without a permit to write the machine can only be read.
+  /// Without a permit to write the machine can only be read. operator_missing for a manual control without a person.
   static Result<Devices> open(const controller::Profile& profile, bool with_cameras = true,
-                              access::Permit permit = access::Permit::read_only());
+                              access::Permit permit = access::Permit::read_only(),
+                              std::shared_ptr<controller::Operator> person = nullptr);
+  /// The control over its link; machine_unsupported for a manual one.
+  Result<controller::ModbusMachine*> linked(const std::string& operation) const;
 };
 
 /// Drives to the profile's measuring position. no_measuring_position when the profile has none.

@@ -18,12 +18,13 @@ Result<RollbackPreview> preview_roll_back(const commissioning::Job& job, const c
                                           const std::string& id, const TaskContext& context) {
   ZD_TRY(auto devices, Devices::open(profile, false));
   ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_TRY(auto* const machine, devices.linked("going back to a former table"));
   ZD_CHECK(controller::TableHistory().adopt(identity.serial, tables_of(job, identity.serial)));
   RollbackPreview preview;
-  ZD_TRY(preview.target, controller::rollback_target(*devices.machine, {std::nullopt, id}));
+  ZD_TRY(preview.target, controller::rollback_target(*machine, {std::nullopt, id}));
   controller::UploadOptions options;
   options.dry_run = true;
-  preview.difference.record = controller::roll_back(*devices.machine, preview.target, options, context);
+  preview.difference.record = controller::roll_back(*machine, preview.target, options, context);
   ZD_CHECK(preview.difference.record.result);
   ZD_TRY(preview.difference.table, controller::decode_table(preview.difference.record.new_words, profile));
   preview.difference.note_largest();
@@ -55,7 +56,8 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
                               const TaskContext& context) {
   ZD_TRY(const auto machine_artefact, need(job, "upload", "machine"));
   ZD_TRY(auto devices, Devices::open(profile, false, permit));
-  ZD_TRY(const auto identity, devices.machine->identify());
+  ZD_TRY(auto* const machine, devices.linked("going back to a former table"));
+  ZD_TRY(const auto identity, machine->identify());
   ZD_CHECK(same_machine(job, "upload", identity.serial));
   ZD_TRY(auto table, controller::decode_table(target.table.words.value_or(std::vector<std::uint16_t>{}), profile));
   ZD_TRY(const auto write, MachineWrite::begin(&job, permit, consent,
@@ -72,7 +74,7 @@ Result<NewArtefact> roll_back(commissioning::Job& job, const controller::Profile
   options.observer = observer;
   UploadRecord record;
   ZD_CHECK(write.write(entry, [&]() -> Status {
-    record = controller::roll_back(*devices.machine, target, options, context);
+    record = controller::roll_back(*machine, target, options, context);
     return record.result;
   }));
   table.version = record.sequence;

@@ -10,6 +10,7 @@
 
 #include "app/cli/access.h"
 #include "app/cli/consent.h"
+#include "app/cli/operator.h"
 #include "app/cli/report_files.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
@@ -30,6 +31,7 @@ struct Options {
   std::string engineer;
   std::string customer;
   std::string language = "en";
+  std::string person;
 };
 
 /// Who did it stands in every entry of the job: given, asked for at a terminal, or missing, which the report says.
@@ -75,6 +77,7 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   commission_options.consent = consent_of(options.yes);
   ZD_TRY(commission_options.permit, engineer(pin, "A commissioning"));
   ZD_CHECK(commission_options.consent.possible("A commissioning"));
+  ZD_TRY(commission_options.person, operator_of(profile, options.person));
   ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
   ZD_CHECK(name_people(job, options));
   ZD_TRY(const auto result, flow::commission(job, profile, document, commission_options, context));
@@ -107,6 +110,7 @@ void add_commission(Cli& cli) {
   command->add_option("--language", options->language, "Language of the report: en or zh");
   command->add_flag("--yes", options->yes,
                     "Do not ask before something is written; without a terminal nothing is without it");
+  add_operator_option(*command, options->person);
 }
 
 }  // namespace zerodrift::cli

@@ -8,6 +8,7 @@
 #include "app/cli/commands/machine_map.h"
 #include "app/text/error_text.h"
 #include "core/base/redact.h"
+#include "core/controller/device_readings.h"
 #include "core/controller/modbus_machine.h"
 #include "core/vision/camera.h"
 
@@ -88,22 +89,71 @@ Status look_at_cameras(const controller::Profile& profile, const TaskContext& co
   return {};
 }
 
-Result<CommandOutput> run(const std::string& file, const TaskContext& context) {
-  CommandOutput output;
-  ZD_TRY(const controller::Profile profile, controller::read_profile(file, &output.warnings));
-  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
-  ZD_TRY(const auto identity, machine->identify());
-  ZD_TRY(const auto sample, machine->read());
-  list_state(identity, sample, output);
-  list_sensors(identity, sample, output);
-  ZD_CHECK(look_at_cameras(profile, context, output));
-  const auto& health = machine->health();
+void list_devices(const controller::DeviceReadings& readings, CommandOutput& output) {
+  json devices = json::array();
+  for (const auto& state : readings.states()) {
+    json row = {{"id", state.id},
+                {"ok", !state.fault},
+                {"rounds", state.rounds},
+                {"faults", state.faults},
+                {"round_trip_ms", 1000.0 * state.round_trip_s},
+                {"remarks", state.remarks}};
+    row["age_s"] = state.age_s ? json(*state.age_s) : json(nullptr);
+    devices.push_back(row);
+    output.text += fmt::format("device {:<12} {}\n", state.id,
+                               state.fault ? "no answer" : fmt::format("{:.0f} ms", 1000.0 * state.round_trip_s));
+    if (state.fault) {
+      output.warnings.push_back(sentence(
+          Error{ErrorCode::device_failing, {{"device", state.id}, {"reason", sentence(*state.fault)}}}));
+    }
+  }
+  output.json["devices"] = devices;
+}
+
+void list_link(const controller::LinkHealth& health, CommandOutput& output) {
   output.json["link"] = {{"requests", health.requests}, {"retries", health.retries}, {"faults", health.faults}};
   for (const auto& [fault, count] : health.faults) {
     output.warnings.push_back(fmt::format("the link had {} x {}; the requests were repeated", count, fault));
   }
   output.json["link"]["remarks"] = health.remarks;
   output.warnings.insert(output.warnings.end(), health.remarks.begin(), health.remarks.end());
+}
+
+/// A control without a link is asked by nobody here; the devices beside it are.
+Status look_at_manual(const controller::Profile& profile, CommandOutput& output) {
+  ZD_TRY(const auto readings, controller::DeviceReadings::open(profile));
+  acquisition::MachineSample sample;
+  acquisition::MachineIdentity identity;
+  for (const auto& sensor : profile.sensors) {
+    identity.sensors.push_back({sensor.channel, sensor.label, sensor.place, sensor.accuracy_C});
+  }
+  sample.ambient_C = std::nan("");
+  readings->wait_for_first();
+  readings->put_into(sample);
+  output.json["name"] = profile.name;
+  output.json["control"] = "manual";
+  output.text += profile.name + ", manual control\n";
+  list_sensors(identity, sample, output);
+  list_devices(*readings, output);
+  return {};
+}
+
+Status look_at_linked(const controller::Profile& profile, CommandOutput& output) {
+  ZD_TRY(const auto machine, controller::ModbusMachine::open(profile));
+  ZD_TRY(const auto identity, machine->identify());
+  ZD_TRY(const auto sample, machine->read());
+  list_state(identity, sample, output);
+  list_sensors(identity, sample, output);
+  if (machine->devices() != nullptr) list_devices(*machine->devices(), output);
+  list_link(machine->health(), output);
+  return {};
+}
+
+Result<CommandOutput> run(const std::string& file, const TaskContext& context) {
+  CommandOutput output;
+  ZD_TRY(const controller::Profile profile, controller::read_profile(file, &output.warnings));
+  ZD_CHECK(profile.manual ? look_at_manual(profile, output) : look_at_linked(profile, output));
+  ZD_CHECK(look_at_cameras(profile, context, output));
   if (!output.text.empty()) output.text.pop_back();
   return output;
 }

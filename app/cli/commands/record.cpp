@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/access.h"
+#include "app/cli/operator.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
@@ -24,6 +25,7 @@ struct Options {
   std::string profile;
   std::string plan;
   std::string job;
+  std::string person;
 };
 
 /// Does the step unless the job has what it makes.
@@ -43,9 +45,10 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   flow::RunOptions run_options;
   ZD_TRY(const auto plan, acquisition::read_plan(options.plan, &output.warnings));
   ZD_TRY(run_options.plan, acquisition::with_measuring_position(plan, profile.measure_position_mm));
+  ZD_TRY(auto person, operator_of(profile, options.person));
   ZD_TRY(Job job, Job::open_or_create(options.job));
   ZD_TRY(const auto permit, engineer(pin, "A recorded run"));
-  ZD_TRY(flow::Devices devices, flow::Devices::open(profile, true, permit));
+  ZD_TRY(flow::Devices devices, flow::Devices::open(profile, true, permit, std::move(person)));
   ZD_CHECK(ensure(job, "machine", context,
                   [&](const TaskContext& inner) { return flow::check_machine(devices, profile_document, inner); }));
   ZD_CHECK(ensure(job, "calibrate", context,
@@ -63,7 +66,7 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   for (const json& problem : output.json.value("problems", json::array())) {
     if (problem.is_string()) output.warnings.push_back(problem.get<std::string>());
   }
-  const auto& remarks = devices.machine->health().remarks;
+  const auto remarks = devices.machine->remarks();
   output.warnings.insert(output.warnings.end(), remarks.begin(), remarks.end());
   return output;
 }
@@ -81,6 +84,7 @@ void add_record(Cli& cli) {
   app->add_option("--plan", options->plan, "Warm-up plan; an interrupted run keeps the plan it was begun with")
       ->required();
   app->add_option("--job", options->job, "Job file (.zdj), made if it is not there")->required();
+  add_operator_option(*app, options->person);
 }
 
 }  // namespace zerodrift::cli

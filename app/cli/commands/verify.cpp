@@ -4,6 +4,7 @@
 
 #include "app/cli/access.h"
 #include "app/cli/consent.h"
+#include "app/cli/operator.h"
 #include "core/acquisition/plan.h"
 #include "core/commissioning/job.h"
 #include "core/controller/profile.h"
@@ -18,6 +19,7 @@ struct Options {
   std::string profile;
   std::string job;
   std::string plan;
+  std::string person;
   double limit_um = 5.0;
   bool correct = false;
   bool yes = false;
@@ -49,7 +51,8 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   ZD_TRY(const auto permit, engineer(pin, "A verification"));
   const flow::Consent consent = consent_of(options.yes);
   if (options.correct) ZD_CHECK(consent.possible("Writing the corrected table"));  // not after an hour of measuring
-  ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
+  ZD_TRY(auto person, operator_of(profile, options.person));
+  ZD_TRY(auto devices, flow::Devices::open(profile, true, permit, std::move(person)));
   const auto verify = [&](commissioning::Job& in, const TaskContext& inner) {
     return flow::verify(in, devices, verify_options, inner);
   };
@@ -86,6 +89,7 @@ void add_verify(Cli& cli) {
   command->add_flag("--correct", options->correct,
                     "Upload the corrected table when too much is left, after a question or with --yes");
   command->add_flag("--yes", options->yes, "Confirm the upload of a corrected table");
+  add_operator_option(*command, options->person);
 }
 
 }  // namespace zerodrift::cli

@@ -41,10 +41,10 @@ Result<commissioning::NewArtefact> check_machine(Devices& devices, const json& p
     problems.push_back("sensor " + sensor.info.channel + " (" + sensor.info.label + ") is " +
                        std::string(acquisition::name_of(sensor.state)));
   }
-  for (const auto& [name, count] : devices.machine->health().faults) {
-    problems.push_back(fmt::format("link: {} {} times, overcome", name, count));
+  for (const auto& remark : devices.machine->remarks()) problems.push_back(remark);
+  for (const auto& [device, fault] : found.last.device_faults) {
+    problems.push_back(fmt::format("device {} does not answer: {}", device, describe(fault)));
   }
-  for (const auto& remark : devices.machine->health().remarks) problems.push_back(remark);
   ZD_TRY(const json kept, controller::document_for_job(profile, devices.profile));
   const json body = {{"profile", kept},
                      {"identity",

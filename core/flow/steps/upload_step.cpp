@@ -10,6 +10,7 @@
 #include "core/controller/rollback.h"
 #include "core/controller/table_words.h"
 #include "core/flow/flow.h"
+#include "core/flow/machine_table.h"
 #include "core/flow/steps/fit_step.h"
 #include "core/flow/steps/inputs.h"
 
@@ -175,7 +176,7 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
   }
   controller::UploadOptions options;
   options.dry_run = true;
-  preview.record = controller::upload_table(*devices.machine, preview.table, options, context);
+  preview.record = write_table(job, devices, preview.table, controller::TableOrigin::upload, options, context);
   if (!preview.record.result) return fail(preview.record.result.error());
   preview.note_largest();
   return preview;
@@ -193,7 +194,8 @@ Result<controller::SignCheckRecord> watch_signs(const commissioning::Job& job, D
   controller::SignCheckRecord record;
   const Status done = write.write(entry, [&]() -> Status {
     ZD_CHECK(source->take_zero(stand, context));
-    record = controller::check_signs(*devices.machine, *source, {}, context);
+    record = devices.by_hand != nullptr ? controller::check_signs(*devices.by_hand, *source, {}, context)
+                                        : controller::check_signs(*devices.link, *source, {}, context);
     return record.result;
   });
   // What was seen is worth showing just when it is wrong; without it there is only the error.
@@ -206,7 +208,7 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
                                           const TaskContext& context) {
   ZD_TRY(const Input machine, need(job, "upload", "machine"));
   ZD_TRY(const Input model, need(job, "upload", "model"));
-  ZD_TRY(const auto preview, preview_upload(job, devices, options.table, context));
+  ZD_TRY(auto preview, preview_upload(job, devices, options.table, context));
   const std::string name = machine_text(preview.record.machine, preview.record.serial);
   ZD_TRY(const auto write,
          MachineWrite::begin(&job, devices.permit, options.consent, {"Writing the table", name, &preview}));
@@ -224,7 +226,7 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   entry.new_value = json_text(compensation::to_json(preview.table));
   context.progress(0.4, "uploading");
   ZD_CHECK(write.write(entry, [&]() -> Status {
-    record = controller::push_table(*devices.machine, preview.table, origin, upload_options, context);
+    record = write_table(job, devices, preview.table, origin, upload_options, context);
     return record.result;
   }));
   std::vector<commissioning::ArtefactId> inputs = {machine.id, model.id};

@@ -8,7 +8,7 @@
 
 #include "core/base/error_json.h"
 #include "core/compensation/residual.h"
-#include "core/controller/active_table.h"
+#include "core/flow/machine_table.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/verify_compare.h"
 #include "core/report/comparison.h"
@@ -97,17 +97,6 @@ void add_figures(const recording::Recording& warmup, const recording::Recording&
   body["verdict"] = passed && body.contains("peak_error_after_um") ? "passed" : "failed";
 }
 
-/// A run over another table proves nothing of this one.
-Status table_is_active(Devices& devices, const json& upload) {
-  ZD_TRY(const auto mark, controller::read_active_mark(*devices.machine));
-  const auto words = upload.at("record").value("new_words", std::vector<std::uint16_t>{});
-  const bool none = controller::is_empty_table(static_cast<std::size_t>(mark.registers));
-  if (!none && controller::is_marked(mark, words)) return {};
-  return fail(ErrorCode::table_not_active,
-              {{"version", fmt::to_string(upload.value("version", 0))},
-               {"found", none ? std::string("no table") : fmt::format("version {}", mark.sequence)}});
-}
-
 }  // namespace
 
 acquisition::Plan verification_plan(const acquisition::Plan& warmup) {
@@ -139,6 +128,7 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
   ZD_TRY(const auto identity, devices.machine->identify());
   ZD_CHECK(same_machine(job, "verify", identity.serial));
   ZD_TRY(const auto start, devices.machine->read());
+  // A run over another table proves nothing of this one.
   ZD_CHECK(table_is_active(devices, upload.body));
   // The switch may have been turned a moment ago: what is still on its way would count as error.
   ZD_CHECK(devices.machine->wait_for_ramp(true, context.stop).map([](double) {}));

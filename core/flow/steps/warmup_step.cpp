@@ -39,8 +39,9 @@ Result<std::vector<acquisition::Happening>> happened_in(const commissioning::Job
   return tally.all();
 }
 
-void add_link_faults(const controller::ModbusMachine& machine, std::vector<acquisition::Happening>& happened) {
-  for (const auto& [name, count] : machine.health().faults) happened.push_back({name, {}, count, true});
+void add_link_faults(const Devices& devices, std::vector<acquisition::Happening>& happened) {
+  if (devices.link == nullptr) return;
+  for (const auto& [name, count] : devices.link->health().faults) happened.push_back({name, {}, count, true});
 }
 
 Result<acquisition::RunSummary> run_or_resume(commissioning::Job& job, acquisition::MachineIo& machine,
@@ -159,7 +160,7 @@ Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const 
                      update.seconds_left / devices.profile.time_factor);
     if (!options.observer) return;
     acquisition::RunUpdate whole = update;
-    add_link_faults(*devices.machine, whole.happened);
+    add_link_faults(devices, whole.happened);
     options.observer(whole);
   };
   SystemClock clock(devices.profile.time_factor);
@@ -171,7 +172,7 @@ Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const 
   run.source = source->name();
   run.zero_um = source->zero_um();
   ZD_TRY(run.happened, happened_in(job, run.series));
-  add_link_faults(*devices.machine, run.happened);
+  add_link_faults(devices, run.happened);
   return run;
 }
 
