@@ -53,13 +53,13 @@ Result<std::shared_ptr<DeviceReadings>> DeviceReadings::open(const Profile& prof
     out->m_temperatures.push_back(sensor.source);
     want(sensor.source);
   }
-  out->m_signals = profile.signals;
-  const Signals& signals = profile.signals;
-  for (const auto& one : {signals.ambient, signals.speed, signals.load, signals.coolant, signals.compensation_state}) {
+  out->m_sources = profile.sources;
+  const SignalSources& sources = profile.sources;
+  for (const auto& one : {sources.ambient, sources.speed, sources.load, sources.coolant, sources.compensation_state}) {
     if (one) want(*one);
   }
-  for (const auto& [axis, source] : signals.positions) want(source);
-  for (const SignalSource& probe : signals.probes) want(probe);
+  for (const auto& [axis, source] : sources.positions) want(source);
+  for (const SignalSource& probe : sources.probes) want(probe);
   if (wanted.empty()) return std::shared_ptr<DeviceReadings>();
 
   std::map<std::string, Line*> lines;
@@ -156,10 +156,10 @@ void DeviceReadings::put_into(acquisition::MachineSample& sample) const {
   const auto put = [&](const std::optional<SignalSource>& source, double& value) {
     if (source) value = latest(*source).value;
   };
-  put(m_signals.ambient, sample.ambient_C);
-  put(m_signals.speed, sample.spindle_rpm);
-  put(m_signals.load, sample.spindle_load_W);
-  for (const auto& [axis, source] : m_signals.positions) {
+  put(m_sources.ambient, sample.ambient_C);
+  put(m_sources.speed, sample.spindle_rpm);
+  put(m_sources.load, sample.spindle_load_W);
+  for (const auto& [axis, source] : m_sources.positions) {
     const double position_mm = latest(source).value;
     sample.axes.erase(axis);
     if (std::isfinite(position_mm)) sample.axes[axis] = position_mm;
@@ -170,8 +170,8 @@ void DeviceReadings::put_into(acquisition::MachineSample& sample) const {
     put(source, value);
     if (std::isfinite(value)) flag = value != 0.0;
   };
-  put_flag(m_signals.coolant, sample.coolant_on);
-  put_flag(m_signals.compensation_state, sample.compensation_on);
+  put_flag(m_sources.coolant, sample.coolant_on);
+  put_flag(m_sources.compensation_state, sample.compensation_on);
   sample.temperature_C.resize(m_temperatures.size(), nan_value);
   sample.temperature_at.resize(m_temperatures.size(), host_clock().steady());
   for (std::size_t i = 0; i < m_temperatures.size(); ++i) {
@@ -180,11 +180,11 @@ void DeviceReadings::put_into(acquisition::MachineSample& sample) const {
     sample.temperature_C[i] = reading.value;
     sample.temperature_at[i] = reading.at;
   }
-  if (!m_signals.probes.empty()) {
+  if (!m_sources.probes.empty()) {
     sample.probes_um.emplace();
     sample.probes_at = Seconds(std::numeric_limits<double>::max());
     for (std::size_t i = 0; i < sample.probes_um->size(); ++i) {
-      const Reading reading = latest(m_signals.probes[i]);
+      const Reading reading = latest(m_sources.probes[i]);
       (*sample.probes_um)[i] = reading.value;
       sample.probes_at = std::min(sample.probes_at, reading.at);
     }

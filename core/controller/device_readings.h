@@ -54,7 +54,7 @@ class DeviceReadings {
   Reading latest(const SignalSource& source) const;
 
   std::vector<SignalSource> m_temperatures;  // in the order of the profile's sensors
-  Signals m_signals;
+  SignalSources m_sources;
   std::vector<std::unique_ptr<Entry>> m_entries;
   std::vector<std::unique_ptr<Line>> m_lines;  // after the entries: their threads end first
 };

@@ -251,7 +251,7 @@ Result<MachineIdentity> ModbusMachine::identify() {
     return fail(not_fitting("the number of temperature sensors", std::to_string(available),
                             fmt::format("the {} of the profile", number)));
   }
-  if (!m_profile.signals.probes.empty()) identity.has_probes = true;
+  if (!m_profile.sources.probes.empty()) identity.has_probes = true;
   if (m_devices) m_devices->wait_for_first();
   for (const auto& sensor : m_profile.sensors) {
     identity.sensors.push_back({sensor.channel, sensor.label, sensor.place, sensor.accuracy_C});

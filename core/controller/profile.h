@@ -42,7 +42,7 @@ enum class ErrorSourceKind {
 };
 
 /// Quantities that are read from another device than the control.
-struct Signals {
+struct SignalSources {
   std::optional<SignalSource> ambient;
   std::optional<SignalSource> speed;
   std::optional<SignalSource> load;
@@ -61,7 +61,7 @@ struct Profile {
   bool manual = false;                 // the control has no link: a person does what is asked (manual_control.h)
   std::uint32_t serial = 0;            // of a machine whose control cannot be asked
   std::vector<DeviceProfile> devices;  // read beside the control
-  Signals signals;
+  SignalSources sources;
   std::vector<CameraProfile> cameras;
   ErrorSourceKind error_source = ErrorSourceKind::camera;
   std::map<std::string, double> measure_position_mm;  // empty: the profile has none

@@ -145,20 +145,20 @@ void read_signals(JsonObject& o, Profile& profile) {
     check(key, source, key);
     return source;
   };
-  Signals& signals = profile.signals;
-  signals.ambient = one(o, "ambient");
-  signals.speed = one(o, "speed");
-  signals.load = one(o, "load");
-  signals.coolant = one(o, "coolant");
-  signals.compensation_state = one(o, "compensation_state");
+  SignalSources& sources = profile.sources;
+  sources.ambient = one(o, "ambient");
+  sources.speed = one(o, "speed");
+  sources.load = one(o, "load");
+  sources.coolant = one(o, "coolant");
+  sources.compensation_state = one(o, "compensation_state");
   if (JsonObject* positions = o.object_if("positions"); positions != nullptr) {
     for (const std::string& axis : positions->keys()) {
-      if (const auto source = one(*positions, axis)) signals.positions[axis] = *source;
+      if (const auto source = one(*positions, axis)) sources.positions[axis] = *source;
     }
   }
   if (const auto probes = one(o, "probes")) {
     for (int i = 1; i <= probe_count; ++i) {
-      signals.probes.push_back({probes->device, fmt::format("{}[{}]", probes->signal, i)});
+      sources.probes.push_back({probes->device, fmt::format("{}[{}]", probes->signal, i)});
     }
   }
   std::set<std::string> channels;

@@ -42,6 +42,12 @@ SerialLine::Turn::~Turn() {
   m_line.m_next.notify_all();
 }
 
+std::size_t SerialLine::waiting() {
+  const std::lock_guard lock(m_mutex);
+  const std::uint64_t with_the_one_served = m_drawn - m_serving;
+  return with_the_one_served == 0 ? 0 : static_cast<std::size_t>(with_the_one_served - 1);
+}
+
 Status SerialLine::claim() {
   const auto unreachable = [this](const char* detail) {
     return fail(ErrorCode::machine_unreachable, {{"host", m_port}, {"port", "serial"}, {"detail", detail}});

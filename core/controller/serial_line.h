@@ -35,6 +35,9 @@ class SerialLine {
     SerialLine& m_line;
   };
 
+  /// How many wait for their turn.
+  std::size_t waiting();
+
   /// With a turn. Keeps other programs off the port (flock); machine_unreachable when one has it or there is no port.
   Status claim();
   /// With a turn.

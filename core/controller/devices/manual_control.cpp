@@ -45,7 +45,7 @@ Result<acquisition::MachineIdentity> ManualControl::identify() {
   identity.serial = m_profile.serial;
   identity.accepts_table = true;
   identity.accepts_host_offset = true;
-  identity.has_probes = !m_profile.signals.probes.empty();
+  identity.has_probes = !m_profile.sources.probes.empty();
   for (const auto& sensor : m_profile.sensors) {
     identity.sensors.push_back({sensor.channel, sensor.label, sensor.place, sensor.accuracy_C});
   }

@@ -8,6 +8,6 @@
 namespace zerodrift::controller {
 
 /// machine_register_unknown for a signal that the map has not; its value is at the middle of the request.
-Result<std::unique_ptr<Device>> open_modbus(const DeviceProfile& profile, const std::vector<std::string>& signals);
+Result<std::unique_ptr<Device>> open_modbus(const DeviceProfile& profile, const std::vector<std::string>& names);
 
 }  // namespace zerodrift::controller

@@ -16,6 +16,6 @@
 
 namespace zerodrift::controller {
 
-Result<std::unique_ptr<Device>> open_mqtt(const DeviceProfile& profile, const std::vector<std::string>& signals);
+Result<std::unique_ptr<Device>> open_mqtt(const DeviceProfile& profile, const std::vector<std::string>& names);
 
 }  // namespace zerodrift::controller

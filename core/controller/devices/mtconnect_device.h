@@ -18,6 +18,6 @@
 
 namespace zerodrift::controller {
 
-Result<std::unique_ptr<Device>> open_mtconnect(const DeviceProfile& profile, const std::vector<std::string>& signals);
+Result<std::unique_ptr<Device>> open_mtconnect(const DeviceProfile& profile, const std::vector<std::string>& names);
 
 }  // namespace zerodrift::controller
