@@ -1,5 +1,5 @@
 // zerodrift-machine: the virtual machine tool. Modbus TCP server, two cameras, five axes, twenty temperature sensors,
-// and physics of its own that the analysis never sees.
+// and physics of its own that the analysis never sees. As a rig, its parts are devices of their own.
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -15,6 +15,7 @@
 #include "app/machine/description.h"
 #include "app/machine/faults.h"
 #include "app/machine/live_machine.h"
+#include "app/machine/rig/rig_parts.h"
 #include "app/machine/truth_log.h"
 #include "app/text/error_text.h"
 #include "core/base/json.h"
@@ -36,6 +37,7 @@ struct Options {
   std::vector<std::string> faults;
   std::string conceal;
   std::string case_folder;
+  bool rig = false;
 };
 
 struct CameraLatency {
@@ -76,6 +78,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--profile", options.profile, "write the connection profile to this file");
   app.add_option("--truth", options.truth, "write what the machine truly does to this CSV file");
   app.add_option("--fault", options.faults, "a fault now and then (NAME) or all the time (NAME:always)");
+  app.add_flag("--rig", options.rig,
+               "the parts of a rig, each at its own address: control, temperature modules, probe amplifier, agent");
   app.add_option("--conceal", options.conceal, "hide this effect from the machine description, or a random one");
   app.add_option("--write-case", options.case_folder, "write recordings and description there and end");
 }
@@ -108,37 +112,60 @@ Result<std::vector<Fault>> parse_faults(const std::vector<std::string>& texts) {
   return faults;
 }
 
-Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t& endings) {
-  ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
-  TruthLog truth;
-  if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
-  ReplyFaults reply_faults(faults);
-  LiveMachine machine(build_machine(options.seed, hidden), options.speedup,
-                      [&truth](const Machine& now) { truth.moment(now); });
-  machine.set_sensor_fault(sensor_fault(faults));
-  controller::ModbusServerOptions server_options;
-  server_options.host = options.host;
-  server_options.port = options.port;
-  server_options.read = [&](int address, int count) { return machine.read(address, count); };
-  server_options.write = [&](int address, std::span<const std::uint16_t> words) {
+controller::ModbusServerOptions control_options(const Options& options, LiveMachine& machine, ReplyFaults& faults) {
+  controller::ModbusServerOptions control;
+  control.host = options.host;
+  control.port = options.port;
+  control.read = [&machine](int address, int count) { return machine.read(address, count); };
+  control.write = [&machine](int address, std::span<const std::uint16_t> words) {
     return machine.write(address, words);
   };
-  server_options.fault = [&](bool) { return reply_faults.next(); };
+  control.fault = [&faults](bool) { return faults.next(); };
+  return control;
+}
+
+CameraOptions camera_settings(const Options& options) {
   CameraOptions how = camera_options(options.seed);
   const CameraLatency latency = parse_latency(options.camera_latency).value_or(CameraLatency{});
   how.latency_s = latency.seconds;
   how.latency_jitter_s = latency.jitter_s;
   how.frames_per_s = options.camera_fps;
-  CameraServer cameras(how, [&](View view) { return machine.scene(view); });
+  return how;
+}
+
+/// One line: every address that is served.
+std::string ready_line(const Endpoints& endpoints) {
+  std::string line = fmt::format("ready modbus={} camera=http://127.0.0.1:{}/", endpoints.port, endpoints.camera_port);
+  if (!endpoints.rig) return line;
+  line += fmt::format(" rtu={} amplifier={}", endpoints.rig->serial_line, endpoints.rig->amplifier_port);
+  return line;
+}
+
+Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t& endings) {
+  ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
+  TruthLog truth;
+  if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
+  ReplyFaults reply_faults(faults);
+  LiveMachine machine(
+      build_machine(options.seed, hidden), options.speedup, [&truth](const Machine& now) { truth.moment(now); },
+      options.rig ? RegisterScope::control_alone : RegisterScope::whole_machine);
+  machine.set_sensor_fault(sensor_fault(faults));
+  CameraServer cameras(camera_settings(options), [&](View view) { return machine.scene(view); });
   ZD_TRY(const int camera_port, cameras.start(options.camera_port));
-  ZD_TRY(auto server, controller::ModbusServer::start(std::move(server_options)));
-  const Endpoints endpoints{options.host, server->port(), camera_port, options.speedup};
+  ZD_TRY(auto control, controller::ModbusServer::start(control_options(options, machine, reply_faults)));
+  Endpoints endpoints{options.host, control->port(), camera_port, options.speedup};
+  std::unique_ptr<RigParts> rig;
+  if (options.rig) {
+    ZD_TRY(rig, RigParts::start(machine, {1.0 / options.speedup}));
+    endpoints.rig = rig->endpoints();
+  }
   if (!options.profile.empty()) ZD_CHECK(write_json_file(options.profile, connection_profile(endpoints, hidden)));
   machine.start();
-  fmt::print("ready modbus={} camera=http://127.0.0.1:{}/\n", server->port(), camera_port);
+  fmt::print("{}\n", ready_line(endpoints));
   std::fflush(stdout);
   wait_for_end(endings, faults, machine, cameras);
-  server.reset();
+  rig.reset();
+  control.reset();
   cameras.stop();
   machine.stop();
   truth.close();
