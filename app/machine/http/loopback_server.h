@@ -3,6 +3,7 @@
 // large.
 
 #include <httplib.h>
+#undef _res  // a macro of <resolv.h>, and a name in Eigen
 
 #include <memory>
 #include <thread>

@@ -3,11 +3,14 @@
 
 #include "app/machine/description.h"
 #include "app/machine/live_machine.h"
+#include "app/machine/rig/temperature_publisher.h"
 
 namespace zerodrift::machine {
 
 struct RigOptions {
   double machine_second_s = 1.0;  // wall time of a machine second
+  std::optional<MqttBroker> broker = std::nullopt;
+  bool manual_control = false;  // the control has no link: an operator turns its knobs
 };
 
 class RigParts {
