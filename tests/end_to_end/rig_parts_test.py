@@ -17,7 +17,7 @@ from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.payload import BinaryPayloadDecoder
 from pymodbus.constants import Endian
 
-from virtual_machine import VirtualMachine, run_in_folder
+from virtual_machine import BIN, VirtualMachine, run_in_folder
 
 STREAMS = "{urn:mtconnect.org:MTConnectStreams:1.5}"
 ILLEGAL_ADDRESS = 2
@@ -232,7 +232,16 @@ def check_manual(folder):
         assert profile["speed"] == {"device": "agent", "signal": "S1speed"}
 
 
+def check_usage():
+    program = os.path.join(BIN, "zerodrift-machine")
+    for words in (["--mqtt-broker", "127.0.0.1:1883"], ["--rig", "--mqtt-broker", "127.0.0.1"],
+                  ["--rig", "--mqtt-broker", "127.0.0.1:0"]):
+        done = subprocess.run([program, *words], capture_output=True, text=True, timeout=20)
+        assert done.returncode == 2 and "--mqtt-broker" in done.stderr and not done.stdout, (words, done)
+
+
 def test(folder):
+    check_usage()
     check_rig(folder)
     check_manual(folder)
 
