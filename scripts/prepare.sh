@@ -11,7 +11,7 @@ build_packages=(
   libqpdf-dev libzip-dev libicu-dev libpugixml-dev libcli11-dev libexpected-dev libcpp-httplib-dev libssl-dev zlib1g-dev libgtest-dev libgmock-dev
   fonts-inter fonts-noto-cjk
 )
-check_packages=(dpkg-dev file desktop-file-utils appstream shared-mime-info python3 python3-pymodbus python3-serial python3-serial-asyncio python3-openpyxl python3-jsonschema mbpoll mosquitto openssl socat poppler-utils clang-format clang-tidy)
+check_packages=(dpkg-dev file desktop-file-utils appstream shared-mime-info python3 python3-pymodbus python3-serial python3-serial-asyncio python3-openpyxl python3-jsonschema mbpoll mosquitto mosquitto-clients openssl socat poppler-utils clang-format clang-tidy)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 

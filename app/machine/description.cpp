@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/machine/camera/view.h"
@@ -81,6 +82,80 @@ json camera_json(View view, const Endpoints& endpoints) {
           {"pixel_size_known", false}};
 }
 
+/// The modules have sensors 1 to 16, eight each; the agent, or the broker, the last four.
+constexpr int module_channels = 8;
+constexpr int first_beside_modules = 17;
+constexpr int first_at_broker = 19;
+
+struct Source {
+  std::string device;
+  std::string signal;
+};
+
+Source source_of_sensor(int sensor, const RigEndpoints& rig) {
+  if (sensor < first_beside_modules) {
+    return {fmt::format("module-{}", (sensor - 1) / module_channels + 1),
+            fmt::format("temperature_C[{}]", (sensor - 1) % module_channels + 1)};
+  }
+  if (sensor >= first_at_broker && !rig.broker_host.empty()) {
+    return {"shop", fmt::format("shop/T{}#/temperature_C", sensor)};
+  }
+  return {"agent", fmt::format("T{}", sensor)};
+}
+
+json to_json(const Source& source) {
+  return {{"device", source.device}, {"signal", source.signal}};
+}
+
+json module_json(int unit, const RigEndpoints& rig) {
+  return {{"id", fmt::format("module-{}", unit)},
+          {"kind", "modbus-rtu"},
+          {"device", rig.serial_line},
+          {"baud", 19200},
+          {"parity", "N"},
+          {"unit", unit},
+          {"timeout_ms", 300},
+          {"register_map", "temperature-module-8-pt100"}};
+}
+
+json devices_json(const RigEndpoints& rig, int speedup) {
+  json devices = json::array(
+      {module_json(1, rig),
+       module_json(2, rig),
+       {{"id", "amplifier"},
+        {"kind", "modbus-tcp"},
+        {"host", "127.0.0.1"},
+        {"port", rig.amplifier_port},
+        {"unit", 1},
+        {"register_map", "probe-amplifier"}},
+       {{"id", "agent"}, {"kind", "mtconnect"}, {"url", fmt::format("http://127.0.0.1:{}/", rig.agent_port)}}});
+  if (!rig.broker_host.empty()) {
+    devices.push_back({{"id", "shop"}, {"kind", "mqtt"}, {"host", rig.broker_host}, {"port", rig.broker_port}});
+  }
+  for (json& device : devices) {
+    device["poll_period_s"] = std::clamp(1.0 / speedup, 0.02, 1.0);  // a machine second, but no flood of requests
+    device["stale_after_s"] = 5;
+  }
+  return devices;
+}
+
+/// The profile of the whole machine at one Modbus server becomes that of the parts.
+void split_into_parts(json& profile, const RigEndpoints& rig, int speedup) {
+  profile["devices"] = devices_json(rig, speedup);
+  int sensor = 0;
+  for (json& one : profile["sensors"]) one.update(to_json(source_of_sensor(++sensor, rig)));
+  profile["ambient"] =
+      rig.broker_host.empty() ? to_json({"agent", "room"}) : to_json({"shop", "shop/room#/temperature_C"});
+  profile["probes"] = to_json({"amplifier", "probe_um"});
+  if (rig.operator_port == 0) {
+    profile["controller"]["register_map"] = "virtual-rig-control";
+    return;
+  }
+  profile.erase("controller");
+  profile["devices"].push_back({{"id", "control"}, {"kind", "manual"}});
+  profile["speed"] = to_json({"agent", "S1speed"});
+}
+
 }  // namespace
 
 json machine_description(const HiddenEffects& hidden) {
@@ -123,23 +198,25 @@ json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden)
                        {"position_mm", place.position_mm},
                        {"accuracy_C", 0.1}});
   }
-  return {{"format", "zerodrift-profile/1"},
-          {"name", "Virtual five-axis"},
-          {"time_factor", endpoints.speedup},
-          {"controller",
-           {{"kind", "modbus-tcp"},
-            {"host", endpoints.host},
-            {"port", endpoints.port},
-            {"unit", 1},
-            {"timeout_ms", 1000},
-            {"register_map", "zerodrift-virtual"}}},
-          {"cameras", {camera_json(View::front, endpoints), camera_json(View::side, endpoints)}},
-          {"errors", {{"source", "camera"}}},
-          {"measure_position_mm", {{"X", 0}, {"Y", 0}, {"Z", 0}}},
-          {"calibration_span_mm", 1.6},
-          {"sensors", sensors},
-          {"limits", {{"max_um", 200}, {"max_um_per_s", 2}}},
-          {"machine", description_for_cameras(hidden)}};
+  json profile = {{"format", "zerodrift-profile/1"},
+                  {"name", "Virtual five-axis"},
+                  {"time_factor", endpoints.speedup},
+                  {"controller",
+                   {{"kind", "modbus-tcp"},
+                    {"host", endpoints.host},
+                    {"port", endpoints.port},
+                    {"unit", 1},
+                    {"timeout_ms", 1000},
+                    {"register_map", "zerodrift-virtual"}}},
+                  {"cameras", {camera_json(View::front, endpoints), camera_json(View::side, endpoints)}},
+                  {"errors", {{"source", "camera"}}},
+                  {"measure_position_mm", {{"X", 0}, {"Y", 0}, {"Z", 0}}},
+                  {"calibration_span_mm", 1.6},
+                  {"sensors", sensors},
+                  {"limits", {{"max_um", 200}, {"max_um_per_s", 2}}},
+                  {"machine", description_for_cameras(hidden)}};
+  if (endpoints.rig) split_into_parts(profile, *endpoints.rig, endpoints.speedup);
+  return profile;
 }
 
 }  // namespace zerodrift::machine

@@ -11,9 +11,9 @@ constexpr std::uint32_t first_serial = 850000;
 }  // namespace
 
 LiveMachine::LiveMachine(const MachineParameters& parameters, int speedup,
-                         std::function<void(const Machine&)> on_moment)
+                         std::function<void(const Machine&)> on_moment, RegisterScope scope)
     : m_machine(parameters),
-      m_bank(m_machine, first_serial + static_cast<std::uint32_t>(parameters.seed), speedup),
+      m_bank(m_machine, first_serial + static_cast<std::uint32_t>(parameters.seed), speedup, scope),
       m_speedup(speedup),
       m_on_moment(std::move(on_moment)) {}
 

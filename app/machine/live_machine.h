@@ -15,11 +15,19 @@ namespace zerodrift::machine {
 class LiveMachine {
  public:
   /// on_moment is called on the machine's own thread after every turn, under the lock.
-  LiveMachine(const MachineParameters& parameters, int speedup, std::function<void(const Machine&)> on_moment);
+  LiveMachine(const MachineParameters& parameters, int speedup, std::function<void(const Machine&)> on_moment,
+              RegisterScope scope = RegisterScope::whole_machine);
 
   controller::RegisterReply read(int address, int count);
   std::optional<controller::ModbusException> write(int address, std::span<const std::uint16_t> words);
   CameraScene scene(View view);
+  /// What the function makes of the machine as it is now; nothing moves meanwhile.
+  template <class Function>
+  auto with(Function function) {
+    const std::scoped_lock lock(m_mutex);
+    catch_up();
+    return function(m_machine);
+  }
   std::optional<double> first_turn_s();
   void set_sensor_fault(SensorFault fault);
   /// Starts the clock.

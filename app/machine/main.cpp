@@ -1,5 +1,5 @@
 // zerodrift-machine: the virtual machine tool. Modbus TCP server, two cameras, five axes, twenty temperature sensors,
-// and physics of its own that the analysis never sees.
+// and physics of its own that the analysis never sees. As a rig, its parts are devices of their own.
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -15,6 +15,7 @@
 #include "app/machine/description.h"
 #include "app/machine/faults.h"
 #include "app/machine/live_machine.h"
+#include "app/machine/rig/rig_parts.h"
 #include "app/machine/truth_log.h"
 #include "app/text/error_text.h"
 #include "core/base/json.h"
@@ -36,6 +37,9 @@ struct Options {
   std::vector<std::string> faults;
   std::string conceal;
   std::string case_folder;
+  bool rig = false;
+  bool manual = false;  // a rig without a controller
+  std::string mqtt_broker;
 };
 
 struct CameraLatency {
@@ -53,6 +57,17 @@ std::optional<CameraLatency> parse_latency(const std::string& text) {
   if (!number(text.substr(0, colon), latency.seconds)) return std::nullopt;
   if (colon != std::string::npos && !number(text.substr(colon + 1), latency.jitter_s)) return std::nullopt;
   return latency;
+}
+
+/// "192.168.1.5:1883"; nothing for what has no host or no port.
+std::optional<MqttBroker> parse_broker(const std::string& text) {
+  MqttBroker broker;
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) return std::nullopt;
+  broker.host = text.substr(0, colon);
+  if (!CLI::detail::lexical_cast(text.substr(colon + 1), broker.port)) return std::nullopt;
+  if (broker.port < 1 || broker.port > 65535) return std::nullopt;
+  return broker;
 }
 
 void add_options(CLI::App& app, Options& options) {
@@ -76,6 +91,12 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--profile", options.profile, "write the connection profile to this file");
   app.add_option("--truth", options.truth, "write what the machine truly does to this CSV file");
   app.add_option("--fault", options.faults, "a fault now and then (NAME) or all the time (NAME:always)");
+  app.add_flag("--rig", options.rig,
+               "the parts of a rig, each at its own address: control, temperature modules, probe amplifier, agent");
+  app.add_flag("--manual", options.manual,
+               "a rig whose control has no link: an operator's endpoint instead of the Modbus server");
+  app.add_option("--mqtt-broker", options.mqtt_broker, "HOST:PORT: where the rig's wireless sensors publish")
+      ->check([](const std::string& text) { return parse_broker(text) ? "" : "HOST:PORT expected"; });
   app.add_option("--conceal", options.conceal, "hide this effect from the machine description, or a random one");
   app.add_option("--write-case", options.case_folder, "write recordings and description there and end");
 }
@@ -108,37 +129,71 @@ Result<std::vector<Fault>> parse_faults(const std::vector<std::string>& texts) {
   return faults;
 }
 
-Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t& endings) {
-  ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
-  TruthLog truth;
-  if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
-  ReplyFaults reply_faults(faults);
-  LiveMachine machine(build_machine(options.seed, hidden), options.speedup,
-                      [&truth](const Machine& now) { truth.moment(now); });
-  machine.set_sensor_fault(sensor_fault(faults));
-  controller::ModbusServerOptions server_options;
-  server_options.host = options.host;
-  server_options.port = options.port;
-  server_options.read = [&](int address, int count) { return machine.read(address, count); };
-  server_options.write = [&](int address, std::span<const std::uint16_t> words) {
+controller::ModbusServerOptions control_options(const Options& options, LiveMachine& machine, ReplyFaults& faults) {
+  controller::ModbusServerOptions control;
+  control.host = options.host;
+  control.port = options.port;
+  control.read = [&machine](int address, int count) { return machine.read(address, count); };
+  control.write = [&machine](int address, std::span<const std::uint16_t> words) {
     return machine.write(address, words);
   };
-  server_options.fault = [&](bool) { return reply_faults.next(); };
+  control.fault = [&faults](bool) { return faults.next(); };
+  return control;
+}
+
+CameraOptions camera_settings(const Options& options) {
   CameraOptions how = camera_options(options.seed);
   const CameraLatency latency = parse_latency(options.camera_latency).value_or(CameraLatency{});
   how.latency_s = latency.seconds;
   how.latency_jitter_s = latency.jitter_s;
   how.frames_per_s = options.camera_fps;
-  CameraServer cameras(how, [&](View view) { return machine.scene(view); });
+  return how;
+}
+
+/// One line: every address that is served.
+std::string ready_line(const Endpoints& endpoints) {
+  const bool manual = endpoints.rig && endpoints.rig->operator_port != 0;
+  std::string line = manual ? "ready" : fmt::format("ready modbus={}", endpoints.port);
+  line += fmt::format(" camera=http://127.0.0.1:{}/", endpoints.camera_port);
+  if (!endpoints.rig) return line;
+  const RigEndpoints& rig = *endpoints.rig;
+  line += fmt::format(" rtu={} amplifier={} mtconnect=http://127.0.0.1:{}/", rig.serial_line, rig.amplifier_port,
+                      rig.agent_port);
+  if (!rig.broker_host.empty()) line += fmt::format(" mqtt={}:{}", rig.broker_host, rig.broker_port);
+  if (manual) line += fmt::format(" operator=http://127.0.0.1:{}/", rig.operator_port);
+  return line;
+}
+
+Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t& endings) {
+  ZD_TRY(const std::vector<Fault> faults, parse_faults(options.faults));
+  const bool parts = options.rig || options.manual;
+  TruthLog truth;
+  if (!options.truth.empty()) ZD_CHECK(truth.open(options.truth));
+  ReplyFaults reply_faults(faults);
+  LiveMachine machine(
+      build_machine(options.seed, hidden), options.speedup, [&truth](const Machine& now) { truth.moment(now); },
+      parts ? RegisterScope::control_alone : RegisterScope::whole_machine);
+  machine.set_sensor_fault(sensor_fault(faults));
+  CameraServer cameras(camera_settings(options), [&](View view) { return machine.scene(view); });
   ZD_TRY(const int camera_port, cameras.start(options.camera_port));
-  ZD_TRY(auto server, controller::ModbusServer::start(std::move(server_options)));
-  const Endpoints endpoints{options.host, server->port(), camera_port, options.speedup};
+  Endpoints endpoints{options.host, 0, camera_port, options.speedup};
+  std::unique_ptr<controller::ModbusServer> control;
+  if (!options.manual) {
+    ZD_TRY(control, controller::ModbusServer::start(control_options(options, machine, reply_faults)));
+    endpoints.port = control->port();
+  }
+  std::unique_ptr<RigParts> rig;
+  if (parts) {
+    ZD_TRY(rig, RigParts::start(machine, {1.0 / options.speedup, parse_broker(options.mqtt_broker), options.manual}));
+    endpoints.rig = rig->endpoints();
+  }
   if (!options.profile.empty()) ZD_CHECK(write_json_file(options.profile, connection_profile(endpoints, hidden)));
   machine.start();
-  fmt::print("ready modbus={} camera=http://127.0.0.1:{}/\n", server->port(), camera_port);
+  fmt::print("{}\n", ready_line(endpoints));
   std::fflush(stdout);
   wait_for_end(endings, faults, machine, cameras);
-  server.reset();
+  rig.reset();
+  control.reset();
   cameras.stop();
   machine.stop();
   truth.close();
@@ -147,6 +202,10 @@ Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t
 
 /// What is hidden is promised on stderr before and opened there at the end; stdout holds the line "ready" alone.
 Status work(const Options& options, const sigset_t& endings) {
+  if (!options.mqtt_broker.empty() && !options.rig && !options.manual) {
+    return fail(ErrorCode::bad_argument,
+                {{"what", "--mqtt-broker"}, {"found", "alone"}, {"expected", "--rig or --manual with it"}});
+  }
   ZD_TRY(const HiddenEffects hidden, draw_effect(options.conceal, options.seed));
   if (!options.case_folder.empty()) return write_case(options.case_folder, hidden, options.seed);
   if (options.conceal.empty()) return serve(options, hidden, endings);

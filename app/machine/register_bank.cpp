@@ -18,14 +18,11 @@ struct Block {
   int first;
   int last;
 };
-constexpr std::array blocks{Block{0, 127}, Block{140, 175}, Block{200, 219},
-                            Block{staging_first, staging_first + table_capacity - 1},
-                            Block{active_first, active_first + table_capacity - 1}};
-
-bool inside_a_block(int address, int count) {
-  return std::any_of(blocks.begin(), blocks.end(),
-                     [&](const Block& block) { return address >= block.first && address + count - 1 <= block.last; });
-}
+constexpr Block staging{staging_first, staging_first + table_capacity - 1};
+constexpr Block active{active_first, active_first + table_capacity - 1};
+constexpr std::array whole_machine{Block{0, 127}, Block{140, 175}, Block{200, 219}, staging, active};
+constexpr std::array control_alone{Block{0, 95}, Block{140, 159}, Block{200, 219}, staging, active};
+constexpr int can_probe = 0b1000;  // capability bit
 
 /// Puts values into the image in the map's order of words.
 class ImageWriter {
@@ -179,15 +176,21 @@ std::span<const RegisterBank::Field> RegisterBank::fields() {
   return table;
 }
 
-RegisterBank::RegisterBank(Machine& machine, std::uint32_t serial, int time_factor)
-    : m_machine(machine), m_serial(serial), m_time_factor(time_factor) {}
+RegisterBank::RegisterBank(Machine& machine, std::uint32_t serial, int time_factor, RegisterScope scope)
+    : m_machine(machine), m_serial(serial), m_time_factor(time_factor), m_scope(scope) {}
+
+bool RegisterBank::holds(int address, int count) const {
+  const auto& blocks = m_scope == RegisterScope::whole_machine ? whole_machine : control_alone;
+  return std::any_of(blocks.begin(), blocks.end(),
+                     [&](const Block& block) { return address >= block.first && address + count - 1 <= block.last; });
+}
 
 std::vector<std::uint16_t> RegisterBank::image() const {
   std::vector<std::uint16_t> words(image_size, 0);
   ImageWriter out(words);
   out.word(0, 0x5A44);
   out.word(1, 1);
-  out.word(2, 0b1111);
+  out.word(2, 0b0111 | (m_scope == RegisterScope::whole_machine ? can_probe : 0));
   out.word(3, table_capacity);
   out.wide(4, m_serial);
   out.word(6, sensor_count);
@@ -203,7 +206,7 @@ std::vector<std::uint16_t> RegisterBank::image() const {
 }
 
 controller::RegisterReply RegisterBank::read(int address, int count) const {
-  if (!inside_a_block(address, count)) return tl::unexpected(ModbusException::illegal_address);
+  if (!holds(address, count)) return tl::unexpected(ModbusException::illegal_address);
   std::vector<std::uint16_t> words(static_cast<std::size_t>(count));
   if (address < image_size) {
     const auto all = image();
@@ -242,7 +245,7 @@ Refusal RegisterBank::check(int address, Words words) const {
 
 Refusal RegisterBank::write(int address, Words words) {
   const int count = static_cast<int>(words.size());
-  if (!inside_a_block(address, count)) return ModbusException::illegal_address;
+  if (!holds(address, count)) return ModbusException::illegal_address;
   if (address >= active_first) return ModbusException::illegal_address;
   if (address >= staging_first) {
     if (m_machine.compensator().is_on()) return ModbusException::device_failure;

@@ -12,9 +12,15 @@
 
 namespace zerodrift::machine {
 
+enum class RegisterScope {
+  whole_machine,
+  control_alone,  // temperatures and probes are devices of their own (virtual-rig-control)
+};
+
 class RegisterBank {
  public:
-  RegisterBank(Machine& machine, std::uint32_t serial, int time_factor);
+  RegisterBank(Machine& machine, std::uint32_t serial, int time_factor,
+               RegisterScope scope = RegisterScope::whole_machine);
 
   controller::RegisterReply read(int address, int count) const;
   std::optional<controller::ModbusException> write(int address, std::span<const std::uint16_t> words);
@@ -24,11 +30,13 @@ class RegisterBank {
   static std::span<const Field> fields();
   static const Field* field_at(int address);
   std::optional<controller::ModbusException> check(int address, std::span<const std::uint16_t> words) const;
+  bool holds(int address, int count) const;
   std::vector<std::uint16_t> image() const;
 
   Machine& m_machine;
   std::uint32_t m_serial;
   int m_time_factor;
+  RegisterScope m_scope;
   std::uint16_t m_host_beat = 0;
   Axes m_target_mm{};
 };

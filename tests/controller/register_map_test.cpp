@@ -85,7 +85,8 @@ TEST(RegisterMap, FaultsNameFileAndKey) {
 }
 
 TEST(RegisterMap, WrittenAndReadBack) {
-  for (const char* name : {"zerodrift-virtual", "linuxcnc-gateway"}) {
+  for (const char* name : {"zerodrift-virtual", "linuxcnc-gateway", "virtual-rig-control", "temperature-module-8-pt100",
+                           "temperature-module-8-ds18b20", "probe-amplifier"}) {
     const auto map = load_register_map(name);
     ASSERT_TRUE(map) << describe(map.error());
     const auto document = to_json(*map);

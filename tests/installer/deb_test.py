@@ -33,6 +33,10 @@ usr/share/man/man1/zerodrift-machine.1.gz
 usr/share/metainfo/org.zerodrift.Zerodrift.metainfo.xml
 usr/share/mime/packages/org.zerodrift.Zerodrift.xml
 usr/share/zerodrift/resources/profiles/virtual-five-axis.json
+usr/share/zerodrift/resources/register_maps/probe-amplifier.json
+usr/share/zerodrift/resources/register_maps/temperature-module-8-ds18b20.json
+usr/share/zerodrift/resources/register_maps/temperature-module-8-pt100.json
+usr/share/zerodrift/resources/register_maps/virtual-rig-control.json
 usr/share/zerodrift/resources/register_maps/zerodrift-virtual.json
 usr/share/zerodrift/resources/samples/sample.zdj
 """.split()

@@ -17,6 +17,36 @@ TEST(Description, TheShippedProfileIsTheOneTheToolWrites) {
   EXPECT_EQ(*shipped, connection_profile({}, {}));
 }
 
+TEST(Description, TheRigsProfileGivesEachSensorItsDevice) {
+  Endpoints endpoints;
+  endpoints.speedup = 240;
+  RigEndpoints& rig = endpoints.rig.emplace();
+  rig.serial_line = "/dev/pts/7";
+  rig.agent_port = 5000;
+  const auto profile = connection_profile(endpoints, {});
+  EXPECT_EQ(profile["controller"]["register_map"], "virtual-rig-control");
+  ASSERT_EQ(profile["devices"].size(), 4U);
+  EXPECT_EQ(profile["devices"][1]["unit"], 2);
+  EXPECT_EQ(profile["devices"][1]["device"], "/dev/pts/7");
+  EXPECT_EQ(profile["devices"][1]["poll_period_s"], 0.02) << "no faster, however short a machine second is";
+  EXPECT_EQ(profile["devices"][3]["url"], "http://127.0.0.1:5000/");
+  EXPECT_EQ(profile["sensors"][8]["device"], "module-2");
+  EXPECT_EQ(profile["sensors"][8]["signal"], "temperature_C[1]");
+  EXPECT_EQ(profile["sensors"][19]["device"], "agent");
+  EXPECT_EQ(profile["sensors"][19]["signal"], "T20");
+  EXPECT_EQ(profile["ambient"]["signal"], "room");
+  rig.broker_host = "127.0.0.1";
+  rig.broker_port = 1883;
+  rig.operator_port = 8070;
+  const auto manual = connection_profile(endpoints, {});
+  EXPECT_FALSE(manual.contains("controller"));
+  EXPECT_EQ(manual["control"]["kind"], "manual");
+  EXPECT_EQ(manual["speed"]["signal"], "S1speed");
+  EXPECT_EQ(manual["devices"][4]["port"], 1883);
+  EXPECT_EQ(manual["sensors"][18]["signal"], "shop/T19#/temperature_C");
+  EXPECT_EQ(manual["ambient"]["device"], "shop");
+}
+
 TEST(Description, KnowsNothingOfWhatIsHidden) {
   const auto plain = machine_description({});
   EXPECT_EQ(plain["effects"], nlohmann::json({"convection"}));

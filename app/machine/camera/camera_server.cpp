@@ -1,16 +1,12 @@
 #include "app/machine/camera/camera_server.h"
 
 #include <fmt/format.h>
-#include <httplib.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
-#include <cstring>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -18,24 +14,16 @@
 #include <string>
 #include <thread>
 
+#include "app/machine/http/loopback_server.h"
 #include "core/vision/image_codec.h"
 
 namespace zerodrift::machine {
 namespace {
 
 constexpr std::string_view boundary = "zerodrift-frame";
-constexpr std::size_t most_connections = 24;  // a stream holds its thread; waiting threads cost nothing
 // How long a latency lasts before it jumps to another value within its jitter.
 constexpr double shortest_spell_s = 0.5;
 constexpr double longest_spell_s = 4.0;
-constexpr int send_buffer_bytes = 32 * 1024;  // less than a frame: what a slow client has not taken is not yet rendered
-
-void set_socket_options(socket_t socket) {
-  // Not SO_REUSEPORT, the library's default: a second server on the port must be told that it is taken.
-  const int yes = 1;
-  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &send_buffer_bytes, sizeof(send_buffer_bytes));
-}
 
 std::string part_header(const EncodedFrame& frame) {
   return fmt::format("--{}\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\nX-Machine-Time: {:.3f}\r\n\r\n",
@@ -122,8 +110,7 @@ struct CameraServer::Service {
   std::condition_variable stopping_changed;
   bool stopping = false;
   std::atomic<std::uint64_t> streams = 1;
-  std::unique_ptr<httplib::Server> server;
-  std::thread listener;
+  std::unique_ptr<LoopbackServer> server;
 };
 
 /// False when the server stops.
@@ -167,10 +154,10 @@ void CameraServer::Service::serve_png(View view, httplib::Response& response) {
 
 void CameraServer::Service::add_routes() {
   for (const View view : {View::front, View::side}) {
-    server->Get(fmt::format("/{}\\.mjpg", name_of(view)),
-                [this, view](const httplib::Request&, httplib::Response& r) { serve_stream(view, r); });
-    server->Get(fmt::format("/{}\\.png", name_of(view)),
-                [this, view](const httplib::Request&, httplib::Response& r) { serve_png(view, r); });
+    server->http().Get(fmt::format("/{}\\.mjpg", name_of(view)),
+                       [this, view](const httplib::Request&, httplib::Response& r) { serve_stream(view, r); });
+    server->http().Get(fmt::format("/{}\\.png", name_of(view)),
+                       [this, view](const httplib::Request&, httplib::Response& r) { serve_png(view, r); });
   }
 }
 
@@ -191,24 +178,10 @@ Result<int> CameraServer::start(int port) {
   stop();
   Service& service = *m_service;
   service.stopping = false;
-  service.server = std::make_unique<httplib::Server>();
-  service.server->set_socket_options(set_socket_options);
-  service.server->set_tcp_nodelay(true);
-  service.server->set_write_timeout(2);
-  service.server->set_keep_alive_timeout(2);
-  service.server->new_task_queue = [] { return new httplib::ThreadPool(most_connections); };
+  service.server = std::make_unique<LoopbackServer>();
   service.add_routes();
-  const std::string host = "127.0.0.1";
-  const int bound = port == 0                                  ? service.server->bind_to_any_port(host)
-                    : service.server->bind_to_port(host, port) ? port
-                                                               : -1;
-  if (bound <= 0) {
-    service.server.reset();
-    return fail(ErrorCode::port_unavailable,
-                {{"host", host}, {"port", std::to_string(port)}, {"detail", std::strerror(errno)}});
-  }
-  service.listener = std::thread([&service] { service.server->listen_after_bind(); });
-  while (!service.server->is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  auto bound = service.server->start(port);
+  if (!bound) service.server.reset();
   return bound;
 }
 
@@ -220,8 +193,6 @@ void CameraServer::stop() {
     service.stopping = true;
   }
   service.stopping_changed.notify_all();
-  service.server->stop();
-  service.listener.join();
   service.server.reset();
 }
 
