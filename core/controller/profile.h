@@ -33,7 +33,7 @@ struct SensorProfile {
   std::string place;
   std::optional<double> position_mm;
   double accuracy_C = 0.1;
-  SignalSource source;  // without a device the control's register of the sensor's place in the list
+  SignalSource source{};  // without a device the control's register of the sensor's place in the list
 };
 
 enum class ErrorSourceKind {

@@ -12,7 +12,7 @@
 #include "core/controller/host_compensator.h"
 #include "core/controller/offset_exit.h"
 #include "core/controller/upload.h"
-#include "device.h"
+#include "fake_controller.h"
 #include "fixtures.h"
 
 namespace zerodrift::controller {
@@ -55,7 +55,7 @@ class HostCompensatorTest : public testing::Test {
     EXPECT_EQ(device.word(17), switch_on ? 1 : 0);
   }
 
-  Device device;
+  FakeController device;
   std::unique_ptr<ModbusMachine> machine;
   std::stop_source stop;
   HostCompensatorOptions options;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "device.h"
+#include "fake_controller.h"
 
 namespace zerodrift::controller {
 

@@ -13,7 +13,7 @@
 #include "core/acquisition/machine_fault.h"
 #include "core/controller/modbus_machine.h"
 #include "core/controller/rtu_reply.h"
-#include "device.h"
+#include "fake_controller.h"
 #include "serial_device.h"
 
 namespace zerodrift::controller {
@@ -54,7 +54,7 @@ class ExceptionOnce : public testing::TestWithParam<int> {};
 
 // A gateway or a busy device answers one request with an exception; the next try succeeds.
 TEST_P(ExceptionOnce, IsOvercomeByReadsAndWrites) {
-  Device device;
+  FakeController device;
   Link link(device.profile().controller);
   const auto exception = static_cast<ModbusException>(GetParam());
   const bool passes = GetParam() >= 4;
@@ -78,7 +78,7 @@ TEST_P(ExceptionOnce, IsOvercomeByReadsAndWrites) {
 INSTANTIATE_TEST_SUITE_P(Codes, ExceptionOnce, testing::Values(2, 3, 4, 5, 6, 10, 11));
 
 TEST(Link, AnExceptionThatStaysIsNamed) {
-  Device device;
+  FakeController device;
   Link link(device.profile().controller);
   const auto named = [&](int code) {
     device.spoil(0, {Kind::refused, std::chrono::milliseconds(0), static_cast<ModbusException>(code)}, true);
@@ -93,7 +93,7 @@ TEST(Link, AnExceptionThatStaysIsNamed) {
 }
 
 TEST(Link, ADeviceWithoutFunction6IsWrittenWithFunction16) {
-  Device device({6});
+  FakeController device({6});
   Link link(device.profile().controller);
   ASSERT_TRUE(write_some(link, 72, {4711}));
   EXPECT_EQ(device.word(72), 4711);
@@ -106,25 +106,25 @@ TEST(Link, ADeviceWithoutFunction6IsWrittenWithFunction16) {
 }
 
 TEST(Link, WhatFunctionADeviceLacksIsNamed) {
-  Device no_16({16});
+  FakeController no_16({16});
   Link link(no_16.profile().controller);
   EXPECT_TRUE(write_some(link, 72, {1}));
   const Status two = write_some(link, 72, {1, 2});
   ASSERT_FALSE(two);
   EXPECT_EQ(two.error().code, ErrorCode::machine_function_missing);
   EXPECT_NE(two.error().context.at("function").find("16"), std::string::npos);
-  Device read_only({6, 16});
+  FakeController read_only({6, 16});
   Link other(read_only.profile().controller);
   const Status one = write_some(other, 72, {1});
   ASSERT_FALSE(one);
   EXPECT_EQ(one.error().context.at("function"), "6 or 16 (write registers)");
-  Device mute({3});
+  FakeController mute({3});
   Link third(mute.profile().controller);
   EXPECT_EQ(read_some(third).error().code, ErrorCode::machine_function_missing);
 }
 
 TEST(Link, AFunctionThatWorkedIsNotCalledMissing) {
-  Device device;
+  FakeController device;
   Link link(device.profile().controller);
   ASSERT_TRUE(read_some(link));
   ASSERT_TRUE(write_some(link, 72, {1}));
@@ -139,7 +139,7 @@ TEST(Link, AFunctionThatWorkedIsNotCalledMissing) {
 }
 
 TEST(Link, AReplyOfAnotherUnitIsRefusedByName) {
-  Device device;
+  FakeController device;
   device.set(100, 1234);
   Link link(device.profile().controller);
   device.spoil(0, {Kind::wrong_unit, {}}, true);
@@ -155,7 +155,7 @@ TEST(Link, AReplyOfAnotherUnitIsRefusedByName) {
 
 TEST(ModbusMachine, SwitchesOnceWhenTheAnswerIsUnclear) {
   for (const auto kind : {Kind::truncated, Kind::drop, Kind::refused_after}) {
-    Device device;
+    FakeController device;
     std::atomic<int> commands = 0;
     device.on_write = [&](int address, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
       commands += address == 76 ? 1 : 0;
@@ -173,7 +173,7 @@ TEST(ModbusMachine, SwitchesOnceWhenTheAnswerIsUnclear) {
 }
 
 TEST(ModbusMachine, ClearsTheOffsetWhileTheSwitchIsOff) {
-  Device device;
+  FakeController device;
   device.set_float(144, -8.0);
   auto machine = ModbusMachine::open(device.profile(), engineer());
   ASSERT_TRUE(machine);
@@ -185,7 +185,7 @@ TEST(ModbusMachine, ClearsTheOffsetWhileTheSwitchIsOff) {
 
 // A device that reads fewer registers a request than the standard allows.
 TEST(ModbusMachine, ReadsInShorterPartsWhereLongOnesAreRefused) {
-  Device device;
+  FakeController device;
   device.set(100, 16 * 30);
   device.set_float(24, -12.5);
   device.limit_reads(5);

@@ -10,7 +10,7 @@
 
 #include "core/controller/modbus_machine.h"
 #include "core/controller/modbus_server.h"
-#include "device.h"
+#include "fake_controller.h"
 #include "peer.h"
 
 namespace zerodrift::controller {
@@ -129,7 +129,7 @@ TEST(ModbusMachine, SampleTakesTwoRequests) {
 TEST(ModbusMachine, WaitsForWhatIsAppliedAndNotForTheRampAlone) {
   constexpr double last_um = -24.0;
   constexpr int applied_Z = 44;
-  Device device;
+  FakeController device;
   device.set(213, 100);
   Profile profile = device.profile();
   profile.time_factor = 10.0;
@@ -191,7 +191,7 @@ TEST_P(SporadicFault, WithoutEndIsNamed) {
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Device, SporadicFault,
+INSTANTIATE_TEST_SUITE_P(FakeController, SporadicFault,
                          testing::Values(std::pair{Kind::busy, "machine_busy"}, std::pair{Kind::late, "machine_silent"},
                                          std::pair{Kind::wrong_transaction, "machine_bad_reply"},
                                          std::pair{Kind::truncated, "machine_silent"},

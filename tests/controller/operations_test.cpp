@@ -12,7 +12,7 @@
 #include "core/controller/register_view.h"
 #include "core/controller/table_words.h"
 #include "core/controller/upload.h"
-#include "device.h"
+#include "fake_controller.h"
 #include "tests/support/amount.h"
 
 namespace zerodrift::controller {
@@ -80,7 +80,7 @@ TEST_P(BadCableOperation, IsNamedAndEndsInTime) {
   int failed = 0;
   double longest_s = 0.0;
   for (const Named& operation : operations()) {
-    Device device;
+    FakeController device;
     Profile profile = device.profile();
     BadCable cable(profile.controller.port);
     profile.controller.port = cable.port();
@@ -133,7 +133,7 @@ struct Wired {
     EXPECT_TRUE(machine->read());
     return cable.passed();
   }
-  Device device;
+  FakeController device;
   BadCable cable;
   std::unique_ptr<ModbusMachine> machine;
 };

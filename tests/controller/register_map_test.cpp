@@ -8,7 +8,7 @@
 
 #include "core/controller/register_names.h"
 #include "core/controller/register_view.h"
-#include "tests/controller/device.h"
+#include "tests/controller/fake_controller.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -101,7 +101,7 @@ TEST(RegisterMap, WrittenAndReadBack) {
 
 // Every register of a live device, decoded; one that it refuses does not hide the others.
 TEST(RegisterMap, EveryValueLive) {
-  Device device;
+  FakeController device;
   auto map = load_register_map("zerodrift-virtual").value();
   Link link(device.profile().controller);
   const auto all = read_all(link, map);

@@ -19,8 +19,8 @@
 #include "core/controller/manual_upload.h"
 #include "core/controller/modbus_server.h"
 #include "core/controller/serial_line.h"
+#include "fake_controller.h"
 #include "fixtures.h"
-#include "peer.h"
 
 namespace zerodrift::controller {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "device.h"
+#include "fake_controller.h"
 #include "fixtures.h"
 
 namespace zerodrift::controller {
@@ -43,7 +43,7 @@ class RollbackTest : public testing::Test {
     return text;
   }
 
-  Device device;
+  FakeController device;
   std::unique_ptr<ModbusMachine> machine;
   TableHistory history;
 };

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "core/controller/probe_source.h"
-#include "device.h"
+#include "fake_controller.h"
 #include "fixtures.h"
 #include "peer.h"
 
@@ -20,7 +20,7 @@ namespace {
 /// Sees what the device applies, turned, mixed, scaled and drifting as told.
 class Watcher : public acquisition::ErrorSource {
  public:
-  explicit Watcher(Device& device, double gain = 1.0) : m_device(device), m_gain(gain) {}
+  explicit Watcher(FakeController& device, double gain = 1.0) : m_device(device), m_gain(gain) {}
   Status take_zero(const acquisition::Stand&, const TaskContext&) override { return {}; }
   Result<acquisition::ErrorSample> measure(const acquisition::Stand&, const TaskContext&) override {
     ++looks;
@@ -45,7 +45,7 @@ class Watcher : public acquisition::ErrorSource {
   std::function<void(int)> on_look;
 
  private:
-  Device& m_device;
+  FakeController& m_device;
   double m_gain;
   std::chrono::steady_clock::time_point m_started = std::chrono::steady_clock::now();
 };
@@ -70,7 +70,7 @@ class SignCheckTest : public testing::Test {
     return context.at("axis") + ": " + seen.substr(seen.find(" - ") + 3);
   }
 
-  Device device;
+  FakeController device;
   std::unique_ptr<ModbusMachine> machine;
 };
 

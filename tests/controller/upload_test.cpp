@@ -11,7 +11,7 @@
 
 #include "bad_cable.h"
 #include "core/controller/table_words.h"
-#include "device.h"
+#include "fake_controller.h"
 #include "fixtures.h"
 #include "peer.h"
 #include "tests/support/amount.h"
@@ -25,7 +25,7 @@ using Kind = ReplyFault::Kind;
 }  // namespace
 
 TEST(TableWords, RoundTripIsExactInSinglePrecision) {
-  const Device device;
+  const FakeController device;
   const Table table = sample_table();
   const auto words = encode_table(table, device.profile());
   ASSERT_TRUE(words) << describe(words.error());
@@ -40,7 +40,7 @@ TEST(TableWords, RoundTripIsExactInSinglePrecision) {
 }
 
 TEST(TableWords, RefusesWhatDoesNotFit) {
-  const Device device;
+  const FakeController device;
   Table table = sample_table();
   EXPECT_EQ(encode_table(table, device.profile(), 100).error().code, ErrorCode::limit_exceeded);
   table.axes["Z"].terms[0].sensor = "T99_C";
@@ -53,7 +53,7 @@ TEST(TableWords, RefusesWhatDoesNotFit) {
 }
 
 TEST(Upload, PushReadBackRollback) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   std::vector<std::string> states;
   UploadOptions options;
@@ -78,7 +78,7 @@ TEST(Upload, PushReadBackRollback) {
 }
 
 TEST(Upload, DryRunWritesNothing) {
-  Device device;
+  FakeController device;
   device.set(17, 1);
   bool written = false;
   device.on_write = [&](int, std::span<const std::uint16_t>) -> std::optional<ModbusException> {
@@ -95,7 +95,7 @@ TEST(Upload, DryRunWritesNothing) {
 }
 
 TEST(Upload, RefusesBeforeWriting) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   const auto refusal = [&](const Table& table) {
     const auto record = upload_table(*machine, table, {}, {});
@@ -118,7 +118,7 @@ TEST(Upload, RefusesBeforeWriting) {
 }
 
 TEST(Upload, RejectionLeavesTheOldTableActive) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(), {}, {}).result);
   const auto old_words = device.active();
@@ -134,7 +134,7 @@ TEST(Upload, RejectionLeavesTheOldTableActive) {
 }
 
 TEST(Upload, CorruptStagingIsFoundBeforeTheCommit) {
-  Device device;
+  FakeController device;
   device.on_write = [&](int address, std::span<const std::uint16_t> values) -> std::optional<ModbusException> {
     if (address >= 1000) {
       auto* words = const_cast<std::uint16_t*>(values.data());
@@ -158,7 +158,7 @@ class UploadFault : public testing::TestWithParam<Kind> {};
 
 // One spoilt reply at each possible request: the table is the old or the new one, whole, and the record says which.
 TEST_P(UploadFault, AtEveryRequest) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   device.spoil(-1, {});
@@ -183,7 +183,7 @@ TEST_P(UploadFault, AtEveryRequest) {
 
 // The link dies for good at any request: nothing is half active, and a doubtful end says so.
 TEST_P(UploadFault, ForGoodFromEachRequest) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto old_words = device.active();
@@ -207,7 +207,7 @@ TEST_P(UploadFault, ForGoodFromEachRequest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Device, UploadFault,
+INSTANTIATE_TEST_SUITE_P(FakeController, UploadFault,
                          testing::Values(Kind::busy, Kind::late, Kind::wrong_transaction, Kind::truncated, Kind::drop,
                                          Kind::refused, Kind::refused_after, Kind::wrong_unit));
 
@@ -223,7 +223,7 @@ long cable_stride() {
 // A fault at any byte of the whole exchange: afterwards the old or the new table is active, whole, and the record tells
 // the truth about it. (A corrupted byte of a request can write another register: what is read back decides.)
 TEST_P(BadCableUpload, AtBytesAllOverTheExchange) {
-  Device device;
+  FakeController device;
   Profile profile = device.profile();
   BadCable cable(profile.controller.port);
   profile.controller.port = cable.port();
@@ -281,7 +281,7 @@ INSTANTIATE_TEST_SUITE_P(Cable, BadCableUpload,
 
 // The largest table there can be, written and taken back: the old one is active, compared and known well within 5 s.
 TEST(Upload, RollbackOfAFullTableIsQuick) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto before = device.active();
@@ -303,7 +303,7 @@ TEST(Upload, RollbackOfAFullTableIsQuick) {
 
 // The answer to the commit is missing or unclear: what became of it is read, and it is not sent a second time.
 TEST(Upload, CommitIsNeverSentTwiceBlindly) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   std::atomic<int> last_commit_at = -1;
@@ -335,7 +335,7 @@ TEST(Upload, CommitIsNeverSentTwiceBlindly) {
 }
 
 TEST(Upload, ARefusedCommitIsNotSentAgain) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   const auto old_words = device.active();
@@ -355,7 +355,7 @@ TEST(Upload, ARefusedCommitIsNotSentAgain) {
 
 // The link dies for good while staging: the table is the old one, but the switch that was on is not.
 TEST(Upload, ASwitchThatStaysOffIsTold) {
-  Device device;
+  FakeController device;
   auto machine = open(device.profile());
   ASSERT_TRUE(upload_table(*machine, sample_table(1.0), {}, {}).result);
   machine->link().set_attempts(2);

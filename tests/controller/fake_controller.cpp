@@ -1,4 +1,4 @@
-#include "device.h"
+#include "fake_controller.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 namespace zerodrift::controller {
 
-void Device::reset_state() {
+void FakeController::reset_state() {
   const std::scoped_lock guard(m_lock);
   std::fill(m_words.begin(), m_words.begin() + 200, std::uint16_t{0});
   for (const auto& [address, value] : std::vector<std::pair<int, int>>{
@@ -17,7 +17,7 @@ void Device::reset_state() {
   for (std::size_t i = 96; i < 120; ++i) m_words[i] = 16 * 25;
 }
 
-Device::Device(std::set<int> without_functions) : m_words(6000, 0) {
+FakeController::FakeController(std::set<int> without_functions) : m_words(6000, 0) {
   reset_state();
   ModbusServerOptions options;
   options.without_functions = std::move(without_functions);
@@ -43,9 +43,9 @@ Device::Device(std::set<int> without_functions) : m_words(6000, 0) {
   EXPECT_NE(m_server, nullptr);
 }
 
-Profile Device::profile() const {
+Profile FakeController::profile() const {
   Profile p;
-  p.name = "Device";
+  p.name = "FakeController";
   p.controller.port = m_server->port();
   p.controller.timeout_ms = 60;
   p.time_factor = 20.0;  // an upload waits a machine's second for what is applied
@@ -53,38 +53,38 @@ Profile Device::profile() const {
   return p;
 }
 
-std::vector<std::uint16_t> Device::active() const {
+std::vector<std::uint16_t> FakeController::active() const {
   const std::scoped_lock guard(m_lock);
   return {m_words.begin() + 4000, m_words.begin() + 4000 + m_words[210]};
 }
 
-std::uint16_t Device::word(int address) const {
+std::uint16_t FakeController::word(int address) const {
   const std::scoped_lock guard(m_lock);
   return m_words[static_cast<std::size_t>(address)];
 }
 
-void Device::set(int address, std::uint16_t value) {
+void FakeController::set(int address, std::uint16_t value) {
   const std::scoped_lock guard(m_lock);
   m_words[static_cast<std::size_t>(address)] = value;
 }
 
-void Device::set_float(int address, double value) {
+void FakeController::set_float(int address, double value) {
   std::vector<std::uint16_t> words;
   append_float(words, static_cast<float>(value));
   set(address, words[0]);
   set(address + 1, words[1]);
 }
 
-double Device::float_at(int address) const {
+double FakeController::float_at(int address) const {
   const std::scoped_lock guard(m_lock);
   return float_unlocked(address);
 }
 
-double Device::float_unlocked(int address) const {
+double FakeController::float_unlocked(int address) const {
   return static_cast<double>(controller::float_at(m_words, static_cast<std::size_t>(address)));
 }
 
-void Device::spoil(int n, ReplyFault fault, bool lasting) {
+void FakeController::spoil(int n, ReplyFault fault, bool lasting) {
   const std::scoped_lock guard(m_lock);
   m_fault = fault;
   m_lasting = lasting;
@@ -93,13 +93,13 @@ void Device::spoil(int n, ReplyFault fault, bool lasting) {
   m_spoil_at = n;
 }
 
-void Device::spoil_where(std::function<bool(int)> strikes, ReplyFault fault) {
+void FakeController::spoil_where(std::function<bool(int)> strikes, ReplyFault fault) {
   spoil(-1, fault);
   const std::scoped_lock guard(m_lock);
   m_strikes = std::move(strikes);
 }
 
-void Device::tick() {
+void FakeController::tick() {
   const double speed = m_clock_speed;
   if (speed == 0.0) return;
   const double seconds = speed * std::chrono::duration<double>(std::chrono::steady_clock::now() - m_started).count();
@@ -108,7 +108,7 @@ void Device::tick() {
   m_words[9] = static_cast<std::uint16_t>(hundredths & 0xFFFF);
 }
 
-std::optional<ModbusException> Device::write(int address, std::span<const std::uint16_t> values) {
+std::optional<ModbusException> FakeController::write(int address, std::span<const std::uint16_t> values) {
   if (address + values.size() > 3000) return ModbusException::illegal_address;
   if (on_write) {
     if (auto refused = on_write(address, values)) return refused;
@@ -125,7 +125,7 @@ std::optional<ModbusException> Device::write(int address, std::span<const std::u
   return std::nullopt;
 }
 
-void Device::commit() {
+void FakeController::commit() {
   ++m_commits;
   const std::span<const std::uint16_t> staged(m_words.data() + 1000, std::min<std::size_t>(m_words[200], 2000));
   const std::uint32_t crc = crc_of_words(staged);

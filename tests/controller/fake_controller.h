@@ -31,9 +31,9 @@ inline access::Permit engineer() {
   return access::Access().permit("a test").value();
 }
 
-class Device {
+class FakeController {
  public:
-  explicit Device(std::set<int> without_functions = {});
+  explicit FakeController(std::set<int> without_functions = {});
 
   Profile profile() const;
   std::vector<std::uint16_t> active() const;
