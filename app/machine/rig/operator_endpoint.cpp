@@ -183,7 +183,7 @@ class OperatorEndpoint::Impl {
     const auto target_mm = axes_in(body, travel_mm);
     if (!target_mm) return tl::unexpected(target_mm.error());
     m_machine.with([&](Machine& now) { now.motion().move_to(*target_mm); });
-    const Answer arrived = wait_for([](const Machine& now) { return !now.motion().moving(); }, "The axes still move.");
+    Answer arrived = wait_for([](const Machine& now) { return !now.motion().moving(); }, "The axes still move.");
     if (!arrived) return arrived;
     const Axes at_mm = m_machine.with([](const Machine& now) { return now.motion().position_mm(); });
     if (at_mm != *target_mm) return refuse_state("The axes did not arrive: they were sent elsewhere meanwhile.");
@@ -231,7 +231,7 @@ class OperatorEndpoint::Impl {
       store.sequence = m_sequence;
       store.commit(m_sequence);
     });
-    const Answer checked =
+    Answer checked =
         wait_for([](const Machine& now) { return now.table_store().pending() == 0; }, "The table is still checked.");
     if (!checked) return checked;
     const auto reason = m_machine.with([](const Machine& now) { return now.table_store().reason(); });
