@@ -209,8 +209,7 @@ Result<std::string> MtConnectDevice::get(const std::string& request, Seconds& mi
   std::string body;
   bool too_long = false;
   const httplib::Result result =
-      m_client.Get(m_address.path + request,
-                   httplib::Headers{{"Accept", "text/xml, application/xml"}, {"Cache-Control", "no-cache"}},
+      m_client.Get(m_address.path + request, httplib::Headers{{"Accept", "text/xml"}, {"Cache-Control", "no-cache"}},
                    [&](const char* bytes, std::size_t size) {
                      too_long = body.size() + size > longest_answer;
                      if (!too_long && !late) body.append(bytes, size);
