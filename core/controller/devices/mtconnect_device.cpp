@@ -160,8 +160,9 @@ MtConnectDevice::MtConnectDevice(DeviceProfile profile, AgentAddress address, st
       m_client(m_address.origin) {
   const std::chrono::milliseconds timeout(m_profile.timeout_ms);
   m_client.set_connection_timeout(timeout);
-  m_client.set_read_timeout(timeout);
-  m_client.set_write_timeout(timeout);
+  // Longer than get() waits: of two clocks that end at one moment either might be first, and the fault be misnamed.
+  m_client.set_read_timeout(2 * timeout);
+  m_client.set_write_timeout(2 * timeout);
   m_client.set_keep_alive(true);
   if (credentials) {
     m_client.set_basic_auth(credentials->user, credentials->password);
