@@ -143,7 +143,7 @@ QString coreText(const std::string& english) {
 std::vector<const char*> corePhrases() {
   std::vector<const char*> all;
   for (const auto& group : {phrases_of_measuring(), phrases_of_models(), phrases_of_diagnosis(), phrases_of_machines(),
-                            phrases_of_files(), phrases_of_tables(), phrases_of_the_system()}) {
+                            phrases_of_devices(), phrases_of_files(), phrases_of_tables(), phrases_of_the_system()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

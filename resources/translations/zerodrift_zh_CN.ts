@@ -747,6 +747,234 @@
 <context>
     <name>core</name>
     <message>
+        <source>the kind of device %1</source>
+        <translation>设备 %1 的类型</translation>
+    </message>
+    <message>
+        <source>a control</source>
+        <translation>控制器</translation>
+    </message>
+    <message>
+        <source>a device to read</source>
+        <translation>可读取的设备</translation>
+    </message>
+    <message>
+        <source>the signal of device %1</source>
+        <translation>设备 %1 的信号</translation>
+    </message>
+    <message>
+        <source>one topic, without the wildcards + and #</source>
+        <translation>一个主题，不含通配符 + 和 #</translation>
+    </message>
+    <message>
+        <source>a topic, or topic#/path for a value in a JSON message</source>
+        <translation>主题，或用 主题#/路径 表示 JSON 消息中的值</translation>
+    </message>
+    <message>
+        <source>after # a JSON pointer such as /sensors/0/temperature</source>
+        <translation># 之后为 JSON 指针，例如 /sensors/0/temperature</translation>
+    </message>
+    <message>
+        <source>%1: the device says that it has no value</source>
+        <translation>%1：设备报告没有数值</translation>
+    </message>
+    <message>
+        <source>%1: a message is no number</source>
+        <translation>%1：消息不是数字</translation>
+    </message>
+    <message>
+        <source>%1: a message is no JSON</source>
+        <translation>%1：消息不是 JSON</translation>
+    </message>
+    <message>
+        <source>%1: a message has nothing at this path</source>
+        <translation>%1：消息在该路径下没有内容</translation>
+    </message>
+    <message>
+        <source>%1: a message has something other than a number at this path</source>
+        <translation>%1：消息在该路径下的内容不是数字</translation>
+    </message>
+    <message>
+        <source>%1: a message is larger than 1 MB</source>
+        <translation>%1：消息超过 1 MB</translation>
+    </message>
+    <message>
+        <source>%1: a retained message is not used, because its age is unknown</source>
+        <translation>%1：未采用保留消息，因为不知道其产生时间</translation>
+    </message>
+    <message>
+        <source>%1: the broker does not let this user read the topic</source>
+        <translation>%1：MQTT 服务器不允许该用户读取此主题</translation>
+    </message>
+    <message>
+        <source>%1 (%2 times)</source>
+        <translation>%1（%2 次）</translation>
+    </message>
+    <message>
+        <source>broker %1:%2</source>
+        <translation>MQTT 服务器 %1:%2</translation>
+    </message>
+    <message>
+        <source>no TLS connection: the broker&apos;s certificate is not of the authority given, or it does not speak TLS</source>
+        <translation>无 TLS 连接：MQTT 服务器的证书并非由指定机构签发，或 MQTT 服务器不支持 TLS</translation>
+    </message>
+    <message>
+        <source>the answer is not MQTT</source>
+        <translation>应答不是 MQTT</translation>
+    </message>
+    <message>
+        <source>the name of the host is not known</source>
+        <translation>主机名未知</translation>
+    </message>
+    <message>
+        <source>user and password go to the broker unencrypted, because TLS is off</source>
+        <translation>由于未启用 TLS，用户名和密码以未加密方式发送给 MQTT 服务器</translation>
+    </message>
+    <message>
+        <source>the broker refuses user or password</source>
+        <translation>MQTT 服务器拒绝该用户名或密码</translation>
+    </message>
+    <message>
+        <source>the connection to the broker was lost and opened anew</source>
+        <translation>与 MQTT 服务器的连接曾中断，已重新建立</translation>
+    </message>
+    <message>
+        <source>The mode of the file %1</source>
+        <translation>文件 %1 的权限</translation>
+    </message>
+    <message>
+        <source>0600, so that its owner alone may read it</source>
+        <translation>0600，即仅其所有者可以读取</translation>
+    </message>
+    <message>
+        <source>a text</source>
+        <translation>文本</translation>
+    </message>
+    <message>
+        <source>a text in quotation marks</source>
+        <translation>引号内的文本</translation>
+    </message>
+    <message>
+        <source>not a text</source>
+        <translation>不是文本</translation>
+    </message>
+    <message>
+        <source>its text is not repeated</source>
+        <translation>不显示其内容</translation>
+    </message>
+    <message>
+        <source>another kind of JSON</source>
+        <translation>其他类型的 JSON</translation>
+    </message>
+    <message>
+        <source>the address of device %1</source>
+        <translation>设备 %1 的地址</translation>
+    </message>
+    <message>
+        <source>an address without a user, who is in credentials_file</source>
+        <translation>不含用户名的地址，用户名写在 credentials_file 中</translation>
+    </message>
+    <message>
+        <source>an address such as http://host:5000/</source>
+        <translation>地址，例如 http://host:5000/</translation>
+    </message>
+    <message>
+        <source>http: this program was built without https</source>
+        <translation>http：本程序编译时未包含 https</translation>
+    </message>
+    <message>
+        <source>data item %1 of %2</source>
+        <translation>%2 的数据项 %1</translation>
+    </message>
+    <message>
+        <source>missing</source>
+        <translation>缺失</translation>
+    </message>
+    <message>
+        <source>one of the ids %1</source>
+        <translation>ID %1 之一</translation>
+    </message>
+    <message>
+        <source>the name of several</source>
+        <translation>多个数据项的名称</translation>
+    </message>
+    <message>
+        <source>a condition</source>
+        <translation>状态条件</translation>
+    </message>
+    <message>
+        <source>a data item with a number</source>
+        <translation>带数值的数据项</translation>
+    </message>
+    <message>
+        <source>in %1</source>
+        <translation>以 %1 为单位</translation>
+    </message>
+    <message>
+        <source>no server answers there</source>
+        <translation>该处没有服务器应答</translation>
+    </message>
+    <message>
+        <source>no TLS connection: the agent&apos;s certificate is not of the authority given, or it is not https</source>
+        <translation>无 TLS 连接：MTConnect 代理的证书并非由指定机构签发，或它不支持 https</translation>
+    </message>
+    <message>
+        <source>the agent closed the connection before its answer was whole</source>
+        <translation>MTConnect 代理在应答完整之前关闭了连接</translation>
+    </message>
+    <message>
+        <source>it is longer than %1 MB</source>
+        <translation>长度超过 %1 MB</translation>
+    </message>
+    <message>
+        <source>the agent refuses user or password</source>
+        <translation>MTConnect 代理拒绝该用户名或密码</translation>
+    </message>
+    <message>
+        <source>the agent refers to another address, %1</source>
+        <translation>MTConnect 代理指向另一个地址：%1</translation>
+    </message>
+    <message>
+        <source>HTTP status %1</source>
+        <translation>HTTP 状态 %1</translation>
+    </message>
+    <message>
+        <source>it is no XML: %1</source>
+        <translation>不是 XML：%1</translation>
+    </message>
+    <message>
+        <source>the agent reports &quot;%1&quot;</source>
+        <translation>MTConnect 代理报告“%1”</translation>
+    </message>
+    <message>
+        <source>it is &lt;%1&gt; instead of &lt;%2&gt;</source>
+        <translation>是 &lt;%1&gt;，而不是 &lt;%2&gt;</translation>
+    </message>
+    <message>
+        <source>%1: the agent states no unit, and its values are taken as they are</source>
+        <translation>%1：MTConnect 代理未说明单位，按原值使用</translation>
+    </message>
+    <message>
+        <source>the agent has restarted, and its data items were read again</source>
+        <translation>MTConnect 代理已重新启动，已重新读取其数据项</translation>
+    </message>
+    <message>
+        <source>the agent keeps restarting</source>
+        <translation>MTConnect 代理不断重新启动</translation>
+    </message>
+    <message>
+        <source>%1: an answer of the agent lacks the data item</source>
+        <translation>%1：MTConnect 代理的应答缺少该数据项</translation>
+    </message>
+    <message>
+        <source>%1: a value is no number</source>
+        <translation>%1：数值不是数字</translation>
+    </message>
+    <message>
+        <source>user and password go to the agent unencrypted, because it is not https</source>
+        <translation>由于不是 https，用户名和密码以未加密方式发送给 MTConnect 代理</translation>
+    </message>
+    <message>
         <source>is a folder</source>
         <translation>是文件夹</translation>
     </message>
@@ -5838,36 +6066,36 @@
         <translation>请选择其他端口，或用 0 选取任一空闲端口。</translation>
     </message>
     <message>
-        <source>No connection to the controller at {host}, port {port} ({detail}).</source>
-        <translation>无法连接 {host} 端口 {port} 的控制器（{detail}）。</translation>
+        <source>No connection to {host}, port {port} ({detail}).</source>
+        <translation>无法连接 {host} 端口 {port}（{detail}）。</translation>
     </message>
     <message>
-        <source>Check cable, address and port, and that the controller&apos;s Modbus server is on.</source>
-        <translation>请检查电缆、地址和端口，并确认控制器的 Modbus 服务器已启用。</translation>
+        <source>Check cable, address and port, that the Modbus server, broker or agent there is on, and user and password where it asks for them.</source>
+        <translation>请检查电缆、地址和端口，确认该处的 Modbus 服务器、MQTT 服务器或 MTConnect 代理已启用；若需要登录，请检查用户名和密码。</translation>
     </message>
     <message>
-        <source>The controller did not answer within {timeout_ms} ms ({what}).</source>
-        <translation>控制器在 {timeout_ms} ms 内无应答（{what}）。</translation>
+        <source>No answer came within {timeout_ms} ms ({what}).</source>
+        <translation>在 {timeout_ms} ms 内无应答（{what}）。</translation>
     </message>
     <message>
         <source>Check the connection and the unit number; the link is opened anew by itself.</source>
         <translation>请检查连接和单元号；链路会自动重新建立。</translation>
     </message>
     <message>
-        <source>The connection to the controller was lost ({what}, {detail}).</source>
-        <translation>与控制器的连接中断（{what}，{detail}）。</translation>
+        <source>The connection was lost ({what}, {detail}).</source>
+        <translation>连接中断（{what}，{detail}）。</translation>
     </message>
     <message>
         <source>Check the cable; the link is opened anew by itself.</source>
         <translation>请检查电缆；链路会自动重新建立。</translation>
     </message>
     <message>
-        <source>The controller&apos;s answer does not belong to the question ({what}: {detail}); it was not used.</source>
-        <translation>控制器的应答与请求不符（{what}：{detail}）；该应答未被采用。</translation>
+        <source>The answer does not belong to the question ({what}: {detail}); it was not used.</source>
+        <translation>应答与请求不符（{what}：{detail}）；该应答未被采用。</translation>
     </message>
     <message>
-        <source>Check for a second master or a faulty gateway.</source>
-        <translation>请检查是否存在第二个主站或有故障的网关。</translation>
+        <source>Check the address, and look for a second master, a faulty gateway or another server in between.</source>
+        <translation>请检查地址，并检查是否存在第二个主站、有故障的网关或中间的其他服务器。</translation>
     </message>
     <message>
         <source>The controller is busy ({what}).</source>
@@ -5934,12 +6162,12 @@
         <translation>请对照控制器手册检查寄存器映射。</translation>
     </message>
     <message>
-        <source>The controller does not fit: {what} is {found}, expected {expected}.</source>
-        <translation>控制器不匹配：{what}为 {found}，应为 {expected}。</translation>
+        <source>The controller or device does not fit: {what} is {found}, expected {expected}.</source>
+        <translation>控制器或设备不匹配：{what}为 {found}，应为 {expected}。</translation>
     </message>
     <message>
-        <source>Check profile and register map.</source>
-        <translation>请检查配置文件和寄存器映射。</translation>
+        <source>Check the profile, the register map and the device&apos;s own settings.</source>
+        <translation>请检查配置文件、寄存器映射以及设备自身的设置。</translation>
     </message>
     <message>
         <source>The register map {map} has no register &quot;{register}&quot;.</source>

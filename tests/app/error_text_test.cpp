@@ -53,11 +53,10 @@ class ErrorTextTest : public QObject {
   void anErrorInsideAnotherIsSaid() {
     const Error silent{ErrorCode::machine_silent, {{"timeout_ms", "1000"}, {"what", "reading"}}};
     const ErrorText text = textOf({ErrorCode::upload_restored, {{"reason", describe(silent)}}});
-    QCOMPARE(text.sentence,
-             QStringLiteral("The upload failed (The controller did not answer within 1000 ms (reading)); "
-                            "the old table was restored and read back."));
+    QCOMPARE(text.sentence, QStringLiteral("The upload failed (No answer came within 1000 ms (reading)); "
+                                           "the old table was restored and read back."));
     QCOMPARE(coreText("the ramp could not be watched: " + describe(silent)),
-             QStringLiteral("the ramp could not be watched: The controller did not answer within 1000 ms (reading)"));
+             QStringLiteral("the ramp could not be watched: No answer came within 1000 ms (reading)"));
     QCOMPARE(coreText(std::string("a = b: c=d")), QStringLiteral("a = b: c=d"));
   }
 };

@@ -86,7 +86,18 @@ Result<std::optional<Credentials>> read_credentials(const DeviceProfile& profile
   return credentials;
 }
 
+void RemarkList::add(const std::string& remark) {
+  const std::scoped_lock guard(m_lock);
+  ++m_counts[remark];
+}
+
+void RemarkList::add_once(const std::string& remark) {
+  const std::scoped_lock guard(m_lock);
+  m_counts[remark] = 1;
+}
+
 std::vector<std::string> RemarkList::texts() const {
+  const std::scoped_lock guard(m_lock);
   std::vector<std::string> all;
   for (const auto& [remark, count] : m_counts) {
     all.push_back(count == 1 ? remark : fmt::format("{} ({} times)", remark, count));

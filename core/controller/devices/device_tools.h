@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,14 +32,15 @@ struct Credentials {
 /// refused. No error repeats any of its contents.
 Result<std::optional<Credentials>> read_credentials(const DeviceProfile& profile);
 
-/// Remarks, each once; one that is made repeatedly ends in how often it was.
+/// Remarks, each once; one that is made repeatedly ends in how often it was. For any thread.
 class RemarkList {
  public:
-  void add(const std::string& remark) { ++m_counts[remark]; }
-  void add_once(const std::string& remark) { m_counts[remark] = 1; }
+  void add(const std::string& remark);
+  void add_once(const std::string& remark);
   std::vector<std::string> texts() const;
 
  private:
+  mutable std::mutex m_lock;
   std::map<std::string, long> m_counts;
 };
 

@@ -149,7 +149,7 @@ class MqttDevice : public Device {
   }
 
   Result<std::vector<Reading>> read() override;
-  std::vector<std::string> remarks() const override;
+  std::vector<std::string> remarks() const override { return m_remarks.texts(); }
 
  private:
   std::string broker() const { return fmt::format("broker {}:{}", m_profile.host, m_profile.port); }
@@ -170,12 +170,12 @@ class MqttDevice : public Device {
   const std::string m_authority;
   std::vector<std::string> m_topics;
 
+  RemarkList m_remarks;
   mutable std::mutex m_lock;
   std::condition_variable m_changed;
   std::vector<Reading> m_last;
   std::optional<Error> m_fault;  // why there is no connection
   bool m_subscribed = false;
-  RemarkList m_remarks;
   int m_refusal = 0;       // network thread: the broker's answer to CONNECT
   std::jthread m_network;  // last: ends before the rest goes
 };
@@ -193,11 +193,6 @@ Result<std::vector<Reading>> MqttDevice::read() {
     if (now - reading.at > Seconds(m_profile.stale_after_s)) reading.value = missing_value;
   }
   return readings;
-}
-
-std::vector<std::string> MqttDevice::remarks() const {
-  const std::scoped_lock guard(m_lock);
-  return m_remarks.texts();
 }
 
 void MqttDevice::keep_connected(const std::stop_token& stop) {

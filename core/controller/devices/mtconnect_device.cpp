@@ -160,8 +160,9 @@ MtConnectDevice::MtConnectDevice(DeviceProfile profile, AgentAddress address, st
       m_client(m_address.origin) {
   const std::chrono::milliseconds timeout(m_profile.timeout_ms);
   m_client.set_connection_timeout(timeout);
-  m_client.set_read_timeout(timeout);
-  m_client.set_write_timeout(timeout);
+  // Longer than get() waits: of two clocks that end at one moment either might be first, and the fault be misnamed.
+  m_client.set_read_timeout(2 * timeout);
+  m_client.set_write_timeout(2 * timeout);
   m_client.set_keep_alive(true);
   if (credentials) {
     m_client.set_basic_auth(credentials->user, credentials->password);
@@ -209,8 +210,7 @@ Result<std::string> MtConnectDevice::get(const std::string& request, Seconds& mi
   std::string body;
   bool too_long = false;
   const httplib::Result result =
-      m_client.Get(m_address.path + request,
-                   httplib::Headers{{"Accept", "text/xml, application/xml"}, {"Cache-Control", "no-cache"}},
+      m_client.Get(m_address.path + request, httplib::Headers{{"Accept", "text/xml"}, {"Cache-Control", "no-cache"}},
                    [&](const char* bytes, std::size_t size) {
                      too_long = body.size() + size > longest_answer;
                      if (!too_long && !late) body.append(bytes, size);
