@@ -119,24 +119,24 @@ std::unique_ptr<ManualControl> control_of(const std::shared_ptr<Person>& person)
 TEST(RigProfile, SaysWhichDeviceIsWrongly) {
   const Module module(200);
   const json good = module.profile("one");
-  EXPECT_EQ(refusal(manual_profile({good}, {sensor("T1_C", "one", "temperature_C[1]")})), "taken");
+  EXPECT_EQ(refusal(manual_profile(json::array({good}), json::array({sensor("T1_C", "one", "temperature_C[1]")}))), "taken");
   const auto holds = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  holds(refusal(manual_profile({good}, {sensor("T1_C", "two", "temperature_C[1]")})), "sensors[0].device");
-  holds(refusal(manual_profile({good, good}, json::array())), "no other device");
+  holds(refusal(manual_profile(json::array({good}), json::array({sensor("T1_C", "two", "temperature_C[1]")}))), "sensors[0].device");
+  holds(refusal(manual_profile(json::array({good, good}), json::array())), "no other device");
   json twin = good;
   twin["id"] = "twin";
-  holds(refusal(manual_profile({good, twin}, json::array())), "twin at 127.0.0.1");
-  const json both = {sensor("T1_C", "one", "temperature_C[1]"), sensor("T2_C", "one", "temperature_C[1]")};
-  holds(refusal(manual_profile({good}, both)), "T1_C already");
-  holds(refusal(manual_profile({good}, {{{"channel", "T1_C"}}})), "sensors[0].device");
-  json two_controls = manual_profile({good}, json::array());
+  holds(refusal(manual_profile(json::array({good, twin}), json::array())), "twin at 127.0.0.1");
+  const json both = json::array({sensor("T1_C", "one", "temperature_C[1]"), sensor("T2_C", "one", "temperature_C[1]")});
+  holds(refusal(manual_profile(json::array({good}), both)), "T1_C already");
+  holds(refusal(manual_profile(json::array({good}), json::array({{{"channel", "T1_C"}}}))), "sensors[0].device");
+  json two_controls = manual_profile(json::array({good}), json::array());
   two_controls["controller"] = {{"kind", "modbus-tcp"}, {"host", "127.0.0.1"}};
   holds(refusal(two_controls), "one control only");
   json none = two_controls;
   none.erase("controller");
-  none["devices"] = {good};
+  none["devices"] = json::array({good});
   holds(refusal(none), "controller");
 }
 
@@ -177,7 +177,7 @@ TEST(DeviceReadings, ASignalThatIsNotThereIsNamed) {
   const Module module(300);
   for (const std::string signal : {"temperature_C[9]", "temperature_C[0]", "temperature_C[x]", "pressure"}) {
     const auto profile =
-        profile_from_json(manual_profile({module.profile("one")}, {sensor("T1_C", "one", signal)}), "rig.json");
+        profile_from_json(manual_profile(json::array({module.profile("one")}), json::array({sensor("T1_C", "one", signal)})), "rig.json");
     ASSERT_TRUE(profile) << describe(profile.error());
     EXPECT_FALSE(DeviceReadings::open(*profile)) << signal;
   }
