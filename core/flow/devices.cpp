@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/controller/device_readings.h"
 #include "core/controller/probe_source.h"
 #include "core/flow/steps/calibrate_step.h"
 
@@ -32,6 +33,13 @@ Result<Devices> Devices::open(const controller::Profile& profile, bool with_came
     devices.cameras.push_back({camera, std::make_shared<vision::Camera>(camera.url)});
   }
   return devices;
+}
+
+std::vector<controller::DeviceState> Devices::device_states() const {
+  const controller::DeviceReadings* readings = link != nullptr      ? link->devices()
+                                               : by_hand != nullptr ? by_hand->devices()
+                                                                    : nullptr;
+  return readings != nullptr ? readings->states() : std::vector<controller::DeviceState>();
 }
 
 Result<controller::ModbusMachine*> Devices::linked(const std::string& operation) const {

@@ -27,13 +27,15 @@ struct Devices {
   std::unique_ptr<acquisition::MachineIo> machine;
   controller::ModbusMachine* link = nullptr;     // the machine, where its control has a link
   controller::ManualControl* by_hand = nullptr;  // the machine, where a person is its link
-  std::vector<CameraDevice> cameras;  // reading already; empty when the errors come from probes
+  std::vector<CameraDevice> cameras;             // reading already; empty when the errors come from probes
 
   /// The machine connects at its first request, the cameras by themselves; `with_cameras` false opens none.
   /// Without a permit to write the machine can only be read. operator_missing for a manual control without a person.
   static Result<Devices> open(const controller::Profile& profile, bool with_cameras = true,
                               access::Permit permit = access::Permit::read_only(),
                               std::shared_ptr<controller::Operator> person = nullptr);
+  /// How the devices beside the control have done so far; none where the control has all of it.
+  std::vector<controller::DeviceState> device_states() const;
   /// The control over its link; machine_unsupported for a manual one.
   Result<controller::ModbusMachine*> linked(const std::string& operation) const;
 };

@@ -56,8 +56,7 @@ struct Module {
             {"register_map_document",
              {{"format", "zerodrift-register-map/1"},
               {"name", "eight"},
-              {"registers",
-               {{"temperature_C", {{"address", 0}, {"type", "int16"}, {"count", 8}, {"scale", 0.1}}}}}}}};
+              {"registers", {{"temperature_C", {{"address", 0}, {"type", "int16"}, {"count", 8}, {"scale", 0.1}}}}}}}};
   }
 
   std::atomic<bool> dead{false};
@@ -71,7 +70,10 @@ json sensor(const std::string& channel, const std::string& device, const std::st
 json manual_profile(const json& devices, const json& sensors) {
   json all = devices;
   all.push_back({{"id", "cnc"}, {"kind", "manual"}, {"serial", 7}});
-  return {{"format", "zerodrift-profile/1"}, {"name", "Old mill"}, {"devices", all}, {"sensors", sensors},
+  return {{"format", "zerodrift-profile/1"},
+          {"name", "Old mill"},
+          {"devices", all},
+          {"sensors", sensors},
           {"limits", {{"max_um", 100}, {"max_um_per_s", 1000}}}};
 }
 
@@ -119,11 +121,13 @@ std::unique_ptr<ManualControl> control_of(const std::shared_ptr<Person>& person)
 TEST(RigProfile, SaysWhichDeviceIsWrongly) {
   const Module module(200);
   const json good = module.profile("one");
-  EXPECT_EQ(refusal(manual_profile(json::array({good}), json::array({sensor("T1_C", "one", "temperature_C[1]")}))), "taken");
+  EXPECT_EQ(refusal(manual_profile(json::array({good}), json::array({sensor("T1_C", "one", "temperature_C[1]")}))),
+            "taken");
   const auto holds = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  holds(refusal(manual_profile(json::array({good}), json::array({sensor("T1_C", "two", "temperature_C[1]")}))), "sensors[0].device");
+  holds(refusal(manual_profile(json::array({good}), json::array({sensor("T1_C", "two", "temperature_C[1]")}))),
+        "sensors[0].device");
   holds(refusal(manual_profile(json::array({good, good}), json::array())), "no other device");
   json twin = good;
   twin["id"] = "twin";
@@ -176,8 +180,8 @@ TEST(DeviceReadings, ADeadDeviceDelaysNoOther) {
 TEST(DeviceReadings, ASignalThatIsNotThereIsNamed) {
   const Module module(300);
   for (const std::string signal : {"temperature_C[9]", "temperature_C[0]", "temperature_C[x]", "pressure"}) {
-    const auto profile =
-        profile_from_json(manual_profile(json::array({module.profile("one")}), json::array({sensor("T1_C", "one", signal)})), "rig.json");
+    const auto profile = profile_from_json(
+        manual_profile(json::array({module.profile("one")}), json::array({sensor("T1_C", "one", signal)})), "rig.json");
     ASSERT_TRUE(profile) << describe(profile.error());
     EXPECT_FALSE(DeviceReadings::open(*profile)) << signal;
   }

@@ -34,6 +34,8 @@ class ManualControl : public acquisition::MachineIo {
   bool by_hand() const override { return true; }
   const Profile& profile() const { return m_profile; }
   std::vector<std::string> remarks() const override;
+  /// Null where nothing is read.
+  const DeviceReadings* devices() const { return m_devices.get(); }
 
   /// The table in the file becomes the control's; upload_read_back unless the person reads off the same check value.
   Status load_table(const std::string& file, const std::string& check);
@@ -54,13 +56,13 @@ class ManualControl : public acquisition::MachineIo {
     bool path_cycle = false;
     bool operator==(const Command&) const = default;
   };
-  std::optional<Command> m_done;    // as the person confirmed it last
-  Command m_wanted;                 // differs from m_done by a path that is to stop
+  std::optional<Command> m_done;  // as the person confirmed it last
+  Command m_wanted;               // differs from m_done by a path that is to stop
   std::map<std::string, double> m_position_mm;
-  bool m_elsewhere = true;          // the path ran since the last move
+  bool m_elsewhere = true;  // the path ran since the last move
   std::optional<bool> m_compensation_on;
   std::array<double, 3> m_offset_um{};
-  Seconds m_changed{0.0};           // host time at which what is applied was last changed
+  Seconds m_changed{0.0};  // host time at which what is applied was last changed
 };
 
 }  // namespace zerodrift::controller

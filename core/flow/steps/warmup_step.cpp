@@ -113,6 +113,16 @@ json RecordedRun::body() const {
                 {"problems", json::array()}};
   for (const auto& one : happened) value["problems"].push_back(acquisition::text_of(one));
   if (zero_um) value["zero_um"] = *zero_um;
+  // A row holds what was known at its moment: each device's last value, so old.
+  for (const auto& device : devices) {
+    value["devices"].push_back({{"id", device.id},
+                                {"values", "held"},
+                                {"answers", device.rounds},
+                                {"faults", device.faults},
+                                {"mean_age_s", device.mean_age_s},
+                                {"largest_age_s", device.largest_age_s}});
+    for (const auto& remark : device.remarks) value["problems"].push_back(device.id + ": " + remark);
+  }
   return value;
 }
 
@@ -173,6 +183,7 @@ Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const 
   run.zero_um = source->zero_um();
   ZD_TRY(run.happened, happened_in(job, run.series));
   add_link_faults(devices, run.happened);
+  run.devices = devices.device_states();
   return run;
 }
 

@@ -41,6 +41,7 @@ struct RecordedRun {
   std::optional<std::array<double, 3>> zero_um;
   acquisition::Plan plan;
   std::vector<acquisition::Happening> happened;
+  std::vector<controller::DeviceState> devices;  // beside the control
 };
 /// The warm-up run that was broken off, as far as it is on the disk; nothing when the last one was ended.
 Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job);
