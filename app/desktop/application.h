@@ -72,9 +72,12 @@ class Application : public QObject {
   void offerCommands();
   void runCommand(const QString& id);
   void mayClose(bool* allowed);
+  bool mayEnd(const QString& question, const QString& deed);
+  /// Asks whether the work that runs may end, ends it, then does it; at once when nothing runs.
+  void endWork(const QString& question, const QString& deed, const std::function<void()>& then);
   /// Warm-up or verification.
   bool isRunning(const char* id) const;
-  QString whatClosingDoes() const;
+  QString whatEndingDoes() const;
 
   ui::Theme& m_theme;
   std::unique_ptr<Workbench> m_bench;

@@ -36,6 +36,7 @@ DemoMachine::~DemoMachine() {
 
 void DemoMachine::start(const DemoOptions& options) {
   stop();
+  m_options = options;
   m_stopping = false;
   m_words.clear();
   QStringList arguments = {QStringLiteral("--speedup"),     QString::number(options.speedup),

@@ -30,6 +30,10 @@ class DemoMachine : public QObject {
 
   void start(const DemoOptions& options);
   bool running() const { return m_ready; }
+  /// It was started and is not ready yet.
+  bool starting() const { return !m_ready && m_process.state() != QProcess::NotRunning; }
+  /// As it was started last.
+  const DemoOptions& options() const { return m_options; }
   /// Ends the process and waits for it; what it printed at its end (the opened seal) is in lastWords().
   void stop();
   QString profilePath() const;
@@ -44,6 +48,7 @@ class DemoMachine : public QObject {
   void readLines();
 
   QProcess m_process;
+  DemoOptions m_options;
   ScratchFolder m_folder;
   QString m_words;
   bool m_ready = false;

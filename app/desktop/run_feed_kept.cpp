@@ -23,6 +23,11 @@ void RunFeed::showRecording(const recording::Recording& run, const std::vector<c
   m_lastRow_s = -1.0;
   for (const double time_s : run.time_s) noteRow(time_s);
   showMarks(events);
+  m_speeds = {};
+  m_speeds.time_s = run.time_s;
+  for (const char* name : {"spindle_rpm", "coolant_on"}) {
+    if (const auto* input = run.find(name)) m_speeds.ensure(name).values = input->values;
+  }
   for (const auto& channel : run.channels) {
     QVector<double> times;
     QVector<double> values;

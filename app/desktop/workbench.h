@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "app/desktop/machine_monitor.h"
@@ -134,12 +135,15 @@ class Workbench : public QObject {
   void disconnectedFor(unsigned connected_serial, unsigned job_serial);
   /// A step has told how it stands with the controller.
   void controllerTold();
+  /// The machine came, went, or its compensation was switched: what may be done with it is another thing now.
+  void machineStateChanged();
   void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);
 
  private:
   report::Labels labels() const;
   /// Cameras that are not needed any more; they may be waiting for a picture.
   void dropCameras();
+  void noteMachineState();
   void leaveJob();
   void useJob(commissioning::Job job);
   /// Beside the window and by a connection of its own: the whole file is read.
@@ -168,6 +172,7 @@ class Workbench : public QObject {
   bool m_reached = false;  // a person has asked for this machine: until then nothing goes out to it or its cameras
   bool m_lost = false;
   QDateTime m_seenAt;
+  std::tuple<bool, bool, bool> m_machineState{};  // connected, lost, compensation on
   std::optional<ErrorCode> m_lastProblem;
   int m_attempts = 0;                  // that failed for the same reason
   std::vector<std::jthread> m_checks;  // waited for when the window is closed

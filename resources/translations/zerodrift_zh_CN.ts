@@ -6908,10 +6908,6 @@
         <translation>主轴、轨迹和冷却液停止。已记录的数据会保留，运行可以继续。</translation>
     </message>
     <message>
-        <source>The spindle, the path and the coolant stop; the compensation stays as it is switched. This run is not used: a verification is started anew.</source>
-        <translation>主轴、轨迹和冷却液停止；补偿保持当前开关状态。本次运行不予采用：验证须重新开始。</translation>
-    </message>
-    <message>
         <source>The offset runs to 0 and the compensation is switched as it was before.</source>
         <translation>偏置归零，补偿恢复为原来的开关状态。</translation>
     </message>
@@ -6966,6 +6962,22 @@
     <message>
         <source>The recording holds no error, so there is nothing to compensate.</source>
         <translation>记录中没有误差，因此没有可补偿的内容。</translation>
+    </message>
+    <message>
+        <source>%1 waits</source>
+        <translation>%1：等待中</translation>
+    </message>
+    <message>
+        <source>The verification run of this job was interrupted after %1.</source>
+        <translation>此作业的验证运行在 %1 后中断。</translation>
+    </message>
+    <message>
+        <source>On the Verify page it goes on, or is finished with what was recorded.</source>
+        <translation>可在“验证”页继续，或以已记录的数据结束。</translation>
+    </message>
+    <message>
+        <source>The spindle, the path and the coolant stop; the compensation stays as it is switched. What was recorded is kept and the run can be resumed.</source>
+        <translation>主轴、轨迹运动和冷却液停止；补偿开关保持现状。已记录的数据会保留，运行可继续。</translation>
     </message>
 </context>
 <context>
@@ -7407,6 +7419,22 @@
         <source>OFF</source>
         <translation>断开</translation>
     </message>
+    <message>
+        <source>Leave this job?</source>
+        <translation>离开此作业？</translation>
+    </message>
+    <message>
+        <source>End it and leave</source>
+        <translation>结束并离开</translation>
+    </message>
+    <message>
+        <source>Disconnect from the machine?</source>
+        <translation>断开与机床的连接？</translation>
+    </message>
+    <message>
+        <source>End it and disconnect</source>
+        <translation>结束并断开</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::MapEditor</name>
@@ -7798,6 +7826,10 @@
         <source>The run ends here and what was recorded is kept and used. The controller does not answer, so nothing is stopped from here: look whether the spindle stands.</source>
         <translation>运行到此结束，已记录的数据会保存并使用。控制器没有应答，因此无法从此处停止机床：请查看主轴是否已停。</translation>
     </message>
+    <message>
+        <source>Controller lost</source>
+        <translation>控制器失去连接</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::SensorsPresenter</name>
@@ -8016,6 +8048,18 @@
     <message>
         <source>Less than %1 % removed</source>
         <translation>消除不足 %1 %</translation>
+    </message>
+    <message>
+        <source>Finish the interrupted run?</source>
+        <translation>结束中断的运行？</translation>
+    </message>
+    <message>
+        <source>What was recorded until the interruption is kept and used.</source>
+        <translation>中断前记录的数据将保留并使用。</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>结束</translation>
     </message>
 </context>
 <context>
@@ -10815,6 +10859,18 @@
         <source>In this run: %1</source>
         <translation>本次运行：%1</translation>
     </message>
+    <message>
+        <source>The controller has been silent since %1: the run waits, nothing is recorded. Finish keeps what there is.</source>
+        <translation>控制器自 %1 起无应答：运行在等待，未记录数据。“结束”会保留已有数据。</translation>
+    </message>
+    <message>
+        <source>The controller does not answer: it cannot be told to stop.</source>
+        <translation>控制器无应答：无法令其停止。</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>已停住</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::SensorsPage</name>
@@ -11776,6 +11832,26 @@ The sum of absolute values does not have this fault.</source>
         <source>Largest error of the whole warm-up run.</source>
         <translation>整个暖机运行中的最大误差。</translation>
     </message>
+    <message>
+        <source>The verification was interrupted. Everything stored is here; resume or finish with it.</source>
+        <translation>验证已中断。已存储的数据都在这里；可继续，或以现有数据结束。</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>弃用</translation>
+    </message>
+    <message>
+        <source>The verification before counts</source>
+        <translation>以前一次验证为准</translation>
+    </message>
+    <message>
+        <source>New run</source>
+        <translation>新的运行</translation>
+    </message>
+    <message>
+        <source>The interrupted one stays in the job unused</source>
+        <translation>中断的运行留在作业中，但不使用</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::VerifyResult</name>
@@ -12229,6 +12305,18 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>A further run of this machine, or one in place of this</source>
         <translation>本机床的另一次运行，或替换当前运行</translation>
+    </message>
+    <message>
+        <source>Counted again when the controller answers.</source>
+        <translation>控制器恢复应答后继续计数。</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>弃用</translation>
+    </message>
+    <message>
+        <source>The run before counts; the interrupted one stays unused</source>
+        <translation>以前一次运行为准；中断的运行留存但不使用</translation>
     </message>
 </context>
 </TS>

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "core/acquisition/job_sink.h"
 #include "core/flow/steps/import_step.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/flow/steps/upload_step.h"
 #include "core/flow/steps/verify_compare.h"
+#include "core/flow/steps/verify_step.h"
 #include "core/flow/steps/warmup_step.h"
 
 namespace zerodrift::flow {
@@ -168,6 +170,29 @@ TEST_F(StepsTest, AnInterruptedRunIsEndedWithoutItsMachine) {
   EXPECT_EQ(body["source"], "camera");
   EXPECT_FALSE(*acquisition::interrupted_run(*job, "warm-up"));
   EXPECT_EQ(end_interrupted_warmup(*job).error().code, ErrorCode::step_blocked);  // it was ended
+}
+
+/// What was measured with one table is not gone on with under another.
+TEST_F(StepsTest, AnInterruptedVerificationIsGoneOnWithUntilATableIsWritten) {
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", {{"version", 1}}, {})));
+  EXPECT_FALSE(*interrupted_verification(*job));
+  acquisition::JobSink sink(*job);
+  acquisition::RunStart start;
+  start.name = "verification";
+  start.channels = {"T1_C", "dZ_um"};
+  start.plan.steps = {{3600.0, 3000.0, false, false}};
+  ASSERT_TRUE(sink.begin(start));
+  ASSERT_TRUE(sink.append(0.0, std::array{20.0, 1.5}));
+  ASSERT_TRUE(sink.append(60.0, std::array{21.0, 2.5}));
+  ASSERT_TRUE(sink.flush());
+  const auto found = interrupted_verification(*job);
+  ASSERT_TRUE(found && *found);
+  EXPECT_EQ((*found)->series, sink.series());
+  EXPECT_EQ((*found)->summary.rows, 2);
+  EXPECT_FALSE(*interrupted_warmup(*job));
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // times are kept to the millisecond
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", {{"version", 2}}, {})));
+  EXPECT_FALSE(*interrupted_verification(*job));
 }
 
 }  // namespace

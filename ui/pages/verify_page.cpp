@@ -95,7 +95,10 @@ QString VerifyPage::title() const {
 
 QString VerifyPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
+  if (!m_state.silentSince.isEmpty()) return RunView::waitingSentence(m_state.silentSince);
   switch (m_state.phase) {
+    case VerifyPhase::interrupted:
+      return tr("The verification was interrupted. Everything stored is here; resume or finish with it.");
     case VerifyPhase::ready:
       if (!m_state.notHeld.isEmpty()) return m_state.notHeld;
       if (!m_state.switchedOff.isEmpty()) return m_state.switchedOff;
@@ -172,12 +175,18 @@ bool VerifyPage::rollbackNeeded() const {
 
 PageAction VerifyPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start verification"), false, m_state.blocked};
+  if (!m_state.silentSince.isEmpty()) {
+    return {"primary", m_state.phase == VerifyPhase::paused ? tr("Resume") : tr("Pause"), false,
+            RunView::silentReason()};
+  }
   switch (m_state.phase) {
+    case VerifyPhase::interrupted:
     case VerifyPhase::ready: {
       const QString reason = !m_state.offline.isEmpty()   ? m_state.offline
                              : !m_state.notHeld.isEmpty() ? m_state.notHeld
                                                           : m_state.switchedOff;
-      return {"primary", tr("Start verification"), reason.isEmpty(), reason};
+      return {"primary", m_state.phase == VerifyPhase::ready ? tr("Start verification") : tr("Resume"),
+              reason.isEmpty(), reason};
     }
     case VerifyPhase::running:
       return {"primary", tr("Pause"), true, {}};
@@ -208,6 +217,14 @@ QVector<PageAction> VerifyPage::secondary() const {
   switch (m_state.phase) {
     case VerifyPhase::ready:
       return {};
+    case VerifyPhase::interrupted: {
+      const PageAction resume = primary();  // finishing takes the run up once more
+      return {m_state.keptBefore
+                  ? PageAction{"drop", tr("Discard"), true, {}, tr("The verification before counts")}
+                  : PageAction{"again", tr("New run"), true, {}, tr("The interrupted one stays in the job unused")},
+              {"finish", tr("Finish"), resume.enabled, resume.reason,
+               tr("Ends the run here and keeps what was measured. Asks first.")}};
+    }
     case VerifyPhase::running:
     case VerifyPhase::paused:
       return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")},
@@ -267,6 +284,7 @@ QVector<Figure> VerifyPage::figures() const {
   }
   Figure frame = figureAtMost(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s", m_state.frameLimit_s);
   if (frame.judgement == Judgement::ok) frame.word = tr("measuring");
+  if (!m_state.silentSince.isEmpty()) RunView::markStopped(frame);
   frame.tip = tr("Machine time since the camera last measured the error. Up to %1 it is as planned.")
                   .arg(durationText(m_state.frameLimit_s));
   return {before, after, rms, removed, frame};

@@ -23,6 +23,7 @@ enum class VerifyPhase {
   ready,
   running,
   paused,
+  interrupted,  // found in the job after a crash or a lost connection: can be resumed
   finished,
 };
 
@@ -51,6 +52,9 @@ struct WorseThanBefore {
 struct VerifyState {
   QString blocked{};
   VerifyPhase phase = VerifyPhase::ready;
+  QString silentSince{};    // of the controller of the run; empty: it answers
+  bool keptBefore = false;  // beside the interrupted run there is one that was ended
+  bool leftAsItIs = false;  // the engineer has seen what is left over the limit and goes on with it
   double peakBefore_um = std::numeric_limits<double>::quiet_NaN();
   double peakAfter_um = std::numeric_limits<double>::quiet_NaN();
   double peakLimit_um = 5.0;

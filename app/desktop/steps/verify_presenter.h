@@ -29,7 +29,10 @@ class VerifyPresenter : public RunPresenter {
  private:
   void primary();
   void secondary(const QString& action);
-  void start(std::function<void(bool good)> done);
+  void start(std::function<void(bool good)> done) override;
+  Result<std::optional<flow::RecordedRun>> readInterrupted() const override;
+  void finishInterrupted();
+  void fillInterrupted(ui::VerifyState& state);
   void applyCorrection(std::function<void(bool good)> done);
   void fillRun(ui::VerifyState& state);
   void fillResult(ui::VerifyState& state, const nlohmann::json& body);

@@ -7,7 +7,6 @@
 
 #include "app/desktop/ask.h"
 #include "app/text/core_text.h"
-#include "core/acquisition/job_sink.h"
 #include "core/base/json.h"
 #include "core/flow/steps/warmup_step.h"
 #include "core/recording/csv.h"
@@ -68,7 +67,6 @@ void WarmupPresenter::forget() {
   m_undo.clear();
   m_recording = 0;
   m_recordingsBefore.clear();
-  m_interrupted.reset();
 }
 
 void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
@@ -104,10 +102,15 @@ void WarmupPresenter::primary() {
     Q_EMIT importWanted();
   } else if (running()) {
     pauseOrResume();
-  } else if (agreed(m_plan)) {
+  } else if (agreed(comingPlan())) {
     start({});
   }
   refresh();
+}
+
+/// What would be run now.
+const acquisition::Plan& WarmupPresenter::comingPlan() {
+  return !m_again && interrupted() ? interrupted()->plan : m_plan;
 }
 
 void WarmupPresenter::secondary(const QString& action) {
@@ -117,6 +120,7 @@ void WarmupPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("load")) loadPlan();
   if (action == QStringLiteral("save")) savePlan();
   if (action == QStringLiteral("export")) exportRun();
+  if (action == QStringLiteral("drop")) dropInterrupted();
   if (action == QStringLiteral("again")) {
     m_again = true;
     refresh();
@@ -137,9 +141,7 @@ void WarmupPresenter::finishInterrupted() {
             [](commissioning::Job& job, const TaskContext&) { return flow::end_interrupted_warmup(job); });
     return;
   }
-  connect(
-      &feed(), &RunFeed::updated, this, [this] { feed().finish(); }, Qt::SingleShotConnection);
-  start({});
+  resumeToFinish();
 }
 
 void WarmupPresenter::loadPlan() {
@@ -176,8 +178,9 @@ void WarmupPresenter::savePlan() {
 
 void WarmupPresenter::start(std::function<void(bool good)> done) {
   const auto& profile = bench().profile();
+  m_runningPlan = comingPlan();
   const auto plan = acquisition::with_measuring_position(
-      m_plan, profile ? profile->measure_position_mm : std::map<std::string, double>());
+      m_runningPlan, profile ? profile->measure_position_mm : std::map<std::string, double>());
   if (!plan) {
     show(plan.error());
     if (done) done(false);
@@ -194,7 +197,8 @@ void WarmupPresenter::start(std::function<void(bool good)> done) {
 void WarmupPresenter::fillRun(ui::WarmupState& state) {
   const auto& now = feed().now();
   state.phase = feed().paused() ? ui::RunPhase::paused : ui::RunPhase::running;
-  m_interrupted.reset();
+  state.silentSince = silentSince();
+  state.plan = rows_of(m_runningPlan);
   state.elapsed_s = now.time_s;
   if (feed().receiving()) {
     state.timeLeft_s = now.seconds_left;
@@ -237,17 +241,18 @@ void WarmupPresenter::fillImported(ui::WarmupState& state, const json& body) {
 
 /// What was recorded until then is there to be looked at before it is gone on with or finished.
 void WarmupPresenter::fillInterrupted(ui::WarmupState& state) {
+  const auto& run = *interrupted();
   state.phase = ui::RunPhase::interrupted;
-  if (showSeries(m_interrupted->series)) {
-    feed().showHappened(m_interrupted->happened, m_interrupted->summary.measurements, m_interrupted->summary.refused);
-  }
-  state.plan = rows_of(m_interrupted->plan);
-  state.elapsed_s = m_interrupted->summary.duration_s;
-  state.timeLeft_s = std::max(0.0, m_interrupted->plan.duration_s() - state.elapsed_s);
+  state.keptBefore = bench().has("warmup");
+  feed().setImported(false);
+  showInterrupted();
+  state.plan = rows_of(run.plan);
+  state.elapsed_s = run.summary.duration_s;
+  state.timeLeft_s = std::max(0.0, run.plan.duration_s() - state.elapsed_s);
   state.largestError_um = feed().largestError_um();
   state.largestErrorAxis = feed().largestErrorAxis();
-  state.samplesLost = m_interrupted->summary.lost_samples;
-  state.samples = m_interrupted->summary.rows;
+  state.samplesLost = run.summary.lost_samples;
+  state.samples = run.summary.rows;
   state.longestHole_s = feed().longestHole_s();
 }
 
@@ -276,13 +281,19 @@ void WarmupPresenter::refresh() {
   const json& body = bench().body("warmup");
   if (running()) {
     fillRun(state);
+  } else if (!m_again && interrupted()) {
+    fillInterrupted(state);
   } else if (body.is_object() && !m_again) {
     fillKept(state, body);
-  } else if (!m_again) {
-    if (!m_interrupted) m_interrupted = flow::interrupted_warmup(*job).value_or(std::nullopt);
-    if (m_interrupted) fillInterrupted(state);
   }
   m_page->setState(state);
+}
+
+Result<std::optional<flow::RecordedRun>> WarmupPresenter::readInterrupted() const {
+  ZD_TRY(auto found, flow::interrupted_warmup(*bench().job()));
+  const json& kept = bench().body("warmup");
+  const bool older = found && kept.is_object() && kept.value("series", 0LL) > found->series;
+  return older ? std::nullopt : std::move(found);
 }
 
 void WarmupPresenter::tour(std::function<void(bool good)> done) {

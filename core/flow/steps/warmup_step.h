@@ -42,7 +42,8 @@ struct RecordedRun {
   acquisition::Plan plan;
   std::vector<acquisition::Happening> happened;
 };
-/// The warm-up run that was broken off, as far as it is on the disk; nothing when the last one was ended.
+/// The run of this name that was broken off, as far as it is on the disk; nothing when the last one was ended.
+Result<std::optional<RecordedRun>> interrupted_recording(const commissioning::Job& job, const std::string& name);
 Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job);
 
 Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& options,
