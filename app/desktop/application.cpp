@@ -165,6 +165,10 @@ void Application::wireSteps() {
             });
             openPage(upload->id());
           });
+  connect(verify, &VerifyPresenter::furtherRunWanted, this, [this, warmup] {
+    openPage(warmup->id());
+    warmup->planFurtherRun();
+  });
   connect(verify, &VerifyPresenter::rollbackWanted, this, [this, upload](int version) {
     openPage(upload->id());
     upload->proposeRollback(version);

@@ -37,6 +37,13 @@
             <numerusform>%n registers</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%n warning(s), in the details. The first: %1</source>
+        <translation>
+            <numerusform>%n warning, in the details: %1</numerusform>
+            <numerusform>%n warnings, in the details. The first: %1</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::WarmupPresenter</name>

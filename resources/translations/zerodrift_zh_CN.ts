@@ -7922,18 +7922,6 @@
         <translation>%1（序列号 %2）</translation>
     </message>
     <message>
-        <source>The sign was checked at %1.</source>
-        <translation>符号已于 %1 检查。</translation>
-    </message>
-    <message>
-        <source>Before that each axis is moved by 10 µm and back, watched by the camera.</source>
-        <translation>在此之前，每轴移动 10 µm 再返回，由相机观测。</translation>
-    </message>
-    <message>
-        <source>Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation is off while it is written and on afterwards. %6</source>
-        <translation>轴 %1。此刻的最大变化为 %2 µm（%3 轴）。版本 %4 取代版本 %5。写入期间补偿断开，之后接通。%6</translation>
-    </message>
-    <message>
         <source>Write</source>
         <translation>写入</translation>
     </message>
@@ -7986,20 +7974,12 @@
         <translation>版本 %1 的补偿表将作为版本 %2 重新写入，取代版本 %3。%4 开关保持原状；历史中不会删除任何内容。</translation>
     </message>
     <message>
-        <source>The model is out of date: %1 changed after it was fitted. </source>
-        <translation>模型已过期：拟合之后“%1”有更改。</translation>
-    </message>
-    <message>
         <source>The machine holds no table: what this job wrote is not in it any more.</source>
         <translation>机床中没有补偿表：此作业写入的内容已不在其中。</translation>
     </message>
     <message>
         <source>Write puts the last one back, with its corrections; the history has them all.</source>
         <translation>“写入”将恢复最后一个补偿表（含修正）；历史记录中有全部版本。</translation>
-    </message>
-    <message>
-        <source>The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm. </source>
-        <translation>模型在未参与拟合的数据段上残余最多 %1 µm，超过限值 %2 µm。</translation>
     </message>
     <message>
         <source>%1.</source>
@@ -8009,6 +7989,52 @@
     <message>
         <source>The machine is outside the range the model was made in: %1</source>
         <translation>机床超出建立模型时的范围：%1</translation>
+    </message>
+    <message>
+        <source>The model is out of date: %1 changed after it was fitted.</source>
+        <translation>模型已过期：拟合之后“%1”已改变。</translation>
+    </message>
+    <message>
+        <source>The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm.</source>
+        <translation>拟合在未见区段上的残差最大为 %1 µm，超过限值 %2 µm。</translation>
+    </message>
+    <message>
+        <source>Sign: as checked for the version before.</source>
+        <translation>符号：沿用前一版本的检查结果。</translation>
+    </message>
+    <message>
+        <source>Sign: checked at %1.</source>
+        <translation>符号：已于 %1 检查。</translation>
+    </message>
+    <message>
+        <source>Sign: each axis is first moved by 10 µm and back, watched by the camera.</source>
+        <translation>符号：先将各轴移动 10 µm 再移回，由相机观察。</translation>
+    </message>
+    <message>
+        <source>Largest change now: %1 µm in %2.</source>
+        <translation>目前最大改变：%2 方向 %1 µm。</translation>
+    </message>
+    <message>
+        <source>Version %1; the machine holds no table now.</source>
+        <translation>版本 %1；机床中目前没有补偿表。</translation>
+    </message>
+    <message>
+        <source>Version %1 takes the place of version %2.</source>
+        <translation>版本 %1 取代版本 %2。</translation>
+    </message>
+    <message>
+        <source>Axes: %1.</source>
+        <translation>轴：%1。</translation>
+    </message>
+    <message>
+        <source>The compensation is off while it is written and on afterwards.</source>
+        <translation>写入期间补偿关闭，写入后打开。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n warning(s), in the details. The first: %1</source>
+        <translation>
+            <numerusform>%n 条警告，详见详细信息。第一条：%1</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -11733,10 +11759,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>请查看建议的修正。</translation>
     </message>
     <message>
-        <source>Fit with a further run, or report it as it is.</source>
-        <translation>请用更多的运行数据拟合，或如实出具报告。</translation>
-    </message>
-    <message>
         <source>%1 is still above the limit of %2 µm.</source>
         <translation>%1 仍超过限值 %2 µm。</translation>
     </message>
@@ -11851,6 +11873,26 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>The interrupted one stays in the job unused</source>
         <translation>中断的运行留在作业中，但不使用</translation>
+    </message>
+    <message>
+        <source>Plan a further run</source>
+        <translation>规划新的暖机运行</translation>
+    </message>
+    <message>
+        <source>Opens Warm-up with a new run to plan; the model is fitted anew with what it shows.</source>
+        <translation>打开“暖机”页规划新的运行；随后以其数据重新拟合模型。</translation>
+    </message>
+    <message>
+        <source>Goes on with what is left above the limit</source>
+        <translation>在残差仍超过限值的情况下继续</translation>
+    </message>
+    <message>
+        <source>It is left as it is.</source>
+        <translation>已选择保持不变。</translation>
+    </message>
+    <message>
+        <source>Verify again, or leave it as it is.</source>
+        <translation>请重新验证，或保持不变。</translation>
     </message>
 </context>
 <context>

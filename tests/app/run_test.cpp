@@ -52,6 +52,7 @@ class Answer : public QObject {
     connect(&m_timer, &QTimer::timeout, this, [this] {
       auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
       if (box == nullptr) return;
+      m_details = box->detailedText();
       m_asked = box->text() + QLatin1Char('\n') + box->informativeText();
       for (auto* button : box->buttons()) {
         if (button->text() != m_deed) continue;
@@ -65,10 +66,12 @@ class Answer : public QObject {
     m_timer.start();
   }
   const QString& asked() const { return m_asked; }
+  const QString& details() const { return m_details; }
 
  private:
   QString m_deed;
   QString m_asked;
+  QString m_details;
   QTimer m_timer;
 };
 
@@ -199,6 +202,33 @@ class RunTest : public QObject, private zerodrift::desktop::TestHome {
     QCOMPARE(page->run()->sampleCount(QStringLiteral("T1_C")), 20);
     Q_EMIT page->secondaryTriggered(QStringLiteral("drop"));
     QCOMPARE(page->state().phase, VerifyPhase::finished);
+  }
+
+  /// Before anything is written: what, into which machine, each fact on its line; of many warnings one, the rest
+  /// folded.
+  void theWriteQuestionSaysWhatIsWritten() {
+    Application application(m_theme);
+    application.show();
+    application.openSample();
+    auto& bench = application.bench();
+    Q_EMIT application.presenter(QStringLiteral("machine"))->page()->secondaryTriggered(QStringLiteral("virtual"));
+    QTRY_VERIFY_WITH_TIMEOUT(bench.connected(), 60000);
+    application.openPage(QStringLiteral("upload"));
+    auto* page = application.presenter(QStringLiteral("upload"))->page();
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.tasks().running() && page->primaryAction().enabled, 60000);
+    const Answer cancel(QStringLiteral("Cancel"));
+    Q_EMIT page->primaryTriggered();
+    QTRY_VERIFY_WITH_TIMEOUT(!cancel.asked().isEmpty(), 60000);
+    const QStringList lines = cancel.asked().split(QLatin1Char('\n'));
+    QVERIFY2(lines[0].contains(QStringLiteral("serial 8500")), qPrintable(cancel.asked()));
+    QVERIFY2(lines.size() >= 6 && lines.size() <= 8, qPrintable(cancel.asked()));
+    QVERIFY2(lines[1].contains(QStringLiteral("X, Y")), qPrintable(lines[1]));
+    QVERIFY2(lines[2].contains(QStringLiteral("µm")), qPrintable(lines[2]));
+    QVERIFY2(lines[3].startsWith(QStringLiteral("Version")), qPrintable(lines[3]));
+    QVERIFY2(lines[4].startsWith(QStringLiteral("Sign")), qPrintable(lines[4]));
+    QCOMPARE(lines.size() == 8 && lines[7].contains(QStringLiteral("details")), !cancel.details().isEmpty());
+    QTRY_VERIFY(!bench.tasks().running());
+    QCOMPARE(bench.heldTable(), zerodrift::desktop::HeldTable::none);
   }
 
  private:

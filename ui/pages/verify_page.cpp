@@ -146,7 +146,8 @@ QString VerifyPage::finishedSentence() const {
   }
   if (!over.isEmpty()) {
     const QString what = m_state.correctionProposed ? tr("Look at the proposed correction.")
-                                                    : tr("Fit with a further run, or report it as it is.");
+                         : m_state.leftAsItIs       ? tr("It is left as it is.")
+                                                    : tr("Verify again, or leave it as it is.");
     return tr("%1 is still above the limit of %2 µm.").arg(listText(over)).arg(m_state.peakLimit_um) +
            QLatin1Char(' ') + what;
   }
@@ -166,6 +167,19 @@ QString VerifyPage::finishedSentence() const {
 bool VerifyPage::correctionNeeded() const {
   return m_state.correctionProposed && m_state.worseThanBefore.isEmpty() && m_state.outsideRange.isEmpty() &&
          !axesOverLimit().isEmpty();
+}
+
+/// An axis over its limit is no result to go on with, unless the engineer has said so.
+bool VerifyPage::fallenShort() const {
+  return !m_state.leftAsItIs && (m_state.runsDisagree || !axesOverLimit().isEmpty());
+}
+
+bool VerifyPage::furtherRunNeeded() const {
+  return fallenShort() && !rollbackNeeded() && (m_state.runsDisagree || !m_state.outsideRange.isEmpty());
+}
+
+bool VerifyPage::verifyAgainNeeded() const {
+  return fallenShort() && !rollbackNeeded() && !correctionNeeded() && !furtherRunNeeded();
 }
 
 /// The version before was better, and no earlier run says otherwise.
@@ -207,7 +221,16 @@ PageAction VerifyPage::primary() const {
                 {},
                 tr("Opens the history in Upload with that version chosen; it asks before it writes.")};
       }
-      return {"primary", correctionNeeded() ? tr("Apply correction") : tr("Go on"), true, {}};
+      if (correctionNeeded()) return {"primary", tr("Apply correction"), true, {}};
+      if (furtherRunNeeded()) {
+        return {"primary",
+                tr("Plan a further run"),
+                true,
+                {},
+                tr("Opens Warm-up with a new run to plan; the model is fitted anew with what it shows.")};
+      }
+      if (verifyAgainNeeded()) return {"primary", tr("Verify again"), true, {}};
+      return {"primary", tr("Go on"), true, {}};
   }
   return {};
 }
@@ -233,7 +256,11 @@ QVector<PageAction> VerifyPage::secondary() const {
     case VerifyPhase::finished:
       break;
   }
-  QVector<PageAction> actions = {{"again", tr("Verify again")}};
+  QVector<PageAction> actions;
+  if (!verifyAgainNeeded() || !m_state.notHeld.isEmpty()) actions.append({"again", tr("Verify again")});
+  if (fallenShort() && !correctionNeeded()) {
+    actions.append({"goOn", tr("Leave as it is"), true, {}, tr("Goes on with what is left above the limit")});
+  }
   if (correctionNeeded()) {
     actions.append({"skip", tr("Leave as it is")});
   } else if (m_state.correctionProposed) {

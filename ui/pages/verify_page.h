@@ -100,11 +100,14 @@ class VerifyPage : public Page {
   QString sentence() const override;
   /// Start verification, Pause, Apply correction, Go on.
   PageAction primary() const override;
-  /// "finish", "abort", "again", "skip", "correct", "rollback".
+  /// "finish", "abort", "again", "skip", "correct", "rollback", "drop", "goOn".
   QVector<PageAction> secondary() const override;
   bool steersWork() const override { return true; }
   /// The proposed correction is the next step: an axis is over its limit or worse than with the version before.
   bool correctionNeeded() const;
+  /// What is left is too much, and no correction of this run mends it.
+  bool furtherRunNeeded() const;
+  bool verifyAgainNeeded() const;
   bool rollbackNeeded() const;
 
  Q_SIGNALS:
@@ -122,6 +125,7 @@ class VerifyPage : public Page {
   Figure removedFigure() const;
   QStringList words() const;
   QStringList axesOverLimit() const;
+  bool fallenShort() const;
   QString finishedSentence() const;
 
   VerifyState m_state;

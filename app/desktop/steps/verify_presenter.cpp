@@ -106,6 +106,10 @@ void VerifyPresenter::primary() {
     Q_EMIT rollbackWanted(m_page->state().versionBefore);
   } else if (m_page->correctionNeeded()) {
     applyCorrection({});
+  } else if (m_page->furtherRunNeeded()) {
+    Q_EMIT furtherRunWanted();
+  } else if (m_page->verifyAgainNeeded()) {
+    secondary(QStringLiteral("again"));
   } else {
     Q_EMIT nextRequested();
   }
@@ -116,7 +120,7 @@ void VerifyPresenter::secondary(const QString& action) {
     m_again = true;
     forgetRun();  // the next run's plots begin empty
   }
-  if (action == QStringLiteral("skip")) m_skipped = true;
+  if (action == QStringLiteral("skip") || action == QStringLiteral("goOn")) m_skipped = true;
   if (action == QStringLiteral("drop")) dropInterrupted();
   if (action == QStringLiteral("finish") && !running()) return finishInterrupted();
   if (action == QStringLiteral("correct")) return applyCorrection({});
@@ -126,6 +130,7 @@ void VerifyPresenter::secondary(const QString& action) {
   }
   steer(action);
   refresh();
+  if (action == QStringLiteral("goOn")) Q_EMIT nextRequested();
 }
 
 void VerifyPresenter::finishInterrupted() {
@@ -267,6 +272,7 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   state.promiseReach = report::limits::promise_reach;
   state.promised_um = report::promise_of(bench().body("model"), body).promised_um;
   fillCorrection(state);
+  state.leftAsItIs = m_skipped;
 }
 
 void VerifyPresenter::compute(const commissioning::Artefact& verification) {

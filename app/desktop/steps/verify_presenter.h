@@ -25,6 +25,8 @@ class VerifyPresenter : public RunPresenter {
   void correctionWanted(const zerodrift::compensation::Table& table, std::function<void(bool good)> done);
   /// Going back to this version is to be looked at, where transactions are.
   void rollbackWanted(int version);
+  /// A further warm-up run is to be planned.
+  void furtherRunWanted();
 
  private:
   void primary();

@@ -83,6 +83,12 @@ void WarmupPresenter::propose(const acquisition::Plan& plan) {
   setPlan(plan);
 }
 
+void WarmupPresenter::planFurtherRun() {
+  if (running()) return;
+  m_again = true;
+  refresh();
+}
+
 void WarmupPresenter::undo() {
   if (!m_recordingsBefore.empty()) {
     const auto before = std::move(m_recordingsBefore.back());
@@ -121,10 +127,7 @@ void WarmupPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("save")) savePlan();
   if (action == QStringLiteral("export")) exportRun();
   if (action == QStringLiteral("drop")) dropInterrupted();
-  if (action == QStringLiteral("again")) {
-    m_again = true;
-    refresh();
-  }
+  if (action == QStringLiteral("again")) planFurtherRun();
 }
 
 /// An interrupted run is taken up only to be ended as it should: spindle off, series closed, what there is kept.

@@ -27,6 +27,8 @@ class WarmupPresenter : public RunPresenter {
   void setPlan(const acquisition::Plan& plan);
   /// A further run, planned elsewhere.
   void propose(const acquisition::Plan& plan);
+  /// The same, planned here.
+  void planFurtherRun();
   /// Beside the run of a job from files only.
   void addRecording(const recording::Recording& run, const QString& name, const nlohmann::json& how,
                     ui::RecordingUse use);
