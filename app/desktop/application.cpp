@@ -124,14 +124,16 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::controllerTold, this, &Application::updateLamps);
   connect(&m_lampTimer, &QTimer::timeout, this, &Application::updateLamps);
   m_lampTimer.start(lamp_period_ms);
-  connect(&m_bench->tasks(), &TaskRunner::started, this, [this] {
+  const auto worked = [this] {
+    paceVirtualMachine();
     updateLamps();
     updateSteps();
-  });
-  connect(&m_bench->tasks(), &TaskRunner::finished, this, [this] {
-    updateLamps();
-    updateSteps();
-  });
+  };
+  connect(&m_bench->tasks(), &TaskRunner::started, this, worked);
+  connect(&m_bench->tasks(), &TaskRunner::finished, this, worked);
+  connect(m_demo.get(), &DemoMachine::ready, this, &Application::paceVirtualMachine);
+  connect(m_bench.get(), &Workbench::jobChanged, this, &Application::paceVirtualMachine);
+  connect(m_bench.get(), &Workbench::profileChanged, this, &Application::paceVirtualMachine);
   for (auto* presenter : m_presenters) {
     connect(presenter, &Presenter::nextRequested, this, [this, presenter] { openNext(presenter->id()); });
     connect(presenter->page(), &ui::Page::goOnTriggered, this, [this, presenter] { openNext(presenter->id()); });
@@ -177,6 +179,22 @@ void Application::wireSteps() {
     if (lamp == ui::LampId::compensation) switchCompensation();
     if (lamp == ui::LampId::access) changeAccess();
   });
+}
+
+void Application::paceVirtualMachine() {
+  // A run that is broken off counts on the machine's clock: it is taken up as long after as that says.
+  bool working = m_bench->tasks().running();
+  for (const char* id : {"sensors", "fit", "physics", "report", "axis_errors"}) {
+    working = working && !presenter(QString::fromLatin1(id))->working();  // they compute
+  }
+  for (const char* id : {"warmup", "verify"}) {
+    auto* run = qobject_cast<RunPresenter*>(presenter(QString::fromLatin1(id)));
+    working = working || (run != nullptr && run->interrupted().has_value());
+  }
+  m_demo->setWorking(working);
+  const auto& profile = m_bench->profile();
+  const bool connected = m_demo->running() && profile && profile->file == m_demo->profilePath().toStdString();
+  m_bench->setPaceAtRest(connected ? std::optional(m_demo->pace()) : std::nullopt);
 }
 
 void Application::switchCompensation() {

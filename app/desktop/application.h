@@ -52,6 +52,8 @@ class Application : public QObject {
   void wire();
   /// What one page asks of another.
   void wireSteps();
+  /// The virtual machine's clock goes fast only for what runs on it.
+  void paceVirtualMachine();
   void switchCompensation();
   void sayInterrupted();
   void sayDisconnected(unsigned connected_serial, unsigned job_serial);

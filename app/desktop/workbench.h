@@ -83,6 +83,8 @@ class Workbench : public QObject {
   Status setRegisterMap(const std::filesystem::path& path);
   /// Every register of this map is read with each look at the machine; null: none.
   void watchRegisters(std::shared_ptr<const controller::RegisterMap> map) { m_monitor.watch(std::move(map)); }
+  /// Between two pieces of work the machine's clock goes so fast; nothing: as its profile says.
+  void setPaceAtRest(std::optional<double> pace) { m_monitor.setPace(pace); }
   void connectMachine();
   /// machine_busy while work runs: it may use the machine.
   Status disconnectMachine();

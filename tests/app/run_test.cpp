@@ -9,6 +9,7 @@
 #include <QTest>
 #include <QTimer>
 #include <array>
+#include <cmath>
 #include <csignal>
 
 #include "app/desktop/application.h"
@@ -170,6 +171,27 @@ class RunTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(!page->primaryAction().enabled);
     application.bench().tellController(true, false);
     QVERIFY(page->primaryAction().enabled);
+  }
+
+  /// The virtual machine's time passes with the work on it, not with its reader's.
+  void theVirtualMachinesClockRestsWithTheWork() {
+    Application application(m_theme);
+    QVERIFY(begun(application));
+    auto& bench = application.bench();
+    auto* page = warmupPage(application);
+    QTRY_VERIFY_WITH_TIMEOUT(page->state().elapsed_s > 300.0, 60000);
+    const Answer abort(QStringLiteral("Abort"));
+    Q_EMIT page->secondaryTriggered(QStringLiteral("abort"));
+    QTRY_VERIFY_WITH_TIMEOUT(!bench.tasks().running(), 60000);
+    int looks = 0;
+    connect(&bench, &zerodrift::desktop::Workbench::machineSeen, this, [&looks] { ++looks; });
+    QTRY_VERIFY_WITH_TIMEOUT(looks >= 2, 20000);
+    const double before_s = bench.look()->sample.machine_time_s;
+    QTRY_VERIFY_WITH_TIMEOUT(looks >= 5, 20000);
+    const double passed_s = bench.look()->sample.machine_time_s - before_s;
+    QVERIFY2(passed_s > 1.0 && passed_s < 15.0, qPrintable(QString::number(passed_s)));
+    QVERIFY2(std::abs(bench.look()->clock_difference_s) < 2.0,
+             qPrintable(QString::number(bench.look()->clock_difference_s)));
   }
 
   /// A verification that the program did not live to end is offered like a warm-up, until a table is written.
