@@ -7841,6 +7841,18 @@
         <source>Record a warm-up run first: the sensors are chosen from it.</source>
         <translation>请先记录一次暖机运行：传感器由此选出。</translation>
     </message>
+    <message numerus="yes">
+        <source>%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.</source>
+        <translation>
+            <numerusform>建议 %n 个：单一转速无法判断其他转速下哪些传感器重要；第二个转速的运行可以判断。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n proposed: with %1 the error to expect would be only %2 µm less.</source>
+        <translation>
+            <numerusform>建议 %n 个：再加上 %1，预期误差仅减小 %2 µm。</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::Tour</name>
@@ -10947,10 +10959,6 @@
     <message>
         <source>nothing lost</source>
         <translation>没有损失</translation>
-    </message>
-    <message>
-        <source>only %1 µm</source>
-        <translation>仅 %1 µm</translation>
     </message>
     <message>
         <source>Condition number</source>

@@ -197,6 +197,46 @@ TEST_F(StepsTest, AnInterruptedVerificationIsGoneOnWithUntilATableIsWritten) {
 
 }  // namespace
 
+/// Three cycles tell that sensors beside others bring nothing: they are not proposed, and it is told what that costs.
+TEST_F(StepsTest, WhereTheCurveIsFlatFewerSensorsAreProposed) {
+  constexpr int cycles = 3;
+  const recording::Recording once = warm_up();
+  recording::Recording run = once;
+  for (auto& channel : run.channels) {
+    for (int c = 1; c < cycles; ++c)
+      channel.values.insert(channel.values.end(), once.find(channel.name)->values.begin(),
+                            once.find(channel.name)->values.end());
+  }
+  run.time_s.clear();
+  for (int i = 0; i < cycles * rows; ++i) run.time_s.push_back(60.0 * i);
+  for (int s = 1; s <= 4; ++s) {
+    const auto values = run.find("T" + std::to_string(s) + "_C")->values;
+    auto& beside = run.ensure("T" + std::to_string(s + 6) + "_C").values;
+    beside = values;
+    for (std::size_t i = 0; i < beside.size(); ++i) beside[i] += 0.02 * std::sin(45.233 * static_cast<double>(i) + s);
+  }
+  const auto made = import_warmup(*job, run, "run.csv");
+  ASSERT_TRUE(made) << describe(made.error());
+  ASSERT_TRUE(job->put(*made));
+  SensorsOptions options;
+  options.clusters = 3;
+  const json body = chosen_with(options);
+  const json& choice = body["choice"];
+  EXPECT_FALSE(choice["one_cycle"]);
+  EXPECT_FALSE(choice["flat"]["left"].empty()) << choice["reason"];
+  EXPECT_LE(choice["flat"]["cost_um"].get<double>(), 0.05);
+  EXPECT_GE(body["chosen"].size(), 3U);
+  for (const auto& set : choice["sets"]) {
+    const auto size = body["chosen"].size() + choice["flat"]["left"].size();
+    EXPECT_TRUE(!set["chosen"] || set["sensors"].size() == size) << set;
+  }
+  SensorsOptions hand = options;
+  hand.chosen = {"T1_C", "T4_C", "T7_C", "T8_C"};
+  const json by_hand = chosen_with(hand);
+  EXPECT_EQ(by_hand["chosen"].size(), 4U);
+  EXPECT_TRUE(by_hand["choice"]["flat"]["left"].empty());
+}
+
 TEST_F(StepsTest, ASensorThatTheRunNamedIsLeftOutWithTheReason) {
   SensorsOptions options;
   options.clusters = 3;
