@@ -1,5 +1,7 @@
 #include "app/desktop/workbench.h"
 
+#include <QDir>
+#include <QFileInfo>
 #include <QRegularExpression>
 #include <algorithm>
 
@@ -167,6 +169,11 @@ Status Workbench::closeJob() {
   leaveJob();
   Q_EMIT jobChanged();
   return {};
+}
+
+QString Workbench::folder() const {
+  if (!m_job) return QDir::homePath();
+  return QFileInfo(QString::fromStdString(m_job->path().string())).absolutePath();
 }
 
 commissioning::JobKind Workbench::kind() const {

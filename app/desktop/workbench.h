@@ -63,6 +63,8 @@ class Workbench : public QObject {
   /// Null: none is open. Work beside the window takes the pointer with it, never the address.
   const std::shared_ptr<commissioning::Job>& job() { return m_job; }
   std::shared_ptr<const commissioning::Job> job() const { return m_job; }
+  /// Where a file is looked for and saved first: beside the job, else at home.
+  QString folder() const;
   /// Does a step that is quick and does not come from what the job holds (Flow::take_in), and tells everybody.
   Result<commissioning::Artefact> takeIn(const std::string& step, const flow::StepRun& run);
   /// Tells everybody what a step has made.

@@ -474,6 +474,26 @@
         <source>Confirm on one point first: %1</source>
         <translation>请先用一个点确认：%1</translation>
     </message>
+    <message>
+        <source>LinuxCNC: screw compensation of one joint</source>
+        <translation>LinuxCNC：单关节丝杠补偿</translation>
+    </message>
+    <message>
+        <source>SINUMERIK: temperature compensation</source>
+        <translation>SINUMERIK：温度补偿</translation>
+    </message>
+    <message>
+        <source>SINUMERIK: leadscrew error compensation</source>
+        <translation>SINUMERIK：丝杠误差补偿</translation>
+    </message>
+    <message>
+        <source>FANUC: pitch error compensation</source>
+        <translation>FANUC：螺距误差补偿</translation>
+    </message>
+    <message>
+        <source>HEIDENHAIN: axis error compensation</source>
+        <translation>HEIDENHAIN：轴误差补偿</translation>
+    </message>
 </context>
 <context>
     <name>Typical</name>
@@ -7661,18 +7681,6 @@
 <context>
     <name>zerodrift::desktop::ReportPresenter</name>
     <message>
-        <source>Report (*.pdf)</source>
-        <translation>报告 (*.pdf)</translation>
-    </message>
-    <message>
-        <source>Report (*.html)</source>
-        <translation>报告 (*.html)</translation>
-    </message>
-    <message>
-        <source>Figures (*.csv)</source>
-        <translation>数据 (*.csv)</translation>
-    </message>
-    <message>
         <source>Save report</source>
         <translation>保存报告</translation>
     </message>
@@ -7699,6 +7707,38 @@
     <message>
         <source>The report is written from what was measured. Record a warm-up run first.</source>
         <translation>报告由测量结果生成。请先记录一次暖机运行。</translation>
+    </message>
+    <message>
+        <source>Report to print and sign (*.pdf)</source>
+        <translation>用于打印和签字的报告 (*.pdf)</translation>
+    </message>
+    <message>
+        <source>Web page with links to the data (*.html)</source>
+        <translation>带数据链接的网页 (*.html)</translation>
+    </message>
+    <message>
+        <source>Figures for a spreadsheet (*.csv)</source>
+        <translation>用于电子表格的数据 (*.csv)</translation>
+    </message>
+    <message>
+        <source>No program opens %1.</source>
+        <translation>没有程序可打开 %1。</translation>
+    </message>
+    <message>
+        <source>Open it with a program of your own.</source>
+        <translation>请自行选择程序打开。</translation>
+    </message>
+    <message>
+        <source>Printing the report</source>
+        <translation>正在打印报告</translation>
+    </message>
+    <message>
+        <source>Report printed</source>
+        <translation>报告已打印</translation>
+    </message>
+    <message>
+        <source>Head of the report</source>
+        <translation>报告抬头</translation>
     </message>
 </context>
 <context>
@@ -10729,14 +10769,6 @@
         <translation>保存报告</translation>
     </message>
     <message>
-        <source>Save as HTML</source>
-        <translation>保存为 HTML</translation>
-    </message>
-    <message>
-        <source>Save figures (CSV)</source>
-        <translation>保存数据（CSV）</translation>
-    </message>
-    <message>
         <source>Technical bundle</source>
         <translation>技术数据包</translation>
     </message>
@@ -10827,6 +10859,38 @@
     <message>
         <source>Language</source>
         <translation>语言</translation>
+    </message>
+    <message>
+        <source>Company</source>
+        <translation>公司</translation>
+    </message>
+    <message>
+        <source>Logo and address of your company, at the head of every report from this computer</source>
+        <translation>贵公司的徽标和地址，显示在本计算机生成的每份报告的抬头</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>打开</translation>
+    </message>
+    <message>
+        <source>Opens what was saved last</source>
+        <translation>打开最近保存的文件</translation>
+    </message>
+    <message>
+        <source>Show in folder</source>
+        <translation>打开所在文件夹</translation>
+    </message>
+    <message>
+        <source>Print</source>
+        <translation>打印</translation>
+    </message>
+    <message>
+        <source>For support: job, log, pictures and figures in one zip beside the job, without passwords</source>
+        <translation>供技术支持使用：作业、日志、截图和数据打包为作业旁的一个 zip 文件，不含密码</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1（%2）</translation>
     </message>
 </context>
 <context>
@@ -12367,6 +12431,53 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>The run before counts; the interrupted one stays unused</source>
         <translation>以前一次运行为准；中断的运行留存但不使用</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::CompanyDialog</name>
+    <message>
+        <source>Your company in the report</source>
+        <translation>报告中的贵公司信息</translation>
+    </message>
+    <message>
+        <source>Logo and address stand at the head of every report from this computer.</source>
+        <translation>徽标和地址显示在本计算机生成的每份报告的抬头。</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>选择图片</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Name and address</source>
+        <translation>名称和地址</translation>
+    </message>
+    <message>
+        <source>Logo</source>
+        <translation>徽标</translation>
+    </message>
+    <message>
+        <source>Use</source>
+        <translation>使用</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>%1 is no picture that can be read: choose a PNG, JPEG or SVG file.</source>
+        <translation>%1 不是可读取的图片：请选择 PNG、JPEG 或 SVG 文件。</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
+        <translation>图片 (*.png *.jpg *.jpeg *.svg)</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
     </message>
 </context>
 </TS>

@@ -224,7 +224,7 @@ void MachinePresenter::chooseJob() {
 
 void MachinePresenter::importProfile() {
   const QString path =
-      QFileDialog::getOpenFileName(m_page, tr("Connection profile"), QDir::homePath(), tr("Profiles (*.json)"));
+      QFileDialog::getOpenFileName(m_page, tr("Connection profile"), bench().folder(), tr("Profiles (*.json)"));
   if (path.isEmpty()) return;
   if (const Status loaded = bench().loadProfile(path.toStdString()); !loaded) {
     show(loaded.error());

@@ -148,7 +148,7 @@ void WarmupPresenter::finishInterrupted() {
 }
 
 void WarmupPresenter::loadPlan() {
-  const QString path = QFileDialog::getOpenFileName(m_page, tr("Warm-up plan"), QDir::homePath(), tr("Plans (*.json)"));
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Warm-up plan"), bench().folder(), tr("Plans (*.json)"));
   if (path.isEmpty()) return;
   const auto plan = acquisition::read_plan(path.toStdString());
   if (!plan) {
@@ -163,7 +163,7 @@ void WarmupPresenter::exportRun() {
   const json body = bench().body("warmup");
   if (!body.is_object()) return;
   const QString path = QFileDialog::getSaveFileName(
-      m_page, tr("Save as CSV"), QDir::homePath() + QStringLiteral("/warm-up.csv"), tr("Recordings (*.csv)"));
+      m_page, tr("Save as CSV"), bench().folder() + QStringLiteral("/warm-up.csv"), tr("Recordings (*.csv)"));
   if (path.isEmpty()) return;
   const auto run = bench().job()->read_series(body.at("series").get<long long>());
   const Status written = run ? recording::write_recording(path.toStdString(), *run) : Status(fail(run.error()));
@@ -172,7 +172,7 @@ void WarmupPresenter::exportRun() {
 
 void WarmupPresenter::savePlan() {
   const QString path = QFileDialog::getSaveFileName(
-      m_page, tr("Save plan"), QDir::homePath() + QStringLiteral("/plan.json"), tr("Plans (*.json)"));
+      m_page, tr("Save plan"), bench().folder() + QStringLiteral("/plan.json"), tr("Plans (*.json)"));
   if (path.isEmpty()) return;
   if (const Status written = write_json_file(path.toStdString(), acquisition::to_json(m_plan)); !written) {
     show(written.error());
