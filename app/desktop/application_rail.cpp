@@ -37,7 +37,7 @@ QString Application::wordsOf(const flow::StepStatus& status) const {
     case flow::StepState::current:
       return tr("Done");
     case flow::StepState::stale:
-      return tr("Out of date: %1 changed").arg(stepName(status.reason));
+      return tr("Out of date: %1", "which step changed").arg(stepName(status.reason));
     case flow::StepState::not_needed:
       return tr("Not needed");
   }

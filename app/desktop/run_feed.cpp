@@ -143,6 +143,7 @@ void RunFeed::begin() {
 void RunFeed::goOn(const recording::Recording& run, const std::vector<commissioning::Event>& events) {
   begin();
   showRecording(run, events);
+  m_view->setCameraShown(true);
 }
 
 void RunFeed::stop() {

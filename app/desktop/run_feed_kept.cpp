@@ -18,6 +18,7 @@ void RunFeed::showRecording(const recording::Recording& run, const std::vector<c
     if (recording::present_count(channel) > 0) m_importedNames.push_back(channel.name);
   }
   nameChannels();
+  m_view->setCameraShown(false);  // its pictures were not kept
   m_largest_um = 0.0;
   m_longestHole_s = 0.0;
   m_lastRow_s = -1.0;

@@ -6772,8 +6772,9 @@
         <translation>完成</translation>
     </message>
     <message>
-        <source>Out of date: %1 changed</source>
-        <translation>已过期：%1已更改</translation>
+        <source>Out of date: %1</source>
+        <comment>which step changed</comment>
+        <translation>已过期：%1</translation>
     </message>
     <message>
         <source>No job</source>
@@ -11823,10 +11824,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>%1 消除</translation>
     </message>
     <message>
-        <source>%1 is worse than with version %2: roll back, or correct it.</source>
-        <translation>%1 比版本 %2 更差：请回滚或修正。</translation>
-    </message>
-    <message>
         <source>Look at the proposed correction.</source>
         <translation>请查看建议的修正。</translation>
     </message>
@@ -11965,6 +11962,10 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Verify again, or leave it as it is.</source>
         <translation>请重新验证，或保持不变。</translation>
+    </message>
+    <message>
+        <source>Worse than with version %2: %1. Roll back, or correct it.</source>
+        <translation>比版本 %2 差：%1。请回滚或修正。</translation>
     </message>
 </context>
 <context>
@@ -12177,10 +12178,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>预期漂移</translation>
     </message>
     <message>
-        <source>no earlier job</source>
-        <translation>没有以前的作业</translation>
-    </message>
-    <message>
         <source>Measurements</source>
         <translation>测量次数</translation>
     </message>
@@ -12351,10 +12348,6 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Preset plans</source>
         <translation>预设计划</translation>
-    </message>
-    <message>
-        <source>Known after the first run of this machine</source>
-        <translation>该机床首次运行后可知</translation>
     </message>
     <message>
         <source>Step %1 of %2</source>

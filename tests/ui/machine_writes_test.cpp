@@ -109,7 +109,7 @@ void MachineWritesTest::proofIsOnlyCompleteWithinTheLimit() {
   state.versionBefore = 1;
   state.worseThanBefore = {{"X", 1.2, 2.4}};
   page.setState(state);
-  QVERIFY(page.sentence().contains("X") && page.sentence().contains("version 1"));
+  QVERIFY(page.sentence().contains("X") && page.sentence().contains("version 1: X"));
   QVERIFY(page.rollbackNeeded());
   QCOMPARE(page.primaryAction().text, QString("Roll back to version 1"));
   // An earlier run said the opposite: going back and forth would not end.

@@ -134,7 +134,7 @@ QString VerifyPage::finishedSentence() const {
   if (!m_state.worseThanBefore.isEmpty()) {
     QStringList axes;
     for (const WorseThanBefore& axis : m_state.worseThanBefore) axes.append(axis.axis);
-    return tr("%1 is worse than with version %2: roll back, or correct it.")
+    return tr("Worse than with version %2: %1. Roll back, or correct it.")
         .arg(listText(axes))
         .arg(m_state.versionBefore);
   }
@@ -295,6 +295,7 @@ QVector<Figure> VerifyPage::figures() const {
   }
   if (!worse.isEmpty()) {
     removed.judgement = Judgement::bad;
+    removed.limit.clear();  // the tip has it
     removed.word = tr("%1 worse").arg(listText(worse));
   }
   if (finished) {

@@ -234,7 +234,6 @@ QVector<Figure> WarmupPage::planFigures() const {
   double expected = std::numeric_limits<double>::quiet_NaN();
   for (const double drift : m_state.expectedDrift_um) expected = std::fmax(expected, std::abs(drift));
   Figure largest = figureOf(tr("Expected drift"), expected, 0, "µm", m_state.expectedFrom);
-  if (m_state.expectedDrift_um.isEmpty()) largest.word = tr("no earlier job");
   const double measurements = m_state.measurePeriod_s > 0.0 ? std::floor(length / m_state.measurePeriod_s) : NAN;
   Figure count = figureAtLeast(tr("Measurements"), measurements, 0, {}, 20.0);
   count.tip = tr("How often the error is measured. A model needs at least 20.");
@@ -243,6 +242,7 @@ QVector<Figure> WarmupPage::planFigures() const {
   time.limit = m_state.wallTimeTotal;
   time.tip = tr("Time of the machine. A virtual machine goes through it faster than the clock on the wall.");
   Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
+  if (m_state.expectedDrift_um.isEmpty()) return {time, count, disk};
   return {time, count, largest, disk};
 }
 
@@ -372,7 +372,7 @@ void WarmupPage::renderPlan() {
   m_timeline->setFastest(m_state.fastest_rpm);
   m_timeline->setMeasurePeriod(m_state.measurePeriod_s);
   m_timeline->setSteps(m_state.plan);
-  m_expected->setPlaceholder(tr("Known after the first run of this machine"));
+  m_expectedCard->setVisible(!m_state.expectedTime_s.isEmpty());  // known after the first run of this machine
   if (m_state.expectedTime_s.isEmpty()) {
     m_expected->clear();
   } else {
