@@ -18,7 +18,6 @@
 #include "app/desktop/steps/verify_presenter.h"
 #include "app/desktop/steps/warmup_presenter.h"
 #include "app/text/error_text.h"
-#include "core/acquisition/job_sink.h"
 #include "core/flow/rollback_and_switch.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/progress_strip.h"
@@ -112,6 +111,7 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::jobChanged, this, changed);
   connect(m_bench.get(), &Workbench::artefactsChanged, this, changed);
   connect(m_bench.get(), &Workbench::profileChanged, this, changed);
+  connect(m_bench.get(), &Workbench::machineStateChanged, this, changed);
   connect(m_bench.get(), &Workbench::machineSeen, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::machineLost, this, &Application::updateLamps);
   connect(m_bench.get(), &Workbench::accessChanged, this, &Application::updateLamps);
@@ -124,14 +124,16 @@ void Application::wire() {
   connect(m_bench.get(), &Workbench::controllerTold, this, &Application::updateLamps);
   connect(&m_lampTimer, &QTimer::timeout, this, &Application::updateLamps);
   m_lampTimer.start(lamp_period_ms);
-  connect(&m_bench->tasks(), &TaskRunner::started, this, [this] {
+  const auto worked = [this] {
+    paceVirtualMachine();
     updateLamps();
     updateSteps();
-  });
-  connect(&m_bench->tasks(), &TaskRunner::finished, this, [this] {
-    updateLamps();
-    updateSteps();
-  });
+  };
+  connect(&m_bench->tasks(), &TaskRunner::started, this, worked);
+  connect(&m_bench->tasks(), &TaskRunner::finished, this, worked);
+  connect(m_demo.get(), &DemoMachine::ready, this, &Application::paceVirtualMachine);
+  connect(m_bench.get(), &Workbench::jobChanged, this, &Application::paceVirtualMachine);
+  connect(m_bench.get(), &Workbench::profileChanged, this, &Application::paceVirtualMachine);
   for (auto* presenter : m_presenters) {
     connect(presenter, &Presenter::nextRequested, this, [this, presenter] { openNext(presenter->id()); });
     connect(presenter->page(), &ui::Page::goOnTriggered, this, [this, presenter] { openNext(presenter->id()); });
@@ -148,6 +150,7 @@ void Application::wireSteps() {
   auto* upload = qobject_cast<UploadPresenter*>(find("upload"));
   auto* verify = qobject_cast<VerifyPresenter*>(find("verify"));
   auto* machine = qobject_cast<MachinePresenter*>(find("machine"));
+  connect(machine, &MachinePresenter::endWorkWanted, this, &Application::endWork);
   connect(machine, &MachinePresenter::sampleWanted, this, &Application::openSample);
   connect(machine, &MachinePresenter::ownRecordingWanted, m_opener, &FileOpener::chooseRecording);
   connect(warmup, &WarmupPresenter::importWanted, m_opener, &FileOpener::chooseRecording);
@@ -164,6 +167,10 @@ void Application::wireSteps() {
             });
             openPage(upload->id());
           });
+  connect(verify, &VerifyPresenter::furtherRunWanted, this, [this, warmup] {
+    openPage(warmup->id());
+    warmup->planFurtherRun();
+  });
   connect(verify, &VerifyPresenter::rollbackWanted, this, [this, upload](int version) {
     openPage(upload->id());
     upload->proposeRollback(version);
@@ -172,6 +179,22 @@ void Application::wireSteps() {
     if (lamp == ui::LampId::compensation) switchCompensation();
     if (lamp == ui::LampId::access) changeAccess();
   });
+}
+
+void Application::paceVirtualMachine() {
+  // A run that is broken off counts on the machine's clock: it is taken up as long after as that says.
+  bool working = m_bench->tasks().running();
+  for (const char* id : {"sensors", "fit", "physics", "report", "axis_errors"}) {
+    working = working && !presenter(QString::fromLatin1(id))->working();  // they compute
+  }
+  for (const char* id : {"warmup", "verify"}) {
+    auto* run = qobject_cast<RunPresenter*>(presenter(QString::fromLatin1(id)));
+    working = working || (run != nullptr && run->interrupted().has_value());
+  }
+  m_demo->setWorking(working);
+  const auto& profile = m_bench->profile();
+  const bool connected = m_demo->running() && profile && profile->file == m_demo->profilePath().toStdString();
+  m_bench->setPaceAtRest(connected ? std::optional(m_demo->pace()) : std::nullopt);
 }
 
 void Application::switchCompensation() {
@@ -192,6 +215,7 @@ void Application::switchCompensation() {
         return flow::switch_compensation(job.get(), devices, flow::Consent::given(), on);
       },
       [this](Result<bool> now) {
+        if (now) m_bench->tellController(true, *now);
         m_bench->log(now ? LogKind::good : LogKind::bad, !now   ? lineOf(now.error(), Reader::window)
                                                          : *now ? tr("Compensation ON")
                                                                 : tr("Compensation OFF"));
@@ -233,19 +257,25 @@ void Application::sayDamaged(const Error& damage) {
   if (auto* open = presenter(m_open)) open->show(damage);
 }
 
-/// A run that was broken off is the first thing to know of a job.
+/// A run that was broken off is the first thing to know of a job: the newest of them, warm-up or verification.
 void Application::sayInterrupted() {
   auto* open = presenter(m_open);
-  const auto job = m_bench->job();
-  if (open == nullptr || job == nullptr || m_bench->tasks().running() || m_bench->has("warmup")) return;
-  const auto interrupted = acquisition::interrupted_run(*job, "warm-up");
-  if (!interrupted || !*interrupted) return;
-  open->tell([after_s = (*interrupted)->run.last_time_s] {
-    return ui::Problem{ui::ProblemKind::note,
-                       tr("The warm-up run of this job was interrupted after %1.").arg(ui::durationText(after_s)),
-                       tr("On the Warm-up page it goes on, or is finished with what was recorded."),
-                       {}};
-  });
+  if (open == nullptr || m_bench->job() == nullptr || m_bench->tasks().running()) return;
+  for (const char* id : {"verify", "warmup"}) {
+    auto* page = qobject_cast<RunPresenter*>(presenter(QString::fromLatin1(id)));
+    if (page == nullptr || !page->interrupted()) continue;
+    const bool verifies = page->id() == QStringLiteral("verify");
+    open->tell([after_s = page->interrupted()->summary.duration_s, verifies] {
+      const QString after = ui::durationText(after_s);
+      return ui::Problem{ui::ProblemKind::note,
+                         verifies ? tr("The verification run of this job was interrupted after %1.").arg(after)
+                                  : tr("The warm-up run of this job was interrupted after %1.").arg(after),
+                         verifies ? tr("On the Verify page it goes on, or is finished with what was recorded.")
+                                  : tr("On the Warm-up page it goes on, or is finished with what was recorded."),
+                         {}};
+    });
+    return;
+  }
 }
 
 void Application::show() {
@@ -332,7 +362,9 @@ void Application::setLanguage(const QString& code) {
 void Application::updateLamps() {
   const bool running = m_bench->tasks().running();
   lightController();
-  if (running) {
+  if (running && m_bench->lost() && (isRunning("warmup") || isRunning("verify"))) {
+    m_window->setLamp(ui::LampId::recording, tr("%1 waits").arg(m_bench->tasks().name()), ui::Judgement::warn);
+  } else if (running) {
     m_window->setLamp(ui::LampId::recording, m_bench->tasks().name(), ui::Judgement::ok);
   } else {
     m_window->setLamp(ui::LampId::recording, tr("Nothing running"), ui::Judgement::none);
@@ -417,7 +449,7 @@ void Application::runCommand(const QString& id) {
   if (id == QStringLiteral("open")) machine->chooseJob();
   if (id == QStringLiteral("recording")) m_opener->chooseRecording();
   if (id == QStringLiteral("sample")) openSample();
-  if (id == QStringLiteral("virtual")) machine->useVirtualMachine({});
+  if (id == QStringLiteral("virtual")) machine->useAnyVirtualMachine();
   if (id == QStringLiteral("undo")) undo();
   if (id.startsWith(QStringLiteral("job:"))) openFiles({id.mid(4)});
 }
@@ -427,14 +459,14 @@ bool Application::isRunning(const char* id) const {
   return run != nullptr && run->running();
 }
 
-QString Application::whatClosingDoes() const {
+QString Application::whatEndingDoes() const {
   if (isRunning("warmup")) {
     return tr("The spindle, the path and the coolant stop. What was recorded is kept and the run can be resumed.");
   }
   if (isRunning("verify")) {
     return tr(
-        "The spindle, the path and the coolant stop; the compensation stays as it is switched. This run is not "
-        "used: a verification is started anew.");
+        "The spindle, the path and the coolant stop; the compensation stays as it is switched. What was recorded is "
+        "kept and the run can be resumed.");
   }
   const auto* compensator = qobject_cast<const CompensatorPresenter*>(presenter(QStringLiteral("compensator")));
   if (compensator != nullptr && compensator->running()) {
@@ -443,12 +475,23 @@ QString Application::whatClosingDoes() const {
   return tr("It is broken off; what the job holds already is kept.");
 }
 
+bool Application::mayEnd(const QString& question, const QString& deed) {
+  const auto& tasks = m_bench->tasks();
+  return !tasks.running() || ask(m_window.get(), question,
+                                 ui::sentencesText({tr("%1 is running.").arg(tasks.name()), whatEndingDoes()}), deed);
+}
+
+void Application::endWork(const QString& question, const QString& deed, const std::function<void()>& then) {
+  if (!mayEnd(question, deed)) return;
+  auto& tasks = m_bench->tasks();
+  if (!tasks.running()) return then();  // also when it ended while the question stood
+  connect(&tasks, &TaskRunner::finished, this, then,
+          static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+  tasks.cancel();
+}
+
 void Application::mayClose(bool* allowed) {
-  if (m_bench->tasks().running()) {
-    *allowed =
-        ask(m_window.get(), tr("Close Zerodrift?"),
-            ui::sentencesText({tr("%1 is running.").arg(m_bench->tasks().name()), whatClosingDoes()}), tr("Close"));
-  }
+  *allowed = mayEnd(tr("Close Zerodrift?"), tr("Close"));
   if (!*allowed) return;
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), m_window->saveGeometry());

@@ -52,6 +52,8 @@ class Application : public QObject {
   void wire();
   /// What one page asks of another.
   void wireSteps();
+  /// The virtual machine's clock goes fast only for what runs on it.
+  void paceVirtualMachine();
   void switchCompensation();
   void sayInterrupted();
   void sayDisconnected(unsigned connected_serial, unsigned job_serial);
@@ -72,9 +74,12 @@ class Application : public QObject {
   void offerCommands();
   void runCommand(const QString& id);
   void mayClose(bool* allowed);
+  bool mayEnd(const QString& question, const QString& deed);
+  /// Asks whether the work that runs may end, ends it, then does it; at once when nothing runs.
+  void endWork(const QString& question, const QString& deed, const std::function<void()>& then);
   /// Warm-up or verification.
   bool isRunning(const char* id) const;
-  QString whatClosingDoes() const;
+  QString whatEndingDoes() const;
 
   ui::Theme& m_theme;
   std::unique_ptr<Workbench> m_bench;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/desktop/application.h"
+#include "app/desktop/run_presenter.h"
 #include "app/text/error_text.h"
 #include "core/flow/flow.h"
 
@@ -36,7 +37,7 @@ QString Application::wordsOf(const flow::StepStatus& status) const {
     case flow::StepState::current:
       return tr("Done");
     case flow::StepState::stale:
-      return tr("Out of date: %1 changed").arg(stepName(status.reason));
+      return tr("Out of date: %1", "which step changed").arg(stepName(status.reason));
     case flow::StepState::not_needed:
       return tr("Not needed");
   }
@@ -102,8 +103,12 @@ void Application::updateSteps() {
     tellNeed(*presenter, needed);
     const bool made = status.state == flow::StepState::current || status.state == flow::StepState::stale;
     if (presenter->working()) {
+      const auto* run = qobject_cast<const RunPresenter*>(presenter);
+      const bool waits = run != nullptr && run->running() && m_bench->lost();
       m_window->setStepState(presenter->id(), ui::StepState::running,
-                             step || standing.words.isEmpty() ? tr("Running") : standing.words);
+                             waits                              ? tr("Controller lost")
+                             : step || standing.words.isEmpty() ? tr("Running")
+                                                                : standing.words);
     } else if (!all || (made && m_bench->damage())) {  // what of it still holds nobody can say
       m_window->setStepState(presenter->id(), ui::StepState::failed, tr("The job is damaged"));
     } else if (needed && !standing.words.isEmpty()) {

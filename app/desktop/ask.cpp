@@ -7,9 +7,15 @@
 namespace zerodrift::desktop {
 
 bool ask(QWidget* parent, const QString& heading, const QString& text, const QString& deed) {
+  return askWithDetails(parent, heading, text, deed, {});
+}
+
+bool askWithDetails(QWidget* parent, const QString& heading, const QString& text, const QString& deed,
+                    const QString& details) {
   QMessageBox box(QMessageBox::NoIcon, heading, heading, QMessageBox::Cancel, parent);
   box.button(QMessageBox::Cancel)->setText(QCoreApplication::translate("ask", "Cancel"));
   box.setInformativeText(text);
+  if (!details.isEmpty()) box.setDetailedText(details);
   const auto* agree = box.addButton(deed, QMessageBox::AcceptRole);
   box.setDefaultButton(QMessageBox::Cancel);
   box.setEscapeButton(QMessageBox::Cancel);

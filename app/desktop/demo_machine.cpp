@@ -36,14 +36,22 @@ DemoMachine::~DemoMachine() {
 
 void DemoMachine::start(const DemoOptions& options) {
   stop();
+  m_options = options;
   m_stopping = false;
   m_words.clear();
-  QStringList arguments = {QStringLiteral("--speedup"),     QString::number(options.speedup),
-                           QStringLiteral("--seed"),        QString::number(options.seed),
-                           QStringLiteral("--port"),        QStringLiteral("0"),
-                           QStringLiteral("--camera-port"), QStringLiteral("0"),
-                           QStringLiteral("--profile"),     profilePath(),
-                           QStringLiteral("--truth"),       truthPath()};
+  QStringList arguments = {QStringLiteral("--speedup"),
+                           QString::number(options.speedup),
+                           QStringLiteral("--paced"),
+                           QStringLiteral("--seed"),
+                           QString::number(options.seed),
+                           QStringLiteral("--port"),
+                           QStringLiteral("0"),
+                           QStringLiteral("--camera-port"),
+                           QStringLiteral("0"),
+                           QStringLiteral("--profile"),
+                           profilePath(),
+                           QStringLiteral("--truth"),
+                           truthPath()};
   if (!options.conceal.isEmpty()) arguments << QStringLiteral("--conceal") << options.conceal;
   for (const QString& fault : options.faults) arguments << QStringLiteral("--fault") << fault;
   const QString beside = QDir(QCoreApplication::applicationDirPath()).filePath(QStringLiteral("zerodrift-machine"));
@@ -74,7 +82,18 @@ void DemoMachine::readLines() {
   m_words += text;
   if (m_ready || !m_words.contains(QStringLiteral("ready modbus="))) return;
   m_ready = true;
+  sendPace();
   Q_EMIT ready();
+}
+
+void DemoMachine::setWorking(bool working) {
+  if (std::exchange(m_working, working) != working) sendPace();
+}
+
+void DemoMachine::sendPace() {
+  if (!m_ready) return;
+  m_process.write(QByteArray::number(static_cast<int>(pace())) + '\n');
+  m_process.waitForBytesWritten(100);  // the work that it is for begins now
 }
 
 }  // namespace zerodrift::desktop

@@ -30,6 +30,15 @@ class DemoMachine : public QObject {
 
   void start(const DemoOptions& options);
   bool running() const { return m_ready; }
+  /// It was started and is not ready yet.
+  bool starting() const { return !m_ready && m_process.state() != QProcess::NotRunning; }
+  /// While work runs its clock goes at the speedup; else as fast as the wall's, so that its room does not move on by
+  /// hours while somebody reads.
+  void setWorking(bool working);
+  /// Machine seconds a second of wall time, now.
+  double pace() const { return m_working ? m_options.speedup : 1.0; }
+  /// As it was started last.
+  const DemoOptions& options() const { return m_options; }
   /// Ends the process and waits for it; what it printed at its end (the opened seal) is in lastWords().
   void stop();
   QString profilePath() const;
@@ -42,11 +51,14 @@ class DemoMachine : public QObject {
 
  private:
   void readLines();
+  void sendPace();
 
   QProcess m_process;
+  DemoOptions m_options;
   ScratchFolder m_folder;
   QString m_words;
   bool m_ready = false;
+  bool m_working = false;
   bool m_stopping = false;  // its end is wanted
 };
 

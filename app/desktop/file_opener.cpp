@@ -102,7 +102,7 @@ void FileOpener::openTable(const QString& path) {
 void FileOpener::chooseRecording() {
   auto& window = m_application.window();
   const QString path =
-      QFileDialog::getOpenFileName(&window, tr("Import a recording"), QDir::homePath(),
+      QFileDialog::getOpenFileName(&window, tr("Import a recording"), m_application.bench().folder(),
                                    tr("Recordings (*.csv *.txt *.tsv *.dat *.lvm *.xlsx);;All files (*)"));
   if (!path.isEmpty()) openRecording(path);
 }

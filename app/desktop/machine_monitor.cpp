@@ -31,7 +31,8 @@ class Eye {
  public:
   explicit Eye(const controller::Profile& profile) : m_profile(profile) {}
 
-  Result<MachineLook> look(const controller::RegisterMap* watched) {
+  Result<MachineLook> look(const controller::RegisterMap* watched, double pace) {
+    if (std::exchange(m_pace, pace) != pace) m_first.reset();  // its clock gained at another rate until now
     if (!m_machine) {
       ZD_TRY(m_machine, controller::ModbusMachine::open(m_profile));
       m_machine->link().set_attempts(2);
@@ -44,7 +45,7 @@ class Eye {
     const auto after = steady_clock::now();
     seen.round_trip_ms = 1000.0 * seconds_between(before, after);
     if (!m_first) m_first = {after, seen.sample.machine_time_s};
-    const double host_s = seconds_between(m_first->host, after) * m_profile.time_factor;
+    const double host_s = seconds_between(m_first->host, after) * (pace > 0.0 ? pace : m_profile.time_factor);
     seen.clock_difference_s = (seen.sample.machine_time_s - m_first->machine_s) - host_s;
     if (auto mark = controller::read_active_mark(*m_machine)) seen.table = *mark;
     if (watched != nullptr) seen.registers = controller::read_all(m_machine->link(), *watched);
@@ -65,6 +66,7 @@ class Eye {
   std::unique_ptr<controller::ModbusMachine> m_machine;
   acquisition::MachineIdentity m_identity;
   std::optional<First> m_first;
+  double m_pace = 0.0;
 };
 
 }  // namespace
@@ -104,7 +106,7 @@ void MachineMonitor::work(const std::stop_token& stop, const controller::Profile
       continue;
     }
     const auto map = watched();
-    const auto seen = eye.look(map.get());
+    const auto seen = eye.look(map.get(), m_pace);
     if (!seen) eye.forget();
     QMetaObject::invokeMethod(
         this,

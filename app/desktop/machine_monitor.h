@@ -36,6 +36,8 @@ class MachineMonitor : public QObject {
   /// Returns at once: a look that waits for a dead machine ends beside the window, and nothing of it is told any more.
   void stop();
   void pause(bool paused) { m_paused = paused; }
+  /// The clock of the machine goes so fast while nobody works with it; nothing: as its profile says.
+  void setPace(std::optional<double> pace) { m_pace = pace.value_or(0.0); }
   /// Reads every register of this map with each look; null: none.
   void watch(std::shared_ptr<const controller::RegisterMap> map);
   bool running() const { return m_thread.joinable(); }
@@ -50,6 +52,7 @@ class MachineMonitor : public QObject {
   std::shared_ptr<const controller::RegisterMap> watched() const;
 
   std::atomic<bool> m_paused = false;
+  std::atomic<double> m_pace = 0.0;
   mutable std::mutex m_lock;
   std::shared_ptr<const controller::RegisterMap> m_watched;
   std::jthread m_thread;

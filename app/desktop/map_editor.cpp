@@ -249,7 +249,7 @@ Status MapEditor::save(const QString& path) {
 }
 
 void MapEditor::chooseImport() {
-  const QString path = QFileDialog::getOpenFileName(m_page, tr("Registers"), QDir::homePath(),
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Registers"), m_bench.folder(),
                                                     tr("Register lists and maps (*.csv *.txt *.json);;All files (*)"));
   if (path.isEmpty()) return;
   if (const Status taken = import(path); !taken) Q_EMIT refused(taken.error());
@@ -257,7 +257,7 @@ void MapEditor::chooseImport() {
 
 void MapEditor::chooseSave() {
   const QString path = QFileDialog::getSaveFileName(
-      m_page, tr("Save register map"), QDir::homePath() + QStringLiteral("/registers.json"), tr("Maps (*.json)"));
+      m_page, tr("Save register map"), m_bench.folder() + QStringLiteral("/registers.json"), tr("Maps (*.json)"));
   if (path.isEmpty()) return;
   if (const Status written = save(path); !written) Q_EMIT refused(written.error());
 }

@@ -54,6 +54,7 @@ QObject* Presenter::beginTask(const QString& name) {
           [this, name](double fraction, const QString&, double secondsLeft) {
             m_page->setProgress(name, fraction, secondsLeft < 0 ? std::nullopt : std::optional<double>(secondsLeft),
                                 cancellable());
+            if (const QString waits = waitsFor(); !waits.isEmpty()) m_page->setWaiting(waits);
           });
   m_page->setProgress(name, -1.0, std::nullopt, cancellable());
   return progress;

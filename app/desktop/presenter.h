@@ -83,6 +83,8 @@ class Presenter : public QObject {
   }
   /// Whether work of this page may be stopped by Cancel.
   virtual bool cancellable() const { return true; }
+  /// What the work stands still for, in a word or two; empty: it goes on.
+  virtual QString waitsFor() const { return {}; }
   /// Into the banner alone: where the log was told already.
   void showOnly(const Error& error);
   /// Why nothing can be asked of the machine now; empty: it is there.

@@ -124,6 +124,7 @@ void RunFeed::forget() {
   m_measuredAt_s = -1.0;
   m_largestAxis.clear();
   m_received = false;
+  m_silentSince = {};
   m_marks.clear();
   m_pauses.clear();
   m_pausing = false;
@@ -139,9 +140,16 @@ void RunFeed::begin() {
   m_timer.start();
 }
 
+void RunFeed::goOn(const recording::Recording& run, const std::vector<commissioning::Event>& events) {
+  begin();
+  showRecording(run, events);
+  m_view->setCameraShown(true);
+}
+
 void RunFeed::stop() {
   drain();
   m_timer.stop();
+  m_silentSince = {};
 }
 
 void RunFeed::noteRow(double time_s) {
@@ -391,7 +399,10 @@ void RunFeed::drain() {
   if (updates.empty()) return;
   m_received = true;
   const auto& problems = updates.back().problems;
-  m_bench.tellController(std::none_of(problems.begin(), problems.end(), is_silence));
+  const bool silent = std::any_of(problems.begin(), problems.end(), is_silence);
+  if (!silent) m_silentSince = {};
+  if (silent && !m_silentSince.isValid()) m_silentSince = QDateTime::currentDateTime();
+  m_bench.tellController(!silent);
   noteSensors(problems);
   appendRows(updates);
   for (const auto& update : updates) {
@@ -406,7 +417,10 @@ void RunFeed::drain() {
     m_measuredAt_s = update.time_s;
   }
   if (measured) showPicture();
+  // What is lost of a run that waits for its controller is known when it answers: until then the count stands.
+  const auto lost_before = m_now.lost_samples;
   m_now = std::move(updates.back());
+  if (silent) m_now.lost_samples = lost_before;
   showTrouble();
   Q_EMIT updated();
 }

@@ -2,6 +2,7 @@
 // From the recorder's thread to the page: updates are collected behind a lock and drained 15 times a second, one redraw
 // for all of them. Also the picture of the first camera with the drift trail.
 
+#include <QDateTime>
 #include <QObject>
 #include <QTimer>
 #include <functional>
@@ -32,6 +33,8 @@ class RunFeed : public QObject {
   void forget();
   /// Channels of the profile's machine, and an empty run.
   void begin();
+  /// The same, for a run that is gone on with: drawn from its beginning.
+  void goOn(const recording::Recording& run, const std::vector<commissioning::Event>& events);
   /// A compensated run: beside what is left, what is applied and what there would be without it.
   void setCompensated(bool compensated) { m_compensated = compensated; }
   /// The kept run that is shown comes from a file: it has other channels than the machine.
@@ -69,6 +72,8 @@ class RunFeed : public QObject {
   /// Longest machine time between two rows.
   double longestHole_s() const { return m_longestHole_s; }
   bool receiving() const { return m_received; }
+  /// Since when the controller of the running run has been silent; not valid: it answers.
+  const QDateTime& silentSince() const { return m_silentSince; }
 
  Q_SIGNALS:
   void updated();
@@ -114,6 +119,7 @@ class RunFeed : public QObject {
   QVector<double> m_pauses;
   bool m_pausing = false;
   bool m_received = false;
+  QDateTime m_silentSince;
   bool m_named = false;
   bool m_compensated = false;
   bool m_imported = false;

@@ -18,11 +18,17 @@ void RunFeed::showRecording(const recording::Recording& run, const std::vector<c
     if (recording::present_count(channel) > 0) m_importedNames.push_back(channel.name);
   }
   nameChannels();
+  m_view->setCameraShown(false);  // its pictures were not kept
   m_largest_um = 0.0;
   m_longestHole_s = 0.0;
   m_lastRow_s = -1.0;
   for (const double time_s : run.time_s) noteRow(time_s);
   showMarks(events);
+  m_speeds = {};
+  m_speeds.time_s = run.time_s;
+  for (const char* name : {"spindle_rpm", "coolant_on"}) {
+    if (const auto* input = run.find(name)) m_speeds.ensure(name).values = input->values;
+  }
   for (const auto& channel : run.channels) {
     QVector<double> times;
     QVector<double> values;

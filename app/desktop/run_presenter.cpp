@@ -12,7 +12,44 @@
 namespace zerodrift::desktop {
 
 RunPresenter::RunPresenter(Workbench& bench, ui::Page* page, ui::RunView* view)
-    : Presenter(bench, page), m_feed(new RunFeed(bench, view, this)) {}
+    : Presenter(bench, page), m_feed(new RunFeed(bench, view, this)) {
+  connect(m_feed, &RunFeed::updated, this, [this] {
+    if (const QString waits = waitsFor(); !waits.isEmpty()) this->page()->setWaiting(waits);
+  });
+}
+
+const std::optional<flow::RecordedRun>& RunPresenter::interrupted() {
+  if (m_interrupted || bench().job() == nullptr || m_running) return m_interrupted;
+  m_interrupted = readInterrupted().value_or(std::nullopt);
+  return m_interrupted;
+}
+
+void RunPresenter::showInterrupted() {
+  if (!m_interrupted || !showSeries(m_interrupted->series)) return;
+  m_feed->showHappened(m_interrupted->happened, m_interrupted->summary.measurements, m_interrupted->summary.refused);
+}
+
+void RunPresenter::resumeToFinish() {
+  connect(
+      m_feed, &RunFeed::updated, this, [this] { m_feed->finish(); }, Qt::SingleShotConnection);
+  start({});
+}
+
+void RunPresenter::dropInterrupted() {
+  if (!m_interrupted || m_running || bench().job() == nullptr) return;
+  const Status closed = bench().job()->finish_series(m_interrupted->series, commissioning::SeriesState::aborted);
+  if (!closed) return show(closed.error());
+  forgetRun();
+  refresh();
+}
+
+QString RunPresenter::silentSince() const {
+  return m_running ? m_feed->silentSince().toString(QStringLiteral("HH:mm:ss")) : QString();
+}
+
+QString RunPresenter::waitsFor() const {
+  return m_running && m_feed->silentSince().isValid() ? tr("Controller lost") : QString();
+}
 
 void RunPresenter::record(const QString& name, const acquisition::Plan& plan, Step step,
                           std::function<void(bool good)> done) {
@@ -28,11 +65,17 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
     if (done) done(false);
     return;
   }
-  m_running = true;
-  m_feed->begin();
   flow::RunOptions options;
   options.plan = plan;
   options.anew = std::exchange(m_again, false);
+  const auto begun = options.anew ? std::nullopt : interrupted();
+  m_running = true;
+  const auto stored = begun ? bench().job()->read_series(begun->series) : Result<recording::Recording>{};
+  if (begun && stored) {
+    m_feed->goOn(*stored, bench().job()->events(begun->series).value_or(std::vector<commissioning::Event>{}));
+  } else {
+    m_feed->begin();
+  }
   options.observer = m_feed->observer();
   options.control = m_feed->control();
   options.cameras = m_feed->cameras();
@@ -48,6 +91,7 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
         m_feed->stop();
         m_running = false;
         m_shown = 0;
+        m_interrupted.reset();
         refresh();
         if (done) done(good);
       });
@@ -131,6 +175,7 @@ void RunPresenter::forget() {
 
 void RunPresenter::forgetRun() {
   m_feed->forget();
+  m_interrupted.reset();
   m_shown = 0;
 }
 

@@ -19,8 +19,22 @@ class RunPresenter : public Presenter {
   void forget() override;
 
   bool running() const { return m_running; }
+  /// The run of this page that was broken off and can be gone on with, unless a newer one is kept.
+  const std::optional<flow::RecordedRun>& interrupted();
 
  protected:
+  /// From the job.
+  virtual Result<std::optional<flow::RecordedRun>> readInterrupted() const = 0;
+  /// Starts this page's run; one that was broken off is gone on with.
+  virtual void start(std::function<void(bool good)> done) = 0;
+  /// Draws the interrupted run.
+  void showInterrupted();
+  /// Takes the interrupted run up and ends it as it should: spindle off, series closed, what there is kept.
+  void resumeToFinish();
+  /// The interrupted run is used no more: the run that was kept before counts.
+  void dropInterrupted();
+  /// Since when the controller has been silent in the run; "" while it answers.
+  QString silentSince() const;
   using Step = std::function<Result<commissioning::NewArtefact>(commissioning::Job&, flow::Devices&,
                                                                 const flow::RunOptions&, const TaskContext&)>;
 
@@ -40,6 +54,7 @@ class RunPresenter : public Presenter {
   void forgetRun();
   /// Pause, finish and abort end a run as it should; stopping the work as such has no place beside them.
   bool cancellable() const override { return false; }
+  QString waitsFor() const override;
   /// How far the run goes, in machine time and, when that differs, in time on the wall.
   QString wallTime(double machine_s) const;
 
@@ -48,7 +63,8 @@ class RunPresenter : public Presenter {
  private:
   RunFeed* m_feed;
   bool m_running = false;
-  long long m_shown = 0;  // series drawn now
+  std::optional<flow::RecordedRun> m_interrupted;  // as it was read last
+  long long m_shown = 0;                           // series drawn now
 };
 
 }  // namespace zerodrift::desktop

@@ -20,6 +20,11 @@ struct TableExport {
   Q_DECLARE_TR_FUNCTIONS(TableExport)
 };
 
+/// As in a list of file kinds.
+QString filter_of(const ExportFormat& format) {
+  return name_of_format(format) + QStringLiteral(" (*)");
+}
+
 QString id_of(const ExportFormat& format) {
   return QString::fromUtf8(format.id.data(), static_cast<int>(format.id.size()));
 }
@@ -40,6 +45,15 @@ Status write_one(const ExportFormat& format, const compensation::Table& table, c
 }
 
 }  // namespace
+
+QString name_of_format(const ExportFormat& format) {
+  if (format.id == "linuxcnc") return TableExport::tr("LinuxCNC: screw compensation of one joint");
+  if (format.id == "sinumerik-thermal") return TableExport::tr("SINUMERIK: temperature compensation");
+  if (format.id == "sinumerik-leadscrew") return TableExport::tr("SINUMERIK: leadscrew error compensation");
+  if (format.id == "fanuc") return TableExport::tr("FANUC: pitch error compensation");
+  if (format.id == "heidenhain") return TableExport::tr("HEIDENHAIN: axis error compensation");
+  return id_of(format);
+}
 
 Result<WrittenExport> write_export(const ExportFormat& format, const compensation::Table& table, const QString& path,
                                    bool one_point) {
@@ -72,18 +86,18 @@ bool export_with_question(QWidget* parent, Workbench& bench, const compensation:
   const QString own = TableExport::tr("Zerodrift table (*.json)");
   QStringList filters = {own};
   if (format == nullptr) {
-    for (const auto& one : controller::export_formats()) filters << id_of(one) + QStringLiteral(" (*)");
+    for (const auto& one : controller::export_formats()) filters << filter_of(one);
   } else {
-    filters = {id_of(*format) + QStringLiteral(" (*)")};
+    filters = {filter_of(*format)};
   }
   QString chosen;
   const QString name = format == nullptr ? QStringLiteral("/table.json") : QLatin1Char('/') + id_of(*format);
-  const QString path = QFileDialog::getSaveFileName(parent, TableExport::tr("Export"), QDir::homePath() + name,
+  const QString path = QFileDialog::getSaveFileName(parent, TableExport::tr("Export"), bench.folder() + name,
                                                     filters.join(QStringLiteral(";;")), &chosen);
   if (path.isEmpty()) return false;
   if (format == nullptr && chosen != own) {
     for (const auto& one : controller::export_formats()) {
-      if (chosen.startsWith(id_of(one) + QLatin1Char(' '))) format = &one;
+      if (chosen == filter_of(one)) format = &one;
     }
   }
   if (format == nullptr) {

@@ -8,6 +8,9 @@
 
 namespace zerodrift::desktop {
 
+/// As people call it: "FANUC: pitch error compensation".
+QString name_of_format(const controller::ExportFormat& format);
+
 struct WrittenExport {
   QStringList files{};
   QStringList losses{};

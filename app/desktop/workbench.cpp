@@ -1,5 +1,7 @@
 #include "app/desktop/workbench.h"
 
+#include <QDir>
+#include <QFileInfo>
 #include <QRegularExpression>
 #include <algorithm>
 
@@ -27,6 +29,7 @@ Workbench::Workbench(QObject* parent)
     m_lastProblem.reset();
     m_attempts = 0;
     Q_EMIT machineSeen();
+    noteMachineState();
     if (heldTable() != held) Q_EMIT heldTableChanged();
   });
   connect(&m_monitor, &MachineMonitor::failed, this, [this](const Error& error) {
@@ -40,6 +43,7 @@ Workbench::Workbench(QObject* parent)
     m_lastProblem = error.code;
     ++m_attempts;
     Q_EMIT machineLost(error);
+    noteMachineState();
   });
   connect(&m_tasks, &TaskRunner::started, this, [this](const QString& name) {
     m_monitor.pause(true);
@@ -167,6 +171,11 @@ Status Workbench::closeJob() {
   return {};
 }
 
+QString Workbench::folder() const {
+  if (!m_job) return QDir::homePath();
+  return QFileInfo(QString::fromStdString(m_job->path().string())).absolutePath();
+}
+
 commissioning::JobKind Workbench::kind() const {
   if (!m_job) return commissioning::JobKind::machine;
   return commissioning::kind_of(*m_job).value_or(commissioning::JobKind::machine);
@@ -242,6 +251,7 @@ Status Workbench::loadProfile(const std::filesystem::path& path) {
   m_look.reset();
   m_lost = false;
   Q_EMIT profileChanged();
+  noteMachineState();
   return {};
 }
 
@@ -277,6 +287,7 @@ Status Workbench::disconnectMachine() {
   m_lastProblem.reset();
   m_attempts = 0;
   Q_EMIT profileChanged();
+  noteMachineState();
   return {};
 }
 
@@ -363,6 +374,12 @@ void Workbench::tellController(bool answers, std::optional<bool> switch_on) {
     }
   }
   Q_EMIT controllerTold();
+  noteMachineState();
+}
+
+void Workbench::noteMachineState() {
+  const auto before = std::exchange(m_machineState, std::tuple(connected(), lost(), compensationOn()));
+  if (m_machineState != before) Q_EMIT machineStateChanged();
 }
 
 void Workbench::log(LogKind kind, const QString& text) {

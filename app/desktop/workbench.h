@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "app/desktop/machine_monitor.h"
@@ -62,6 +63,8 @@ class Workbench : public QObject {
   /// Null: none is open. Work beside the window takes the pointer with it, never the address.
   const std::shared_ptr<commissioning::Job>& job() { return m_job; }
   std::shared_ptr<const commissioning::Job> job() const { return m_job; }
+  /// Where a file is looked for and saved first: beside the job, else at home.
+  QString folder() const;
   /// Does a step that is quick and does not come from what the job holds (Flow::take_in), and tells everybody.
   Result<commissioning::Artefact> takeIn(const std::string& step, const flow::StepRun& run);
   /// Tells everybody what a step has made.
@@ -82,6 +85,8 @@ class Workbench : public QObject {
   Status setRegisterMap(const std::filesystem::path& path);
   /// Every register of this map is read with each look at the machine; null: none.
   void watchRegisters(std::shared_ptr<const controller::RegisterMap> map) { m_monitor.watch(std::move(map)); }
+  /// Between two pieces of work the machine's clock goes so fast; nothing: as its profile says.
+  void setPaceAtRest(std::optional<double> pace) { m_monitor.setPace(pace); }
   void connectMachine();
   /// machine_busy while work runs: it may use the machine.
   Status disconnectMachine();
@@ -134,12 +139,15 @@ class Workbench : public QObject {
   void disconnectedFor(unsigned connected_serial, unsigned job_serial);
   /// A step has told how it stands with the controller.
   void controllerTold();
+  /// The machine came, went, or its compensation was switched: what may be done with it is another thing now.
+  void machineStateChanged();
   void logged(const QDateTime& time, zerodrift::desktop::LogKind kind, const QString& text);
 
  private:
   report::Labels labels() const;
   /// Cameras that are not needed any more; they may be waiting for a picture.
   void dropCameras();
+  void noteMachineState();
   void leaveJob();
   void useJob(commissioning::Job job);
   /// Beside the window and by a connection of its own: the whole file is read.
@@ -168,6 +176,7 @@ class Workbench : public QObject {
   bool m_reached = false;  // a person has asked for this machine: until then nothing goes out to it or its cameras
   bool m_lost = false;
   QDateTime m_seenAt;
+  std::tuple<bool, bool, bool> m_machineState{};  // connected, lost, compensation on
   std::optional<ErrorCode> m_lastProblem;
   int m_attempts = 0;                  // that failed for the same reason
   std::vector<std::jthread> m_checks;  // waited for when the window is closed

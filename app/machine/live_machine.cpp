@@ -14,7 +14,7 @@ LiveMachine::LiveMachine(const MachineParameters& parameters, int speedup,
                          std::function<void(const Machine&)> on_moment, RegisterScope scope)
     : m_machine(parameters),
       m_bank(m_machine, first_serial + static_cast<std::uint32_t>(parameters.seed), speedup, scope),
-      m_speedup(speedup),
+      m_pace(speedup),
       m_on_moment(std::move(on_moment)) {}
 
 void LiveMachine::start() {
@@ -22,6 +22,16 @@ void LiveMachine::start() {
   m_begin = std::chrono::steady_clock::now();
   m_running = true;
   m_thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void LiveMachine::set_pace(int pace) {
+  const std::scoped_lock lock(m_mutex);
+  catch_up();
+  const auto now = std::chrono::steady_clock::now();
+  if (m_running) m_paced_from_s += std::chrono::duration<double>(now - m_begin).count() * m_pace;
+  m_begin = now;
+  m_pace = pace;
+  m_bank.set_time_factor(pace);
 }
 
 void LiveMachine::stop() {
@@ -32,7 +42,7 @@ void LiveMachine::stop() {
 void LiveMachine::catch_up() {
   if (!m_running) return;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - m_begin;
-  m_machine.advance_to(wall.count() * m_speedup);
+  m_machine.advance_to(m_paced_from_s + wall.count() * m_pace);
   if (m_on_moment) m_on_moment(m_machine);
 }
 

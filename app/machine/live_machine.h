@@ -30,6 +30,8 @@ class LiveMachine {
   }
   std::optional<double> first_turn_s();
   void set_sensor_fault(SensorFault fault);
+  /// The pace of the clock from now on, machine seconds a second of wall time.
+  void set_pace(int pace);
   /// Starts the clock.
   void start();
   /// Stops it; the last on_moment has been called when this returns.
@@ -42,7 +44,8 @@ class LiveMachine {
   std::mutex m_mutex;
   Machine m_machine;
   RegisterBank m_bank;
-  double m_speedup;
+  double m_pace;
+  double m_paced_from_s = 0.0;  // machine time at m_begin
   std::function<void(const Machine&)> m_on_moment;
   std::chrono::steady_clock::time_point m_begin{};
   bool m_running = false;

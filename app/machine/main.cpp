@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <pthread.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -15,6 +16,7 @@
 #include "app/machine/description.h"
 #include "app/machine/faults.h"
 #include "app/machine/live_machine.h"
+#include "app/machine/pace_input.h"
 #include "app/machine/rig/rig_parts.h"
 #include "app/machine/truth_log.h"
 #include "app/text/error_text.h"
@@ -26,6 +28,7 @@ namespace {
 
 struct Options {
   int speedup = 1;
+  bool paced = false;
   std::uint64_t seed = 1;
   std::string host = "127.0.0.1";
   int port = 1502;
@@ -74,6 +77,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--speedup", options.speedup, "machine seconds in one second of wall time")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_flag("--paced", options.paced,
+               "take the pace of the clock from standard input, a whole number up to --speedup a line");
   app.add_option("--seed", options.seed, "which machine of the series, and its noise")->capture_default_str();
   app.add_option("--host", options.host, "address of the Modbus server")->capture_default_str();
   app.add_option("--port", options.port, "Modbus TCP port; 0 takes a free one")
@@ -111,11 +116,14 @@ sigset_t end_signals() {
   return endings;
 }
 
-/// Until a signal comes; meanwhile the camera's fault is set for the machine time that is near.
-void wait_for_end(const sigset_t& endings, const std::vector<Fault>& faults, LiveMachine& machine,
-                  CameraServer& cameras) {
-  const timespec turn{0, 50'000'000};
-  while (sigtimedwait(&endings, nullptr, &turn) < 0) {
+/// Until a signal comes; meanwhile the clock goes at the pace that is named, and the camera's fault is set for the
+/// machine time that is near.
+void wait_for_end(const sigset_t& endings, const Options& options, const std::vector<Fault>& faults,
+                  LiveMachine& machine, CameraServer& cameras) {
+  PaceInput input(options.paced ? STDIN_FILENO : -1);
+  const timespec at_once{};
+  while (sigtimedwait(&endings, nullptr, &at_once) < 0) {
+    if (const auto pace = input.wait(std::chrono::milliseconds(50), options.speedup)) machine.set_pace(*pace);
     const CameraFault fault = camera_fault(faults, machine.scene(View::front).machine_time_s, machine.first_turn_s());
     if (fault.kind != CameraFault::Kind::none) cameras.set_fault(fault);
   }
@@ -191,7 +199,7 @@ Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t
   machine.start();
   fmt::print("{}\n", ready_line(endpoints));
   std::fflush(stdout);
-  wait_for_end(endings, faults, machine, cameras);
+  wait_for_end(endings, options, faults, machine, cameras);
   rig.reset();
   control.reset();
   cameras.stop();

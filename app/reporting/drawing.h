@@ -11,6 +11,8 @@
 #include "core/base/result.h"
 #include "core/report/report.h"
 
+class QPagedPaintDevice;
+
 namespace zerodrift::reporting {
 
 class Drawing {
@@ -23,6 +25,8 @@ class Drawing {
 
 std::unique_ptr<Drawing> pdf_drawing(report::Report report, const std::filesystem::path& path);
 std::unique_ptr<Drawing> html_drawing(report::Report report, const std::filesystem::path& path);
+/// On the paper of a printer, or of another device with pages of A4 without margins.
+std::unique_ptr<Drawing> print_drawing(report::Report report, std::unique_ptr<QPagedPaintDevice> device);
 /// By the file's extension: .pdf, .html or .csv; another is wrong_format. The file is there, whole, with the last bit.
 Result<std::unique_ptr<Drawing>> drawing_of(report::Report report, const std::filesystem::path& path);
 

@@ -26,6 +26,7 @@ th,td{border-bottom:1px solid #d9dfe5;padding:3px 8px;text-align:left;overflow-w
 td.bad{border-left:0;color:#b3263f;font-weight:600}
 .warning{border-left:4px solid #c77700;padding:4px 12px;background:#fff8ec}
 .warning.worst{border-left-color:#c4314b;background:#fdf0f2}
+.company{float:right;text-align:right;color:#5f6e7c;font-size:12px}.company img{max-width:200px;max-height:60px}
 .half{display:inline-block;width:49%;vertical-align:top}
 :target{background:#e3eefb}
 nav{margin:16px 0}nav a{margin-right:14px}footer{color:#5f6e7c;font-size:11px;margin-top:32px}
@@ -160,9 +161,16 @@ class HtmlText {
 
  private:
   void head() {
+    std::string company;
+    if (!m_report.logo_png.empty()) {
+      const auto png = QByteArray::fromStdString(m_report.logo_png).toBase64().toStdString();
+      company += "<img alt=\"logo\" src=\"data:image/png;base64," + png + "\"><br>";
+    }
+    for (const auto& line : m_report.company) company += escaped(line) + "<br>";
+    if (!company.empty()) company = "<div class=\"company\">" + company + "</div>\n";
     m_text = "<!DOCTYPE html>\n<html lang=\"" + escaped(m_report.language) +
              "\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>" +
-             escaped(m_report.title) + "</title><style>" + style + "</style></head><body><main>\n<h1>" +
+             escaped(m_report.title) + "</title><style>" + style + "</style></head><body><main>\n" + company + "<h1>" +
              escaped(m_report.title) + "</h1>\n<div class=\"head\">";
     for (const auto& [name, value] : m_report.header) {
       m_text += "<span>" + escaped(name) + "</span><span>" + escaped(value) + "</span>\n";

@@ -13,6 +13,7 @@ namespace {
 constexpr double margin = 68.0;
 constexpr double foot_height = 28.0;
 constexpr double gap = 12.0;
+constexpr double company_width = 200.0;
 constexpr double card_padding = 14.0;  // left and right of a figure's text
 constexpr double cell_gap = 14.0;      // between the columns of a table
 constexpr double plot_height = 232.0;
@@ -244,15 +245,40 @@ void Paper::signature() {
 }
 
 void Paper::title() {
-  draw_text(QRectF(margin, m_y, m_width, 34), paper_text(m_report.title), paper_font(24, QFont::DemiBold));
-  m_y += 40;
+  const double company_end = company();
+  const double width = company_end > m_y ? m_width - company_width - gap : m_width;
+  const double height = std::max(34.0, text_height(paper_text(m_report.title), paper_font(24, QFont::DemiBold), width));
+  draw_text(QRectF(margin, m_y, width, height), paper_text(m_report.title), paper_font(24, QFont::DemiBold));
+  m_y += height + 6;
   for (const auto& [name, value] : m_report.header) {
-    const double height = std::max(18.0, text_height(paper_text(value), paper_font(12), m_width - 140));
+    const double line = std::max(18.0, text_height(paper_text(value), paper_font(12), width - 140));
     draw_text(QRectF(margin, m_y, 136, 18), paper_text(name), paper_font(12), muted_ink);
-    draw_text(QRectF(margin + 140, m_y, m_width - 140, height), paper_text(value), paper_font(12));
-    m_y += height;
+    draw_text(QRectF(margin + 140, m_y, width - 140, line), paper_text(value), paper_font(12));
+    m_y += line;
   }
-  m_y += gap;
+  m_y = std::max(m_y, company_end) + gap;
+}
+
+/// Logo and address of who made the report, at the right of the title; where they end.
+double Paper::company() {
+  constexpr double logo_height = 48;
+  const double left = margin + m_width - company_width;
+  double y = m_y;
+  QImage logo;
+  if (!m_report.logo_png.empty() && logo.loadFromData(reinterpret_cast<const uchar*>(m_report.logo_png.data()),
+                                                      static_cast<int>(m_report.logo_png.size()), "PNG")) {
+    const QSizeF size = QSizeF(logo.size()).scaled(company_width, logo_height, Qt::KeepAspectRatio);
+    if (m_painter != nullptr) {
+      m_painter->drawImage(QRectF(margin + m_width - size.width(), y, size.width(), size.height()), logo);
+    }
+    y += size.height() + 6;
+  }
+  for (const auto& line : m_report.company) {
+    const double height = text_height(paper_text(line), paper_font(11), company_width);
+    draw_text(QRectF(left, y, company_width, height), paper_text(line), paper_font(11), muted_ink, Qt::AlignRight);
+    y += height;
+  }
+  return y;
 }
 
 void Paper::contents(const std::vector<PaperOutline>& outline) {

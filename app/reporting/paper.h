@@ -58,6 +58,7 @@ class Paper {
 
  private:
   void title();
+  double company();
   void contents(const std::vector<PaperOutline>& outline);
   void plan_blocks(const report::Section& section);
   void draw_plot(const QRectF& place, const report::Plot& plot);

@@ -121,6 +121,45 @@ std::unique_ptr<Drawing> pdf_drawing(report::Report report, const std::filesyste
   return std::make_unique<PdfDrawing>(std::move(report), path);
 }
 
+namespace {
+
+class PrintDrawing : public Drawing {
+ public:
+  PrintDrawing(report::Report report, std::unique_ptr<QPagedPaintDevice> device)
+      : m_report(std::move(report)), m_pages(m_report), m_device(std::move(device)) {}
+
+  Result<bool> step() override {
+    if (m_paper == nullptr) {
+      if (!m_pages.find_places()) open();
+      return true;
+    }
+    if (m_paper->step()) return true;
+    m_painter.reset();
+    m_device.reset();
+    return false;
+  }
+
+ private:
+  void open() {
+    m_painter = ui::makeVectorPainter(m_device.get());
+    const double scale = m_device->logicalDpiX() / 96.0;
+    m_painter->scale(scale, scale);
+    m_paper = &m_pages.begin(a4(), m_painter.get(), [this] { m_device->newPage(); });
+  }
+
+  report::Report m_report;
+  Pages m_pages;
+  Paper* m_paper = nullptr;
+  std::unique_ptr<QPagedPaintDevice> m_device;
+  ui::VectorPainter m_painter;  // ends before its device
+};
+
+}  // namespace
+
+std::unique_ptr<Drawing> print_drawing(report::Report report, std::unique_ptr<QPagedPaintDevice> device) {
+  return std::make_unique<PrintDrawing>(std::move(report), std::move(device));
+}
+
 struct PagePictures::Inside {
   report::Report report;
   double scale;

@@ -228,7 +228,8 @@ void Run::publish(RunPhase phase, const std::vector<double>* row, const ErrorSam
   update.phase = phase;
   update.time_s = m_time_s;
   if (!m_start.plan.steps.empty() && m_has_reading) {
-    const double plan_s = plan_time_s(time_now_s());
+    // Without the controller nobody knows whether the plan goes on: its clock stands where it was last seen.
+    const double plan_s = plan_time_s(phase == RunPhase::link_lost ? m_time_s : time_now_s());
     const double total_s = m_start.plan.duration_s();
     update.plan_step = m_start.plan.index_at(plan_s);
     update.fraction = std::clamp(plan_s / total_s, 0.0, 1.0);

@@ -143,12 +143,14 @@ struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> header;  // machine, serial, customer, engineer, date
   std::vector<Section> sections;
-  std::string signature_png{};  // drawn by the engineer; empty: not signed
-  std::string provenance{};     // one line for every page's foot: job hash, program version
-  std::string language = "en";  // BCP 47
-  std::string made_utc{};       // ISO 8601, of the last result: the same job gives the same file
-  std::string contents{};       // heading of the list of contents; empty: no such list
-  std::string origins{};        // heading of the list of traces
+  std::vector<std::string> company{};  // that made it, at the head: name and address, a line each
+  std::string logo_png{};              // of the company; empty: none
+  std::string signature_png{};         // drawn by the engineer; empty: not signed
+  std::string provenance{};            // one line for every page's foot: job hash, program version
+  std::string language = "en";         // BCP 47
+  std::string made_utc{};              // ISO 8601, of the last result: the same job gives the same file
+  std::string contents{};              // heading of the list of contents; empty: no such list
+  std::string origins{};               // heading of the list of traces
 };
 
 /// Words in the reader's language: given the English text, returns the translation.

@@ -29,12 +29,36 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::desktop::SensorsPresenter</name>
+    <message numerus="yes">
+        <source>%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.</source>
+        <translation>
+            <numerusform>%n proposed: one speed does not tell which matter at another. A run at a second speed does.</numerusform>
+            <numerusform>%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n proposed: with %1 the error to expect would be only %2 µm less.</source>
+        <translation>
+            <numerusform>%n proposed: with %1 the error to expect would be only %2 µm less.</numerusform>
+            <numerusform>%n proposed: with %1 the error to expect would be only %2 µm less.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::desktop::UploadPresenter</name>
     <message numerus="yes">
         <source>%n register(s)</source>
         <translation>
             <numerusform>%n register</numerusform>
             <numerusform>%n registers</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n warning(s), in the details. The first: %1</source>
+        <translation>
+            <numerusform>%n warning, in the details: %1</numerusform>
+            <numerusform>%n warnings, in the details. The first: %1</numerusform>
         </translation>
     </message>
 </context>

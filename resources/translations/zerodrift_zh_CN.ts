@@ -474,6 +474,26 @@
         <source>Confirm on one point first: %1</source>
         <translation>请先用一个点确认：%1</translation>
     </message>
+    <message>
+        <source>LinuxCNC: screw compensation of one joint</source>
+        <translation>LinuxCNC：单关节丝杠补偿</translation>
+    </message>
+    <message>
+        <source>SINUMERIK: temperature compensation</source>
+        <translation>SINUMERIK：温度补偿</translation>
+    </message>
+    <message>
+        <source>SINUMERIK: leadscrew error compensation</source>
+        <translation>SINUMERIK：丝杠误差补偿</translation>
+    </message>
+    <message>
+        <source>FANUC: pitch error compensation</source>
+        <translation>FANUC：螺距误差补偿</translation>
+    </message>
+    <message>
+        <source>HEIDENHAIN: axis error compensation</source>
+        <translation>HEIDENHAIN：轴误差补偿</translation>
+    </message>
 </context>
 <context>
     <name>Typical</name>
@@ -6980,8 +7000,9 @@
         <translation>完成</translation>
     </message>
     <message>
-        <source>Out of date: %1 changed</source>
-        <translation>已过期：%1已更改</translation>
+        <source>Out of date: %1</source>
+        <comment>which step changed</comment>
+        <translation>已过期：%1</translation>
     </message>
     <message>
         <source>No job</source>
@@ -7136,10 +7157,6 @@
         <translation>主轴、轨迹和冷却液停止。已记录的数据会保留，运行可以继续。</translation>
     </message>
     <message>
-        <source>The spindle, the path and the coolant stop; the compensation stays as it is switched. This run is not used: a verification is started anew.</source>
-        <translation>主轴、轨迹和冷却液停止；补偿保持当前开关状态。本次运行不予采用：验证须重新开始。</translation>
-    </message>
-    <message>
         <source>The offset runs to 0 and the compensation is switched as it was before.</source>
         <translation>偏置归零，补偿恢复为原来的开关状态。</translation>
     </message>
@@ -7194,6 +7211,22 @@
     <message>
         <source>The recording holds no error, so there is nothing to compensate.</source>
         <translation>记录中没有误差，因此没有可补偿的内容。</translation>
+    </message>
+    <message>
+        <source>%1 waits</source>
+        <translation>%1：等待中</translation>
+    </message>
+    <message>
+        <source>The verification run of this job was interrupted after %1.</source>
+        <translation>此作业的验证运行在 %1 后中断。</translation>
+    </message>
+    <message>
+        <source>On the Verify page it goes on, or is finished with what was recorded.</source>
+        <translation>可在“验证”页继续，或以已记录的数据结束。</translation>
+    </message>
+    <message>
+        <source>The spindle, the path and the coolant stop; the compensation stays as it is switched. What was recorded is kept and the run can be resumed.</source>
+        <translation>主轴、轨迹运动和冷却液停止；补偿开关保持现状。已记录的数据会保留，运行可继续。</translation>
     </message>
 </context>
 <context>
@@ -7635,6 +7668,22 @@
         <source>OFF</source>
         <translation>断开</translation>
     </message>
+    <message>
+        <source>Leave this job?</source>
+        <translation>离开此作业？</translation>
+    </message>
+    <message>
+        <source>End it and leave</source>
+        <translation>结束并离开</translation>
+    </message>
+    <message>
+        <source>Disconnect from the machine?</source>
+        <translation>断开与机床的连接？</translation>
+    </message>
+    <message>
+        <source>End it and disconnect</source>
+        <translation>结束并断开</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::MapEditor</name>
@@ -7861,18 +7910,6 @@
 <context>
     <name>zerodrift::desktop::ReportPresenter</name>
     <message>
-        <source>Report (*.pdf)</source>
-        <translation>报告 (*.pdf)</translation>
-    </message>
-    <message>
-        <source>Report (*.html)</source>
-        <translation>报告 (*.html)</translation>
-    </message>
-    <message>
-        <source>Figures (*.csv)</source>
-        <translation>数据 (*.csv)</translation>
-    </message>
-    <message>
         <source>Save report</source>
         <translation>保存报告</translation>
     </message>
@@ -7899,6 +7936,38 @@
     <message>
         <source>The report is written from what was measured. Record a warm-up run first.</source>
         <translation>报告由测量结果生成。请先记录一次暖机运行。</translation>
+    </message>
+    <message>
+        <source>Report to print and sign (*.pdf)</source>
+        <translation>用于打印和签字的报告 (*.pdf)</translation>
+    </message>
+    <message>
+        <source>Web page with links to the data (*.html)</source>
+        <translation>带数据链接的网页 (*.html)</translation>
+    </message>
+    <message>
+        <source>Figures for a spreadsheet (*.csv)</source>
+        <translation>用于电子表格的数据 (*.csv)</translation>
+    </message>
+    <message>
+        <source>No program opens %1.</source>
+        <translation>没有程序可打开 %1。</translation>
+    </message>
+    <message>
+        <source>Open it with a program of your own.</source>
+        <translation>请自行选择程序打开。</translation>
+    </message>
+    <message>
+        <source>Printing the report</source>
+        <translation>正在打印报告</translation>
+    </message>
+    <message>
+        <source>Report printed</source>
+        <translation>报告已打印</translation>
+    </message>
+    <message>
+        <source>Head of the report</source>
+        <translation>报告抬头</translation>
     </message>
 </context>
 <context>
@@ -8026,6 +8095,10 @@
         <source>The run ends here and what was recorded is kept and used. The controller does not answer, so nothing is stopped from here: look whether the spindle stands.</source>
         <translation>运行到此结束，已记录的数据会保存并使用。控制器没有应答，因此无法从此处停止机床：请查看主轴是否已停。</translation>
     </message>
+    <message>
+        <source>Controller lost</source>
+        <translation>控制器失去连接</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::SensorsPresenter</name>
@@ -8036,6 +8109,18 @@
     <message>
         <source>Record a warm-up run first: the sensors are chosen from it.</source>
         <translation>请先记录一次暖机运行：传感器由此选出。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.</source>
+        <translation>
+            <numerusform>建议 %n 个：单一转速无法判断其他转速下哪些传感器重要；第二个转速的运行可以判断。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n proposed: with %1 the error to expect would be only %2 µm less.</source>
+        <translation>
+            <numerusform>建议 %n 个：再加上 %1，预期误差仅减小 %2 µm。</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -8118,18 +8203,6 @@
         <translation>%1（序列号 %2）</translation>
     </message>
     <message>
-        <source>The sign was checked at %1.</source>
-        <translation>符号已于 %1 检查。</translation>
-    </message>
-    <message>
-        <source>Before that each axis is moved by 10 µm and back, watched by the camera.</source>
-        <translation>在此之前，每轴移动 10 µm 再返回，由相机观测。</translation>
-    </message>
-    <message>
-        <source>Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation is off while it is written and on afterwards. %6</source>
-        <translation>轴 %1。此刻的最大变化为 %2 µm（%3 轴）。版本 %4 取代版本 %5。写入期间补偿断开，之后接通。%6</translation>
-    </message>
-    <message>
         <source>Write</source>
         <translation>写入</translation>
     </message>
@@ -8182,20 +8255,12 @@
         <translation>版本 %1 的补偿表将作为版本 %2 重新写入，取代版本 %3。%4 开关保持原状；历史中不会删除任何内容。</translation>
     </message>
     <message>
-        <source>The model is out of date: %1 changed after it was fitted. </source>
-        <translation>模型已过期：拟合之后“%1”有更改。</translation>
-    </message>
-    <message>
         <source>The machine holds no table: what this job wrote is not in it any more.</source>
         <translation>机床中没有补偿表：此作业写入的内容已不在其中。</translation>
     </message>
     <message>
         <source>Write puts the last one back, with its corrections; the history has them all.</source>
         <translation>“写入”将恢复最后一个补偿表（含修正）；历史记录中有全部版本。</translation>
-    </message>
-    <message>
-        <source>The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm. </source>
-        <translation>模型在未参与拟合的数据段上残余最多 %1 µm，超过限值 %2 µm。</translation>
     </message>
     <message>
         <source>%1.</source>
@@ -8205,6 +8270,52 @@
     <message>
         <source>The machine is outside the range the model was made in: %1</source>
         <translation>机床超出建立模型时的范围：%1</translation>
+    </message>
+    <message>
+        <source>The model is out of date: %1 changed after it was fitted.</source>
+        <translation>模型已过期：拟合之后“%1”已改变。</translation>
+    </message>
+    <message>
+        <source>The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm.</source>
+        <translation>拟合在未见区段上的残差最大为 %1 µm，超过限值 %2 µm。</translation>
+    </message>
+    <message>
+        <source>Sign: as checked for the version before.</source>
+        <translation>符号：沿用前一版本的检查结果。</translation>
+    </message>
+    <message>
+        <source>Sign: checked at %1.</source>
+        <translation>符号：已于 %1 检查。</translation>
+    </message>
+    <message>
+        <source>Sign: each axis is first moved by 10 µm and back, watched by the camera.</source>
+        <translation>符号：先将各轴移动 10 µm 再移回，由相机观察。</translation>
+    </message>
+    <message>
+        <source>Largest change now: %1 µm in %2.</source>
+        <translation>目前最大改变：%2 方向 %1 µm。</translation>
+    </message>
+    <message>
+        <source>Version %1; the machine holds no table now.</source>
+        <translation>版本 %1；机床中目前没有补偿表。</translation>
+    </message>
+    <message>
+        <source>Version %1 takes the place of version %2.</source>
+        <translation>版本 %1 取代版本 %2。</translation>
+    </message>
+    <message>
+        <source>Axes: %1.</source>
+        <translation>轴：%1。</translation>
+    </message>
+    <message>
+        <source>The compensation is off while it is written and on afterwards.</source>
+        <translation>写入期间补偿关闭，写入后打开。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n warning(s), in the details. The first: %1</source>
+        <translation>
+            <numerusform>%n 条警告，详见详细信息。第一条：%1</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -8244,6 +8355,18 @@
     <message>
         <source>Less than %1 % removed</source>
         <translation>消除不足 %1 %</translation>
+    </message>
+    <message>
+        <source>Finish the interrupted run?</source>
+        <translation>结束中断的运行？</translation>
+    </message>
+    <message>
+        <source>What was recorded until the interruption is kept and used.</source>
+        <translation>中断前记录的数据将保留并使用。</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation>结束</translation>
     </message>
 </context>
 <context>
@@ -10875,14 +10998,6 @@
         <translation>保存报告</translation>
     </message>
     <message>
-        <source>Save as HTML</source>
-        <translation>保存为 HTML</translation>
-    </message>
-    <message>
-        <source>Save figures (CSV)</source>
-        <translation>保存数据（CSV）</translation>
-    </message>
-    <message>
         <source>Technical bundle</source>
         <translation>技术数据包</translation>
     </message>
@@ -10974,6 +11089,38 @@
         <source>Language</source>
         <translation>语言</translation>
     </message>
+    <message>
+        <source>Company</source>
+        <translation>公司</translation>
+    </message>
+    <message>
+        <source>Logo and address of your company, at the head of every report from this computer</source>
+        <translation>贵公司的徽标和地址，显示在本计算机生成的每份报告的抬头</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>打开</translation>
+    </message>
+    <message>
+        <source>Opens what was saved last</source>
+        <translation>打开最近保存的文件</translation>
+    </message>
+    <message>
+        <source>Show in folder</source>
+        <translation>打开所在文件夹</translation>
+    </message>
+    <message>
+        <source>Print</source>
+        <translation>打印</translation>
+    </message>
+    <message>
+        <source>For support: job, log, pictures and figures in one zip beside the job, without passwords</source>
+        <translation>供技术支持使用：作业、日志、截图和数据打包为作业旁的一个 zip 文件，不含密码</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1（%2）</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::RunView</name>
@@ -11043,6 +11190,18 @@
         <source>In this run: %1</source>
         <translation>本次运行：%1</translation>
     </message>
+    <message>
+        <source>The controller has been silent since %1: the run waits, nothing is recorded. Finish keeps what there is.</source>
+        <translation>控制器自 %1 起无应答：运行在等待，未记录数据。“结束”会保留已有数据。</translation>
+    </message>
+    <message>
+        <source>The controller does not answer: it cannot be told to stop.</source>
+        <translation>控制器无应答：无法令其停止。</translation>
+    </message>
+    <message>
+        <source>stopped</source>
+        <translation>已停住</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::SensorsPage</name>
@@ -11093,10 +11252,6 @@
     <message>
         <source>nothing lost</source>
         <translation>没有损失</translation>
-    </message>
-    <message>
-        <source>only %1 µm</source>
-        <translation>仅 %1 µm</translation>
     </message>
     <message>
         <source>Condition number</source>
@@ -11897,16 +12052,8 @@ The sum of absolute values does not have this fault.</source>
         <translation>%1 消除</translation>
     </message>
     <message>
-        <source>%1 is worse than with version %2: roll back, or correct it.</source>
-        <translation>%1 比版本 %2 更差：请回滚或修正。</translation>
-    </message>
-    <message>
         <source>Look at the proposed correction.</source>
         <translation>请查看建议的修正。</translation>
-    </message>
-    <message>
-        <source>Fit with a further run, or report it as it is.</source>
-        <translation>请用更多的运行数据拟合，或如实出具报告。</translation>
     </message>
     <message>
         <source>%1 is still above the limit of %2 µm.</source>
@@ -12003,6 +12150,50 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Largest error of the whole warm-up run.</source>
         <translation>整个暖机运行中的最大误差。</translation>
+    </message>
+    <message>
+        <source>The verification was interrupted. Everything stored is here; resume or finish with it.</source>
+        <translation>验证已中断。已存储的数据都在这里；可继续，或以现有数据结束。</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>弃用</translation>
+    </message>
+    <message>
+        <source>The verification before counts</source>
+        <translation>以前一次验证为准</translation>
+    </message>
+    <message>
+        <source>New run</source>
+        <translation>新的运行</translation>
+    </message>
+    <message>
+        <source>The interrupted one stays in the job unused</source>
+        <translation>中断的运行留在作业中，但不使用</translation>
+    </message>
+    <message>
+        <source>Plan a further run</source>
+        <translation>规划新的暖机运行</translation>
+    </message>
+    <message>
+        <source>Opens Warm-up with a new run to plan; the model is fitted anew with what it shows.</source>
+        <translation>打开“暖机”页规划新的运行；随后以其数据重新拟合模型。</translation>
+    </message>
+    <message>
+        <source>Goes on with what is left above the limit</source>
+        <translation>在残差仍超过限值的情况下继续</translation>
+    </message>
+    <message>
+        <source>It is left as it is.</source>
+        <translation>已选择保持不变。</translation>
+    </message>
+    <message>
+        <source>Verify again, or leave it as it is.</source>
+        <translation>请重新验证，或保持不变。</translation>
+    </message>
+    <message>
+        <source>Worse than with version %2: %1. Roll back, or correct it.</source>
+        <translation>比版本 %2 差：%1。请回滚或修正。</translation>
     </message>
 </context>
 <context>
@@ -12215,10 +12406,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>预期漂移</translation>
     </message>
     <message>
-        <source>no earlier job</source>
-        <translation>没有以前的作业</translation>
-    </message>
-    <message>
         <source>Measurements</source>
         <translation>测量次数</translation>
     </message>
@@ -12391,10 +12578,6 @@ The sum of absolute values does not have this fault.</source>
         <translation>预设计划</translation>
     </message>
     <message>
-        <source>Known after the first run of this machine</source>
-        <translation>该机床首次运行后可知</translation>
-    </message>
-    <message>
         <source>Step %1 of %2</source>
         <translation>步骤 %1 / %2</translation>
     </message>
@@ -12457,6 +12640,65 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>A further run of this machine, or one in place of this</source>
         <translation>本机床的另一次运行，或替换当前运行</translation>
+    </message>
+    <message>
+        <source>Counted again when the controller answers.</source>
+        <translation>控制器恢复应答后继续计数。</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>弃用</translation>
+    </message>
+    <message>
+        <source>The run before counts; the interrupted one stays unused</source>
+        <translation>以前一次运行为准；中断的运行留存但不使用</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::CompanyDialog</name>
+    <message>
+        <source>Your company in the report</source>
+        <translation>报告中的贵公司信息</translation>
+    </message>
+    <message>
+        <source>Logo and address stand at the head of every report from this computer.</source>
+        <translation>徽标和地址显示在本计算机生成的每份报告的抬头。</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>选择图片</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Name and address</source>
+        <translation>名称和地址</translation>
+    </message>
+    <message>
+        <source>Logo</source>
+        <translation>徽标</translation>
+    </message>
+    <message>
+        <source>Use</source>
+        <translation>使用</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>%1 is no picture that can be read: choose a PNG, JPEG or SVG file.</source>
+        <translation>%1 不是可读取的图片：请选择 PNG、JPEG 或 SVG 文件。</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
+        <translation>图片 (*.png *.jpg *.jpeg *.svg)</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
     </message>
 </context>
 </TS>

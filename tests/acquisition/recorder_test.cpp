@@ -216,6 +216,25 @@ TEST_F(RecorderTest, CountsLostSamplesWhileTheMachineIsAway) {
   EXPECT_LE(lost.back(), summary->lost_samples);
 }
 
+TEST_F(RecorderTest, ThePlanStandsWhileTheMachineIsAway) {
+  machine.cable_is_out = [](double time_s) { return time_s > 305.0 && time_s < 500.0; };
+  std::vector<double> left_s;
+  std::vector<double> after_s;
+  options.observer = [&](const RunUpdate& update) {
+    if (update.phase == RunPhase::link_lost) {
+      left_s.push_back(update.seconds_left);
+    } else if (!left_s.empty()) {
+      after_s.push_back(update.seconds_left);
+    }
+  };
+  ASSERT_TRUE(run());
+  ASSERT_GE(left_s.size(), 3u);
+  EXPECT_NEAR(left_s.front(), 1500.0, 15.0);
+  EXPECT_DOUBLE_EQ(left_s.back(), left_s.front());
+  ASSERT_FALSE(after_s.empty());
+  EXPECT_NEAR(after_s.front(), 1300.0, 30.0);  // it went on all the same, as the machine's clock says
+}
+
 TEST_F(RecorderTest, FinishesWithoutAMachineThatIsAway) {
   machine.cable_is_out = [](double time_s) { return time_s > 305.0; };
   options.observer = [&](const RunUpdate& update) {

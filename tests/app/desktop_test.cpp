@@ -1,14 +1,17 @@
 // The window over an empty workbench and over jobs that cannot be read: what is not there is said, nothing is invented.
 
 #include <QApplication>
+#include <QDir>
 #include <QFile>
 #include <QTest>
 
 #include "app/desktop/application.h"
+#include "app/desktop/company.h"
 #include "app/desktop/map_editor.h"
 #include "app/desktop/physics_search.h"
 #include "app/desktop/physics_view.h"
 #include "app/desktop/steps/axis_errors_presenter.h"
+#include "app/desktop/table_export.h"
 #include "app/desktop/upload_view.h"
 #include "core/controller/table_words.h"
 #include "tests/app/test_home.h"
@@ -123,6 +126,44 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
     QCOMPARE(map->registers.at("ambient_C").address, 3);
   }
 
+  /// A list of kinds that a person can read, and files beside the job.
+  void filesAreOfferedByNameBesideTheJob() {
+    using namespace zerodrift;
+    Application application(m_theme);
+    QCOMPARE(application.bench().folder(), QDir::homePath());
+    const QDir folder(m_folder.path());
+    QVERIFY(folder.mkpath(QStringLiteral("jobs")));
+    const QString path = folder.filePath(QStringLiteral("jobs/one.zdj"));
+    QVERIFY(application.bench().createJob(path.toStdString()).has_value());
+    QCOMPARE(application.bench().folder(), folder.filePath(QStringLiteral("jobs")));
+    for (const auto& format : controller::export_formats()) {
+      const QString name = desktop::name_of_format(format);
+      const QString maker = name.section(QLatin1Char(':'), 0, 0);
+      QVERIFY2(name.contains(QStringLiteral("compensation")), qPrintable(name));
+      QVERIFY2(QByteArray(format.id.data(), static_cast<int>(format.id.size())).startsWith(maker.toLower().toUtf8()),
+               qPrintable(name));
+    }
+  }
+
+  /// Logo and address are kept on this computer, large pictures as small as a logo need be.
+  void theCompanyIsKept() {
+    using namespace zerodrift;
+    QImage large(3000, 900, QImage::Format_RGB32);
+    large.fill(Qt::darkBlue);
+    const QString file = m_folder.filePath(QStringLiteral("logo.png"));
+    QVERIFY(large.save(file));
+    ui::CompanyDialog dialog({QStringLiteral("Keller\n1 Mill Lane"), {}});
+    QVERIFY(!dialog.takeLogo(m_folder.filePath(QStringLiteral("none.png"))));
+    QVERIFY(dialog.takeLogo(file));
+    QVERIFY(dialog.company().logo.width() <= 800);
+    desktop::keepCompany(dialog.company());
+    report::Report report;
+    desktop::signWith(desktop::keptCompany(), report);
+    QCOMPARE(report.company, (std::vector<std::string>{"Keller", "1 Mill Lane"}));
+    QVERIFY(report.logo_png.size() > 50);
+    desktop::keepCompany({});
+  }
+
   /// Two axes in one file, another maker's names: read, shown, and the second axis on request.
   void laserTable() {
     using namespace zerodrift;
@@ -147,6 +188,12 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
         write("other.txt", "Pos (mm)\tForward error (mm)\tReverse error (mm)\n0\t0.001\t0.003\n10\t0.002\t0.004\n")));
     QCOMPARE(page->state().mean_um, (QVector<double>{2, 3}));
     QCOMPARE(page->state().runs.size(), 2);
+    // The file does not say whose table it is: a person does.
+    QCOMPARE(page->state().axes, (QStringList{QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")}));
+    QCOMPARE(page->state().axis, QStringLiteral("X"));
+    Q_EMIT page->axisChosen(2);
+    QCOMPARE(page->state().axis, QStringLiteral("Z"));
+    QCOMPARE(page->state().chosenAxis, 2);
     QVERIFY(!presenter->load(write("bare.txt", "a\tb\n0\t1\n1\t2\n")));  // it cannot be told, and nobody is asked here
     QVERIFY(!page->problem().sentence.isEmpty());
   }

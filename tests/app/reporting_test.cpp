@@ -2,7 +2,10 @@
 
 #include <zip.h>
 
+#include <QBuffer>
 #include <QElapsedTimer>
+#include <QImage>
+#include <QPdfWriter>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QSet>
@@ -10,6 +13,7 @@
 #include <map>
 
 #include "app/reporting/bundle.h"
+#include "app/reporting/drawing.h"
 #include "app/reporting/writers.h"
 #include "core/base/file.h"
 #include "core/report/build.h"
@@ -36,6 +40,15 @@ std::map<std::string, std::string> entries_of(const std::filesystem::path& path)
   }
   zip_discard(archive);
   return entries;
+}
+
+/// By poppler; 0: it is not installed.
+int pages_of(const std::filesystem::path& path) {
+  QProcess info;
+  info.start(QStringLiteral("pdfinfo"), {QString::fromStdString(path.string())});
+  if (!info.waitForFinished(10000)) return 0;
+  static const QRegularExpression pages(QStringLiteral("Pages:\\s+(\\d+)"));
+  return pages.match(QString::fromUtf8(info.readAllStandardOutput())).captured(1).toInt();
 }
 
 std::string written_by_cli(const std::filesystem::path& job, const std::filesystem::path& out, const char* language) {
@@ -98,6 +111,39 @@ class ReportingTest : public QObject {
       const auto bytes = read_file(path).value();
       QVERIFY(bytes.starts_with("%PDF"));
     }
+  }
+
+  /// Who made the report stands at its head, on paper, on a printer and on screen.
+  void theCompanyStandsAtTheHead() {
+    report::RichJob rich({"VMC", "17", "", "A. Keller", ""});
+    auto report = report::build_report(rich.job()).value();
+    const std::string bare = reporting::html_of(report);
+    report.company = {"Keller & Sons", "1 Mill Lane"};
+    QImage logo(400, 100, QImage::Format_RGB32);
+    logo.fill(Qt::darkGreen);
+    QByteArray bytes;
+    QBuffer buffer(&bytes);
+    buffer.open(QIODevice::WriteOnly);
+    QVERIFY(logo.save(&buffer, "PNG"));
+    report.logo_png = bytes.toStdString();
+    const std::string html = reporting::html_of(report);
+    QVERIFY(html.find("Keller &amp; Sons<br>1 Mill Lane") < html.find("<h1>"));
+    QVERIFY(html.find("alt=\"logo\"") != std::string::npos);
+    QVERIFY(bare.find("class=\"company\"") == std::string::npos);
+    const auto path = rich.folder() / "company.pdf";
+    QVERIFY(reporting::write_pdf(report, path).has_value());
+    // What a printer gets has as many pages as the file.
+    const auto printed = rich.folder() / "printed.pdf";
+    auto device = std::make_unique<QPdfWriter>(QString::fromStdString(printed.string()));
+    device->setPageSize(QPageSize(QPageSize::A4));
+    device->setPageMargins(QMarginsF(0, 0, 0, 0));
+    QVERIFY(reporting::draw(*reporting::print_drawing(report, std::move(device))).has_value());
+    QCOMPARE(pages_of(printed), pages_of(path));
+    QProcess text;
+    text.start(QStringLiteral("pdftotext"),
+               {QStringLiteral("-l"), QStringLiteral("1"), QString::fromStdString(path.string()), QStringLiteral("-")});
+    if (!text.waitForFinished(10000)) QSKIP("poppler-utils are not installed");
+    QVERIFY(text.readAllStandardOutput().contains("1 Mill Lane"));
   }
 
   void whatPeopleEnterIsTextAndNoMarkup() {

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "core/acquisition/job_sink.h"
 #include "core/flow/steps/import_step.h"
 #include "core/flow/steps/sensors_step.h"
 #include "core/flow/steps/upload_step.h"
 #include "core/flow/steps/verify_compare.h"
+#include "core/flow/steps/verify_step.h"
 #include "core/flow/steps/warmup_step.h"
 
 namespace zerodrift::flow {
@@ -170,7 +172,70 @@ TEST_F(StepsTest, AnInterruptedRunIsEndedWithoutItsMachine) {
   EXPECT_EQ(end_interrupted_warmup(*job).error().code, ErrorCode::step_blocked);  // it was ended
 }
 
+/// What was measured with one table is not gone on with under another.
+TEST_F(StepsTest, AnInterruptedVerificationIsGoneOnWithUntilATableIsWritten) {
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", {{"version", 1}}, {})));
+  EXPECT_FALSE(*interrupted_verification(*job));
+  acquisition::JobSink sink(*job);
+  acquisition::RunStart start;
+  start.name = "verification";
+  start.channels = {"T1_C", "dZ_um"};
+  start.plan.steps = {{3600.0, 3000.0, false, false}};
+  ASSERT_TRUE(sink.begin(start));
+  ASSERT_TRUE(sink.append(0.0, std::array{20.0, 1.5}));
+  ASSERT_TRUE(sink.append(60.0, std::array{21.0, 2.5}));
+  ASSERT_TRUE(sink.flush());
+  const auto found = interrupted_verification(*job);
+  ASSERT_TRUE(found && *found);
+  EXPECT_EQ((*found)->series, sink.series());
+  EXPECT_EQ((*found)->summary.rows, 2);
+  EXPECT_FALSE(*interrupted_warmup(*job));
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // times are kept to the millisecond
+  ASSERT_TRUE(job->put(NewArtefact::of("upload", {{"version", 2}}, {})));
+  EXPECT_FALSE(*interrupted_verification(*job));
+}
+
 }  // namespace
+
+/// Three cycles tell that sensors beside others bring nothing: they are not proposed, and it is told what that costs.
+TEST_F(StepsTest, WhereTheCurveIsFlatFewerSensorsAreProposed) {
+  constexpr int cycles = 3;
+  const recording::Recording once = warm_up();
+  recording::Recording run = once;
+  for (auto& channel : run.channels) {
+    for (int c = 1; c < cycles; ++c)
+      channel.values.insert(channel.values.end(), once.find(channel.name)->values.begin(),
+                            once.find(channel.name)->values.end());
+  }
+  run.time_s.clear();
+  for (int i = 0; i < cycles * rows; ++i) run.time_s.push_back(60.0 * i);
+  for (int s = 1; s <= 4; ++s) {
+    const auto values = run.find("T" + std::to_string(s) + "_C")->values;
+    auto& beside = run.ensure("T" + std::to_string(s + 6) + "_C").values;
+    beside = values;
+    for (std::size_t i = 0; i < beside.size(); ++i) beside[i] += 0.02 * std::sin(45.233 * static_cast<double>(i) + s);
+  }
+  const auto made = import_warmup(*job, run, "run.csv");
+  ASSERT_TRUE(made) << describe(made.error());
+  ASSERT_TRUE(job->put(*made));
+  SensorsOptions options;
+  options.clusters = 3;
+  const json body = chosen_with(options);
+  const json& choice = body["choice"];
+  EXPECT_FALSE(choice["one_cycle"]);
+  EXPECT_FALSE(choice["flat"]["left"].empty()) << choice["reason"];
+  EXPECT_LE(choice["flat"]["cost_um"].get<double>(), 0.05);
+  EXPECT_GE(body["chosen"].size(), 3U);
+  for (const auto& set : choice["sets"]) {
+    const auto size = body["chosen"].size() + choice["flat"]["left"].size();
+    EXPECT_TRUE(!set["chosen"] || set["sensors"].size() == size) << set;
+  }
+  SensorsOptions hand = options;
+  hand.chosen = {"T1_C", "T4_C", "T7_C", "T8_C"};
+  const json by_hand = chosen_with(hand);
+  EXPECT_EQ(by_hand["chosen"].size(), 4U);
+  EXPECT_TRUE(by_hand["choice"]["flat"]["left"].empty());
+}
 
 TEST_F(StepsTest, ASensorThatTheRunNamedIsLeftOutWithTheReason) {
   SensorsOptions options;

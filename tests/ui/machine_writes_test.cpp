@@ -22,6 +22,7 @@ class MachineWritesTest : public QObject {
   void verifyProposesTheCorrection();
   void aCorrectionWithinTheLimitsIsOffered();
   void proofIsOnlyCompleteWithinTheLimit();
+  void afterAFailedVerificationTheNextActIsOffered();
   void removedIsToldForEachDirection();
 };
 
@@ -108,16 +109,48 @@ void MachineWritesTest::proofIsOnlyCompleteWithinTheLimit() {
   state.versionBefore = 1;
   state.worseThanBefore = {{"X", 1.2, 2.4}};
   page.setState(state);
-  QVERIFY(page.sentence().contains("X") && page.sentence().contains("version 1"));
+  QVERIFY(page.sentence().contains("X") && page.sentence().contains("version 1: X"));
   QVERIFY(page.rollbackNeeded());
   QCOMPARE(page.primaryAction().text, QString("Roll back to version 1"));
   // An earlier run said the opposite: going back and forth would not end.
   state.runsDisagree = true;
   page.setState(state);
-  QCOMPARE(page.primaryAction().text, QString("Go on"));
+  QCOMPARE(page.primaryAction().text, QString("Plan a further run"));
   QVERIFY(page.sentence().contains("run to run"));
   const auto actions = page.secondaryActions();
   QVERIFY(std::any_of(actions.begin(), actions.end(), [](const PageAction& a) { return a.id == "rollback"; }));
+}
+
+/// What is above its limit is not gone on with by the button that is filled.
+void MachineWritesTest::afterAFailedVerificationTheNextActIsOffered() {
+  VerifyPage page;
+  VerifyState state;
+  state.phase = VerifyPhase::finished;
+  state.peakLimit_um = 5.0;
+  AxisResult z;
+  z.axis = "Z";
+  z.before_um = 40.0;
+  z.after_um = 6.8;
+  z.removed_percent = 83.0;
+  state.results = {z};
+  const auto offers = [&page](const char* id) {
+    const auto actions = page.secondaryActions();
+    return std::any_of(actions.begin(), actions.end(), [id](const PageAction& a) { return a.id == QLatin1String(id); });
+  };
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Verify again"));
+  QVERIFY(page.verifyAgainNeeded());
+  QVERIFY(offers("goOn") && !offers("again"));
+  state.correctionProposed = true;
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Apply correction"));
+  state.outsideRange = QStringList{"T3"};
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Plan a further run"));
+  QVERIFY(offers("again") && offers("goOn"));
+  state.leftAsItIs = true;
+  page.setState(state);
+  QCOMPARE(page.primaryAction().text, QString("Go on"));
 }
 
 void MachineWritesTest::removedIsToldForEachDirection() {

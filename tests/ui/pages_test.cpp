@@ -17,6 +17,7 @@
 #include "ui/pages/verify_page.h"
 #include "ui/pages/warmup_page.h"
 #include "ui/plots/plot_widget.h"
+#include "ui/plots/xy_plot.h"
 #include "ui/shell/main_window.h"
 #include "ui/shell/theme.h"
 #include "ui/widgets/channel_table.h"
@@ -49,6 +50,9 @@ class PagesTest : public QObject {
   void physicsAdoptsAndRejects();
   void blindTrialIsOpenedLast();
   void axisRefusesATableThatTurnsBack();
+  void doubtsStandByWhatTheyAreAbout();
+  void nothingIsPromisedOfADriftThatNobodyKnows();
+  void whatIsGreenIsWithinTheLimitShown();
   void everyPageSurvivesNewLanguageAndNothing();
   void plotsFollowTheTheme_data();
   void plotsFollowTheTheme();
@@ -421,6 +425,66 @@ void PagesTest::axisRefusesATableThatTurnsBack() {
   state.monotonic = false;
   page.setState(state);
   QVERIFY(!page.primaryAction().enabled);
+}
+
+void PagesTest::doubtsStandByWhatTheyAreAbout() {
+  ReportPage page;
+  ReportState state;
+  state.doubtful = {{"Z above its limit", Judgement::bad, "verify", "Verify"},
+                    {"samples were lost", Judgement::warn, "warmup", "Warm-up"},
+                    {"Y became worse", Judgement::warn, "verify", "Verify"}};
+  page.setState(state);
+  const auto* list = page.findChild<QListWidget*>("doubtful");
+  QStringList lines;
+  for (int i = 0; i < list->count(); ++i) lines << list->item(i)->text();
+  QCOMPARE(lines,
+           (QStringList{"Verify (2)", "Z above its limit", "Y became worse", "Warm-up (1)", "samples were lost"}));
+  const auto ids = [&page] {
+    QStringList all;
+    for (const PageAction& action : page.secondary()) all << action.id;
+    return all;
+  };
+  QVERIFY(ids().contains("print") && !ids().contains("open"));
+  state.savedTo = "/jobs/report.pdf";
+  page.setState(state);
+  QVERIFY(ids().contains("open") && ids().contains("folder"));
+}
+
+void PagesTest::nothingIsPromisedOfADriftThatNobodyKnows() {
+  WarmupPage page;
+  WarmupState state;
+  state.plan = {{600.0, 3000.0, false, false}};
+  page.setState(state);
+  const auto plots = page.findChildren<XyPlot*>();
+  QVERIFY(std::none_of(plots.begin(), plots.end(), [&page](const XyPlot* plot) { return plot->isVisibleTo(&page); }));
+  for (const auto* card : page.findChildren<FigureCard*>()) QVERIFY(card->figure().label != "Expected drift");
+}
+
+/// Where a share is within its limit for being small in micrometres, those are what is shown.
+void PagesTest::whatIsGreenIsWithinTheLimitShown() {
+  SensorsPage page;
+  SensorsState state;
+  SensorRow sensor;
+  sensor.id = "T1_C";
+  sensor.kept = true;
+  state.sensors = {sensor};
+  state.error_um = 0.6;
+  state.lost_percent = 25.0;
+  state.lostLimit_um = 0.2;
+  page.setState(state);
+  const auto lost = [&page] {
+    for (const auto* card : page.findChildren<FigureCard*>()) {
+      if (card->figure().label == "Lost against all") return card->figure();
+    }
+    return Figure{};
+  };
+  QCOMPARE(lost().judgement, Judgement::ok);
+  QCOMPARE(lost().unit, QString::fromUtf8("µm"));
+  QVERIFY(lost().limit.contains("0.2"));
+  state.lostLimit_um = 0.1;
+  page.setState(state);
+  QVERIFY(lost().judgement != Judgement::ok);
+  QCOMPARE(lost().unit, QString("%"));
 }
 
 void PagesTest::everyPageSurvivesNewLanguageAndNothing() {

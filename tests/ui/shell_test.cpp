@@ -75,8 +75,19 @@ class ShellTest : public QObject {
   void textsHaveContrast();
   void curvesDiffer();
   void durationsAreCoarse();
+  void firstSizeFitsBesideTheDesktopsPanels();
   void nothingIsCutAtTheSmallestSize();
 };
+
+void ShellTest::firstSizeFitsBesideTheDesktopsPanels() {
+  QCOMPARE(MainWindow::firstSize({2560, 1400}), QSize(1440, 900));
+  QCOMPARE(MainWindow::smallestSize({2560, 1400}), QSize(1280, 720));
+  const QSize laptop(1366, 728);  // 768 less a panel of 40
+  QVERIFY(MainWindow::firstSize(laptop).height() <= 690);
+  QVERIFY(MainWindow::firstSize(laptop).width() <= 1366);
+  QCOMPARE(MainWindow::smallestSize(laptop).width(), 1280);
+  QVERIFY(MainWindow::smallestSize(laptop).height() <= MainWindow::firstSize(laptop).height());
+}
 
 void ShellTest::railTellsStateInWordsAndAsksBeforeChanging() {
   MainWindow window;

@@ -98,6 +98,10 @@ void Page::setProgress(const QString& phase, double fraction, std::optional<doub
   Q_EMIT refreshed();
 }
 
+void Page::setWaiting(const QString& what) {
+  m_progress->setWaiting(what);
+}
+
 void Page::clearProgress() {
   m_progress->clear();
   if (!m_working) return;

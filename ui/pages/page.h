@@ -87,6 +87,8 @@ class Page : public QWidget {
   /// Working: phase in words, fraction 0..1 or negative when unknown.
   void setProgress(const QString& phase, double fraction, std::optional<double> secondsLeft = std::nullopt,
                    bool cancellable = true);
+  /// The work stands still until something comes: what, in place of the time left. The next setProgress ends it.
+  void setWaiting(const QString& what);
   void clearProgress();
   bool isWorking() const { return m_working; }
   /// Shows itself while the page works; the window puts it into its foot, so that no page moves for it.

@@ -72,6 +72,10 @@ Card* ReportPage::makeHeadCard() {
   grid->addWidget(m_language, static_cast<int>(names.size()), 1);
   connect(m_language, &QComboBox::activated, this, &ReportPage::languageChosen);
   grid->setColumnStretch(1, 1);
+  m_company = new QPushButton(m_headCard);
+  m_company->setObjectName("company");
+  connect(m_company, &QPushButton::clicked, this, &ReportPage::companyRequested);
+  m_headCard->tools()->addWidget(m_company);
   m_headCard->body()->addLayout(grid);
   return m_headCard;
 }
@@ -136,7 +140,18 @@ PageAction ReportPage::primary() const {
 
 QVector<PageAction> ReportPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
-  return {{"html", tr("Save as HTML")}, {"csv", tr("Save figures (CSV)")}, {"bundle", tr("Technical bundle")}};
+  QVector<PageAction> actions;
+  if (!m_state.savedTo.isEmpty()) {
+    actions = {{"open", tr("Open"), true, {}, tr("Opens what was saved last")}, {"folder", tr("Show in folder")}};
+  }
+  return actions +
+         QVector<PageAction>{
+             {"print", tr("Print")},
+             {"bundle",
+              tr("Technical bundle"),
+              true,
+              {},
+              tr("For support: job, log, pictures and figures in one zip beside the job, without passwords")}};
 }
 
 void ReportPage::render() {
@@ -154,6 +169,8 @@ void ReportPage::render() {
 
 void ReportPage::renderHead() {
   m_headCard->setTitle(tr("Head of the report"));
+  m_company->setText(tr("Company"));
+  m_company->setToolTip(tr("Logo and address of your company, at the head of every report from this computer"));
   const QStringList names = {tr("Customer"), tr("Machine"), tr("Serial"), tr("Engineer"), tr("Standards")};
   const QStringList values = {m_state.head.customer, m_state.head.machine, m_state.head.serial, m_state.head.engineer,
                               m_state.head.standards};
@@ -169,22 +186,7 @@ void ReportPage::renderSections() {
   m_sectionCard->setTitle(tr("Content"));
   m_view->setItems(
       {m_state.doubtful.isEmpty() ? tr("Doubtful") : tr("Doubtful (%1)").arg(m_state.doubtful.size()), tr("Sections")});
-  m_doubtful->clear();
-  for (const DoubtfulFigure& figure : m_state.doubtful) {
-    auto* item = new QListWidgetItem(figure.text, m_doubtful);
-    QPixmap shape(32, 32);
-    shape.fill(Qt::transparent);
-    QPainter painter(&shape);
-    drawJudgement(painter, QRectF(3, 3, 26, 26), figure.judgement);
-    painter.end();
-    item->setIcon(QIcon(shape));
-    item->setData(Qt::UserRole, figure.pageId);
-    item->setToolTip(tr("Click to look into it"));
-  }
-  if (m_state.doubtful.isEmpty()) {
-    auto* item = new QListWidgetItem(tr("No figure of this job looks doubtful."), m_doubtful);
-    item->setFlags(Qt::ItemIsEnabled);
-  }
+  renderDoubtful();
   m_sections->clear();
   for (const ReportSection& section : m_state.sections) {
     auto* item = new QListWidgetItem(
@@ -201,6 +203,41 @@ void ReportPage::renderSections() {
   m_language->setCurrentIndex(m_state.language);
   m_language->setAccessibleName(tr("Language of the report"));
   m_language->setToolTip(m_language->accessibleName());
+}
+
+/// By what they are about, what is worst first: one cause often shows in many figures.
+void ReportPage::renderDoubtful() {
+  m_doubtful->clear();
+  QStringList groups;
+  for (const DoubtfulFigure& figure : m_state.doubtful) {
+    if (!groups.contains(figure.group)) groups.append(figure.group);
+  }
+  for (const QString& group : std::as_const(groups)) {
+    const auto in_group = [&group](const DoubtfulFigure& figure) { return figure.group == group; };
+    if (!group.isEmpty()) {
+      const auto count = std::count_if(m_state.doubtful.begin(), m_state.doubtful.end(), in_group);
+      auto* heading = new QListWidgetItem(tr("%1 (%2)").arg(group).arg(count), m_doubtful);
+      heading->setFlags(Qt::ItemIsEnabled);
+      QFont bold = heading->font();
+      bold.setWeight(QFont::DemiBold);
+      heading->setFont(bold);
+    }
+    for (const DoubtfulFigure& figure : m_state.doubtful) {
+      if (!in_group(figure)) continue;
+      auto* item = new QListWidgetItem(figure.text, m_doubtful);
+      QPixmap shape(32, 32);
+      shape.fill(Qt::transparent);
+      QPainter painter(&shape);
+      drawJudgement(painter, QRectF(3, 3, 26, 26), figure.judgement);
+      painter.end();
+      item->setIcon(QIcon(shape));
+      item->setData(Qt::UserRole, figure.pageId);
+      item->setToolTip(tr("Click to look into it"));
+    }
+  }
+  if (!m_state.doubtful.isEmpty()) return;
+  auto* item = new QListWidgetItem(tr("No figure of this job looks doubtful."), m_doubtful);
+  item->setFlags(Qt::ItemIsEnabled);
 }
 
 void ReportPage::renderPreview() {

@@ -12,6 +12,7 @@ class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QListWidget;
+class QPushButton;
 class QScrollArea;
 class QStackedWidget;
 
@@ -35,6 +36,7 @@ struct DoubtfulFigure {
   QString text{};
   Judgement judgement = Judgement::warn;
   QString pageId{};
+  QString group{};  // what it is about, in words: the step
 };
 
 struct ReportHead {
@@ -69,7 +71,7 @@ class ReportPage : public Page {
   QString title() const override;
   QString sentence() const override;
   PageAction primary() const override;
-  /// "bundle", "csv", "html".
+  /// "print", "bundle"; "open" and "folder" of what was saved.
   QVector<PageAction> secondary() const override;
 
   /// It was given for another report.
@@ -78,6 +80,7 @@ class ReportPage : public Page {
  Q_SIGNALS:
   void headEdited(const zerodrift::ui::ReportHead& head);
   void languageChosen(int index);
+  void companyRequested();
   void sectionToggled(const QString& sectionId, bool included);
   void doubtClicked(const QString& pageId);
   void signatureDrawn(const QImage& signature);  // null: cleared
@@ -91,6 +94,7 @@ class ReportPage : public Page {
   Card* makeSectionCard();
   void renderHead();
   void renderSections();
+  void renderDoubtful();
   void renderPreview();
 
   ReportState m_state;
@@ -101,6 +105,7 @@ class ReportPage : public Page {
   QVector<QLineEdit*> m_fields;
   QLabel* m_languageName;
   QComboBox* m_language;
+  QPushButton* m_company;
   QListWidget* m_sections;
   QListWidget* m_doubtful;
   ToggleSegment* m_view;

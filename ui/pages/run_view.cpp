@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ui/widgets/card.h"
+#include "ui/widgets/figure_card.h"
 #include "ui/widgets/number_text.h"
 #include "ui/widgets/problem_banner.h"
 #include "ui/widgets/toggle_segment.h"
@@ -271,6 +272,25 @@ void RunView::showTrouble() {
   problem.remedy = m_trouble.so_far.join(QStringLiteral(" · "));
   if (!m_trouble.ended && !problem.remedy.isEmpty()) problem.remedy = tr("In this run: %1").arg(problem.remedy);
   m_banner->setProblem(problem);
+}
+
+qsizetype RunView::sampleCount(const QString& id) const {
+  const LivePlot* plot = m_plotOf.value(id);
+  return plot == nullptr ? 0 : plot->sampleCount(id);
+}
+
+QString RunView::waitingSentence(const QString& since) {
+  return tr("The controller has been silent since %1: the run waits, nothing is recorded. Finish keeps what there is.")
+      .arg(since);
+}
+
+QString RunView::silentReason() {
+  return tr("The controller does not answer: it cannot be told to stop.");
+}
+
+void RunView::markStopped(Figure& figure) {
+  figure.judgement = Judgement::warn;
+  figure.word = tr("stopped");
 }
 
 void RunView::retranslate() {

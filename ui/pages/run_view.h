@@ -18,6 +18,7 @@ class QVBoxLayout;
 namespace zerodrift::ui {
 
 class Card;
+struct Figure;
 class ProblemBanner;
 class ToggleSegment;
 
@@ -67,6 +68,14 @@ class RunView : public QWidget {
   /// Above the tables.
   void setSide(QWidget* side);
   void retranslate();
+  /// How many samples of a channel are drawn.
+  qsizetype sampleCount(const QString& id) const;
+
+  // What both pages say of a run whose controller is silent.
+  static QString waitingSentence(const QString& since);
+  static QString silentReason();
+  /// A figure that stands where it was seen last.
+  static void markStopped(Figure& figure);
 
  Q_SIGNALS:
   void noteRequested(double time_s);

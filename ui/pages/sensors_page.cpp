@@ -90,8 +90,8 @@ Card* SensorsPage::makeChoice() {
   m_priceNote->setProperty("role", "caption");
   m_priceNote->setContentsMargins(15, 2, 15, 4);
   m_tableCard->body()->addWidget(m_priceNote);
-  m_plotCard->setMinimumWidth(400);
-  m_tableCard->setMinimumWidth(578);
+  m_plotCard->setMinimumWidth(372);
+  m_tableCard->setMinimumWidth(606);
   m_tableCard->setMaximumWidth(680);  // the longest names of sensors
   return m_tableCard;
 }
@@ -168,9 +168,9 @@ QVector<Figure> SensorsPage::figures() const {
     lost.word = tr("nothing lost");
   } else if (lost.judgement != Judgement::ok) {
     const double lost_um = m_state.error_um * m_state.lost_percent / (100.0 + m_state.lost_percent);
+    // So little is within the limit, whatever its share: then that is the limit that is shown.
     if (lost_um <= m_state.lostLimit_um) {
-      lost.judgement = Judgement::ok;
-      lost.word = tr("only %1 µm").arg(lost_um, 0, 'f', 2);
+      lost = figureAtMost(lost.label, lost_um, 2, QStringLiteral("µm"), m_state.lostLimit_um);
     }
   }
   Figure condition = figureAtMost(tr("Condition number"), m_state.condition, 0, {}, m_state.conditionLimit);
@@ -317,13 +317,13 @@ void SensorsPage::renderTable() {
   m_tableCard->setTitle(tr("Choice"));
   QVector<DataColumn> columns{{tr("Sensor"), 0, false, {}}};
   for (const QString& error : m_state.errors) {
-    columns.append({error, 42, true, tr("Correlation with the error in %1").arg(error)});
+    columns.append({error, 38, true, tr("Correlation with the error in %1").arg(error)});
   }
   columns.append(
-      {{tr("Sum"), 44, true, tr("Largest in its cluster: thermally sensitive point")},
-       {tr("Lag"), 66, true, tr("The error follows this sensor after so many minutes")},
-       {"VIF", 46, true, tr("Variance inflation: above 10 the sensor repeats others")},
-       {tr("Price"), 72, true,
+      {{tr("Sum"), 40, true, tr("Largest in its cluster: thermally sensitive point")},
+       {tr("Lag"), 58, true, tr("The error follows this sensor after so many minutes")},
+       {"VIF", 40, true, tr("Variance inflation: above 10 the sensor repeats others")},
+       {tr("Price"), 66, true,
         tr("Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better")}});
   m_table->setColumns(columns);
   QVector<QVector<DataCell>> rows;
@@ -373,7 +373,8 @@ void SensorsPage::renderTable() {
   for (const SensorRow& s : m_state.sensors) {
     if (!s.note.isEmpty()) named << tr("%1: %2.").arg(s.tag, s.note);
   }
-  const QString before = named.isEmpty() ? QString() : named.join(QLatin1Char(' ')) + QLatin1Char('\n');
+  QString before = named.isEmpty() ? QString() : named.join(QLatin1Char(' ')) + QLatin1Char('\n');
+  if (!m_state.proposal.isEmpty()) before += m_state.proposal + QLatin1Char('\n');
   m_priceNote->setText(
       before +
       tr("Price: what a click on the tick does to the error on unseen stretches. Plus: it grows, leave the tick as "

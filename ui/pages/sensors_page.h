@@ -42,6 +42,7 @@ struct SensorsState {
   QVector<SensorRow> sensors{};
   int clusters = 5;
   int suggestedClusters = 5;
+  QString proposal{};     // why so many are proposed; empty: chosen by hand
   bool automatic = true;  // number of clusters suggested, not set
   bool absolute = false;  // sum of absolute correlations
   double explained1_percent = std::numeric_limits<double>::quiet_NaN();

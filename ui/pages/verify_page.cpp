@@ -95,7 +95,10 @@ QString VerifyPage::title() const {
 
 QString VerifyPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
+  if (!m_state.silentSince.isEmpty()) return RunView::waitingSentence(m_state.silentSince);
   switch (m_state.phase) {
+    case VerifyPhase::interrupted:
+      return tr("The verification was interrupted. Everything stored is here; resume or finish with it.");
     case VerifyPhase::ready:
       if (!m_state.notHeld.isEmpty()) return m_state.notHeld;
       if (!m_state.switchedOff.isEmpty()) return m_state.switchedOff;
@@ -131,7 +134,7 @@ QString VerifyPage::finishedSentence() const {
   if (!m_state.worseThanBefore.isEmpty()) {
     QStringList axes;
     for (const WorseThanBefore& axis : m_state.worseThanBefore) axes.append(axis.axis);
-    return tr("%1 is worse than with version %2: roll back, or correct it.")
+    return tr("Worse than with version %2: %1. Roll back, or correct it.")
         .arg(listText(axes))
         .arg(m_state.versionBefore);
   }
@@ -143,7 +146,8 @@ QString VerifyPage::finishedSentence() const {
   }
   if (!over.isEmpty()) {
     const QString what = m_state.correctionProposed ? tr("Look at the proposed correction.")
-                                                    : tr("Fit with a further run, or report it as it is.");
+                         : m_state.leftAsItIs       ? tr("It is left as it is.")
+                                                    : tr("Verify again, or leave it as it is.");
     return tr("%1 is still above the limit of %2 µm.").arg(listText(over)).arg(m_state.peakLimit_um) +
            QLatin1Char(' ') + what;
   }
@@ -165,6 +169,19 @@ bool VerifyPage::correctionNeeded() const {
          !axesOverLimit().isEmpty();
 }
 
+/// An axis over its limit is no result to go on with, unless the engineer has said so.
+bool VerifyPage::fallenShort() const {
+  return !m_state.leftAsItIs && (m_state.runsDisagree || !axesOverLimit().isEmpty());
+}
+
+bool VerifyPage::furtherRunNeeded() const {
+  return fallenShort() && !rollbackNeeded() && (m_state.runsDisagree || !m_state.outsideRange.isEmpty());
+}
+
+bool VerifyPage::verifyAgainNeeded() const {
+  return fallenShort() && !rollbackNeeded() && !correctionNeeded() && !furtherRunNeeded();
+}
+
 /// The version before was better, and no earlier run says otherwise.
 bool VerifyPage::rollbackNeeded() const {
   return !m_state.worseThanBefore.isEmpty() && !m_state.runsDisagree;
@@ -172,12 +189,18 @@ bool VerifyPage::rollbackNeeded() const {
 
 PageAction VerifyPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start verification"), false, m_state.blocked};
+  if (!m_state.silentSince.isEmpty()) {
+    return {"primary", m_state.phase == VerifyPhase::paused ? tr("Resume") : tr("Pause"), false,
+            RunView::silentReason()};
+  }
   switch (m_state.phase) {
+    case VerifyPhase::interrupted:
     case VerifyPhase::ready: {
       const QString reason = !m_state.offline.isEmpty()   ? m_state.offline
                              : !m_state.notHeld.isEmpty() ? m_state.notHeld
                                                           : m_state.switchedOff;
-      return {"primary", tr("Start verification"), reason.isEmpty(), reason};
+      return {"primary", m_state.phase == VerifyPhase::ready ? tr("Start verification") : tr("Resume"),
+              reason.isEmpty(), reason};
     }
     case VerifyPhase::running:
       return {"primary", tr("Pause"), true, {}};
@@ -198,7 +221,16 @@ PageAction VerifyPage::primary() const {
                 {},
                 tr("Opens the history in Upload with that version chosen; it asks before it writes.")};
       }
-      return {"primary", correctionNeeded() ? tr("Apply correction") : tr("Go on"), true, {}};
+      if (correctionNeeded()) return {"primary", tr("Apply correction"), true, {}};
+      if (furtherRunNeeded()) {
+        return {"primary",
+                tr("Plan a further run"),
+                true,
+                {},
+                tr("Opens Warm-up with a new run to plan; the model is fitted anew with what it shows.")};
+      }
+      if (verifyAgainNeeded()) return {"primary", tr("Verify again"), true, {}};
+      return {"primary", tr("Go on"), true, {}};
   }
   return {};
 }
@@ -208,6 +240,14 @@ QVector<PageAction> VerifyPage::secondary() const {
   switch (m_state.phase) {
     case VerifyPhase::ready:
       return {};
+    case VerifyPhase::interrupted: {
+      const PageAction resume = primary();  // finishing takes the run up once more
+      return {m_state.keptBefore
+                  ? PageAction{"drop", tr("Discard"), true, {}, tr("The verification before counts")}
+                  : PageAction{"again", tr("New run"), true, {}, tr("The interrupted one stays in the job unused")},
+              {"finish", tr("Finish"), resume.enabled, resume.reason,
+               tr("Ends the run here and keeps what was measured. Asks first.")}};
+    }
     case VerifyPhase::running:
     case VerifyPhase::paused:
       return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")},
@@ -216,7 +256,11 @@ QVector<PageAction> VerifyPage::secondary() const {
     case VerifyPhase::finished:
       break;
   }
-  QVector<PageAction> actions = {{"again", tr("Verify again")}};
+  QVector<PageAction> actions;
+  if (!verifyAgainNeeded() || !m_state.notHeld.isEmpty()) actions.append({"again", tr("Verify again")});
+  if (fallenShort() && !correctionNeeded()) {
+    actions.append({"goOn", tr("Leave as it is"), true, {}, tr("Goes on with what is left above the limit")});
+  }
   if (correctionNeeded()) {
     actions.append({"skip", tr("Leave as it is")});
   } else if (m_state.correctionProposed) {
@@ -251,6 +295,7 @@ QVector<Figure> VerifyPage::figures() const {
   }
   if (!worse.isEmpty()) {
     removed.judgement = Judgement::bad;
+    removed.limit.clear();  // the tip has it
     removed.word = tr("%1 worse").arg(listText(worse));
   }
   if (finished) {
@@ -267,6 +312,7 @@ QVector<Figure> VerifyPage::figures() const {
   }
   Figure frame = figureAtMost(tr("Last good frame"), m_state.lastGoodFrame_s, 0, "s", m_state.frameLimit_s);
   if (frame.judgement == Judgement::ok) frame.word = tr("measuring");
+  if (!m_state.silentSince.isEmpty()) RunView::markStopped(frame);
   frame.tip = tr("Machine time since the camera last measured the error. Up to %1 it is as planned.")
                   .arg(durationText(m_state.frameLimit_s));
   return {before, after, rms, removed, frame};

@@ -23,6 +23,7 @@ enum class VerifyPhase {
   ready,
   running,
   paused,
+  interrupted,  // found in the job after a crash or a lost connection: can be resumed
   finished,
 };
 
@@ -51,6 +52,9 @@ struct WorseThanBefore {
 struct VerifyState {
   QString blocked{};
   VerifyPhase phase = VerifyPhase::ready;
+  QString silentSince{};    // of the controller of the run; empty: it answers
+  bool keptBefore = false;  // beside the interrupted run there is one that was ended
+  bool leftAsItIs = false;  // the engineer has seen what is left over the limit and goes on with it
   double peakBefore_um = std::numeric_limits<double>::quiet_NaN();
   double peakAfter_um = std::numeric_limits<double>::quiet_NaN();
   double peakLimit_um = 5.0;
@@ -96,11 +100,14 @@ class VerifyPage : public Page {
   QString sentence() const override;
   /// Start verification, Pause, Apply correction, Go on.
   PageAction primary() const override;
-  /// "finish", "abort", "again", "skip", "correct", "rollback".
+  /// "finish", "abort", "again", "skip", "correct", "rollback", "drop", "goOn".
   QVector<PageAction> secondary() const override;
   bool steersWork() const override { return true; }
   /// The proposed correction is the next step: an axis is over its limit or worse than with the version before.
   bool correctionNeeded() const;
+  /// What is left is too much, and no correction of this run mends it.
+  bool furtherRunNeeded() const;
+  bool verifyAgainNeeded() const;
   bool rollbackNeeded() const;
 
  Q_SIGNALS:
@@ -118,6 +125,7 @@ class VerifyPage : public Page {
   Figure removedFigure() const;
   QStringList words() const;
   QStringList axesOverLimit() const;
+  bool fallenShort() const;
   QString finishedSentence() const;
 
   VerifyState m_state;

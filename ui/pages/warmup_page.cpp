@@ -147,6 +147,7 @@ QString WarmupPage::title() const {
 
 QString WarmupPage::sentence() const {
   if (!m_state.blocked.isEmpty()) return notYet();
+  if (!m_state.silentSince.isEmpty()) return RunView::waitingSentence(m_state.silentSince);
   switch (m_state.phase) {
     case RunPhase::planning:
       if (m_state.filesOnly)
@@ -179,6 +180,9 @@ PageAction WarmupPage::primary() const {
   if (starts && !m_state.offline.isEmpty()) {
     return {"primary", m_state.phase == RunPhase::planning ? tr("Start") : tr("Resume"), false, m_state.offline};
   }
+  if (!m_state.silentSince.isEmpty()) {
+    return {"primary", m_state.phase == RunPhase::paused ? tr("Resume") : tr("Pause"), false, RunView::silentReason()};
+  }
   switch (m_state.phase) {
     case RunPhase::planning:
       if (m_state.plan.isEmpty()) return {"primary", tr("Start"), false, tr("The plan has no steps yet.")};
@@ -209,6 +213,10 @@ QVector<PageAction> WarmupPage::secondary() const {
     case RunPhase::paused:
       return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")}, abort, finish};
     case RunPhase::interrupted:
+      if (m_state.keptBefore) {
+        return {{"drop", tr("Discard"), true, {}, tr("The run before counts; the interrupted one stays unused")},
+                finish};
+      }
       return {{"again", tr("New run"), true, {}, tr("Plans a new run; the interrupted one stays in the job unused")},
               finish};
     case RunPhase::finished:
@@ -226,7 +234,6 @@ QVector<Figure> WarmupPage::planFigures() const {
   double expected = std::numeric_limits<double>::quiet_NaN();
   for (const double drift : m_state.expectedDrift_um) expected = std::fmax(expected, std::abs(drift));
   Figure largest = figureOf(tr("Expected drift"), expected, 0, "µm", m_state.expectedFrom);
-  if (m_state.expectedDrift_um.isEmpty()) largest.word = tr("no earlier job");
   const double measurements = m_state.measurePeriod_s > 0.0 ? std::floor(length / m_state.measurePeriod_s) : NAN;
   Figure count = figureAtLeast(tr("Measurements"), measurements, 0, {}, 20.0);
   count.tip = tr("How often the error is measured. A model needs at least 20.");
@@ -235,6 +242,7 @@ QVector<Figure> WarmupPage::planFigures() const {
   time.limit = m_state.wallTimeTotal;
   time.tip = tr("Time of the machine. A virtual machine goes through it faster than the clock on the wall.");
   Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
+  if (m_state.expectedDrift_um.isEmpty()) return {time, count, disk};
   return {time, count, largest, disk};
 }
 
@@ -248,12 +256,17 @@ QVector<Figure> WarmupPage::runFigures() const {
   } else if (!std::isnan(m_state.timeLeft_s)) {
     left.value = durationText(m_state.timeLeft_s);
   }
+  if (!m_state.silentSince.isEmpty()) RunView::markStopped(left);
   Figure largest = figureOf(tr("Largest error"), m_state.largestError_um, 1, "µm");
   if (!m_state.largestErrorAxis.isEmpty()) largest.limit = tr("in %1").arg(m_state.largestErrorAxis);
   Figure slope = figureOf(tr("Error slope now"), m_state.slope_um_per_h, 1, "µm/h");
   Figure heat = figureOf(tr("Heat slope now"), m_state.slope_K_per_h, 1, "K/h");
   for (Figure* figure : {&slope, &heat}) {
     if (figure->value.isEmpty()) continue;
+    if (!m_state.silentSince.isEmpty()) {
+      RunView::markStopped(*figure);
+      continue;
+    }
     figure->judgement = m_state.steady ? Judgement::ok : Judgement::none;
     figure->word = m_state.steady ? tr("steady") : tr("still moving");
     figure->tip = m_state.steadyCriterion;
@@ -276,7 +289,10 @@ Figure WarmupPage::lostFigure() const {
   const auto all = m_state.samples + m_state.samplesLost;
   Figure lost = figureOf(tr("Samples lost"), static_cast<double>(m_state.samplesLost), 0, tr("of %1").arg(all));
   const QString hole = durationText(m_state.longestHole_s);
-  if (m_state.samplesLost == 0) {
+  if (!m_state.silentSince.isEmpty()) {
+    RunView::markStopped(lost);
+    lost.tip = tr("Counted again when the controller answers.");
+  } else if (m_state.samplesLost == 0) {
     lost.judgement = Judgement::ok;
     lost.word = tr("none");
     lost.tip = tr("Every sample of the plan was stored.");
@@ -356,7 +372,7 @@ void WarmupPage::renderPlan() {
   m_timeline->setFastest(m_state.fastest_rpm);
   m_timeline->setMeasurePeriod(m_state.measurePeriod_s);
   m_timeline->setSteps(m_state.plan);
-  m_expected->setPlaceholder(tr("Known after the first run of this machine"));
+  m_expectedCard->setVisible(!m_state.expectedTime_s.isEmpty());  // known after the first run of this machine
   if (m_state.expectedTime_s.isEmpty()) {
     m_expected->clear();
   } else {

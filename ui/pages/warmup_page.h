@@ -38,6 +38,8 @@ struct WarmupState {
   QString offline{};  // why no run can be started now; empty: it can
   QString blocked{};  // why the page cannot be used yet; empty: it can
   RunPhase phase = RunPhase::planning;
+  QString silentSince{};    // of the controller of the run; empty: it answers
+  bool keptBefore = false;  // beside the interrupted run there is one that was ended
   QStringList presets{};
   int preset = -1;
   QVector<PlanStepRow> plan{};

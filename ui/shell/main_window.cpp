@@ -7,10 +7,25 @@
 
 namespace zerodrift::ui {
 
+namespace {
+
+constexpr QSize frame{4, 40};  // borders and title bar, at most as wide on common desktops
+
+}  // namespace
+
+QSize MainWindow::smallestSize(const QSize& available) {
+  return QSize(1280, 720).boundedTo(available - frame);
+}
+
+QSize MainWindow::firstSize(const QSize& available) {
+  return QSize(1440, 900).boundedTo(available - frame).expandedTo(smallestSize(available));
+}
+
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
   setWindowTitle("Zerodrift");
-  setMinimumSize(1280, 720);
-  resize(QSize(1440, 900).boundedTo(QGuiApplication::primaryScreen()->availableSize()).expandedTo(minimumSize()));
+  const QSize available = QGuiApplication::primaryScreen()->availableSize();
+  setMinimumSize(smallestSize(available));
+  resize(firstSize(available));
   setAcceptDrops(true);
   m_rail = new StepRail(this);
   m_stack = new QStackedWidget(this);

@@ -37,6 +37,10 @@ class MainWindow : public QMainWindow {
 
  public:
   explicit MainWindow(QWidget* parent = nullptr);
+  /// Of the window without its frame on a desktop that leaves so much room beside its panels: as large as it is made
+  /// for, and no larger than fits. The smallest is what the pages are laid out for, unless less fits.
+  static QSize firstSize(const QSize& available);
+  static QSize smallestSize(const QSize& available);
   ~MainWindow() override;
 
   /// Pages stand in the rail in the order they are added; the window owns them.

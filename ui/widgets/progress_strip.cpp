@@ -57,6 +57,10 @@ void ProgressStrip::setProgress(const QString& phase, double fraction, std::opti
   show();
 }
 
+void ProgressStrip::setWaiting(const QString& what) {
+  m_left->setText(fittedText(m_left->fontMetrics(), what, m_bar->width(), what));
+}
+
 void ProgressStrip::setCancellable(bool cancellable) {
   m_cancel->setVisible(cancellable);
 }

@@ -20,6 +20,8 @@ class ProgressStrip : public QFrame {
   explicit ProgressStrip(QWidget* parent = nullptr);
   /// fraction 0..1; negative when it cannot be told.
   void setProgress(const QString& phase, double fraction, std::optional<double> secondsLeft = std::nullopt);
+  /// What the work waits for, in place of the time left.
+  void setWaiting(const QString& what);
   void setCancellable(bool cancellable);
   void clear();
 

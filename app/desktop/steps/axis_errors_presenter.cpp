@@ -91,6 +91,10 @@ AxisErrorsPresenter::AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page) :
     if (action == QStringLiteral("export")) exportTable(false);
   });
   connect(page, &ui::AxisPage::axisChosen, this, [this](int index) {
+    if (m_report.axes.size() < 2) {  // one table: whose it is may be said
+      m_named = QStringLiteral("XYZ").mid(index, 1).toStdString();
+      return refresh();
+    }
     if (index < 0 || index >= static_cast<int>(m_report.axes.size())) return;
     m_how.axis = m_report.axes[static_cast<std::size_t>(index)];
     read();
@@ -98,7 +102,7 @@ AxisErrorsPresenter::AxisErrorsPresenter(Workbench& bench, ui::AxisPage* page) :
 }
 
 void AxisErrorsPresenter::open() {
-  const QString path = QFileDialog::getOpenFileName(m_page, tr("Laser report"), QDir::homePath(),
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Laser report"), bench().folder(),
                                                     tr("Laser reports (*.csv *.rtl *.REN *.ren *.pos);;All files (*)"));
   if (!path.isEmpty()) load(path);
 }
@@ -112,6 +116,7 @@ bool AxisErrorsPresenter::load(const QString& path) {
   m_file = path;
   m_bytes = std::move(*bytes);
   m_how = {};
+  m_named.clear();
   const auto preview = compensation::preview_laser(m_bytes, path.toStdString());
   m_preview = preview ? std::optional(*preview) : std::nullopt;
   if (m_preview) m_how.mapping = remembered_mapping(*m_preview);
@@ -208,6 +213,7 @@ void AxisErrorsPresenter::cut() {
 }
 
 std::string AxisErrorsPresenter::axisName() const {
+  if (!m_named.empty()) return m_named;
   const char letter =
       m_report.axis.empty() ? 'X' : static_cast<char>(std::toupper(static_cast<unsigned char>(m_report.axis.front())));
   return std::string(1, letter == 'Y' || letter == 'Z' ? letter : 'X');
@@ -239,6 +245,7 @@ void AxisErrorsPresenter::forget() {
   m_file.clear();
   m_bytes.clear();
   m_how = {};
+  m_named.clear();
   m_preview.reset();
   m_report = {};
   m_position_mm.clear();
@@ -390,8 +397,7 @@ void AxisErrorsPresenter::fillSegments(ui::AxisState& state) const {
 void AxisErrorsPresenter::fillFormat(ui::AxisState& state) const {
   const auto& formats = controller::export_formats();
   state.formats = {QString::fromLatin1(table_format)};
-  for (const auto& format : formats)
-    state.formats << QString::fromUtf8(format.id.data(), static_cast<int>(format.id.size()));
+  for (const auto& format : formats) state.formats << name_of_format(format);
   state.format = m_format;
   if (m_format <= 0 || m_format > static_cast<int>(formats.size())) return;
   const auto made = formats.at(static_cast<std::size_t>(m_format - 1)).write(table(), {});
@@ -412,7 +418,8 @@ void AxisErrorsPresenter::refresh() {
   ui::AxisState state;
   if (!m_position_mm.empty()) {
     state.axis = QString::fromStdString(axisName());
-    state.axes = {state.axis};
+    state.axes = {QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")};
+    state.chosenAxis = static_cast<int>(state.axes.indexOf(state.axis));
     if (m_report.axes.size() > 1) {
       state.axes.clear();
       for (std::size_t i = 0; i < m_report.axes.size(); ++i) {

@@ -45,6 +45,7 @@ class AxisErrorsPresenter : public Presenter {
   QString m_file;
   std::string m_bytes;  // of the file: its columns may be told anew
   compensation::LaserOptions m_how;
+  std::string m_named;  // the axis, by a person, over what the file says; empty: as the file says
   std::optional<compensation::LaserPreview> m_preview;
   bool m_asking = true;
   compensation::LaserReport m_report;

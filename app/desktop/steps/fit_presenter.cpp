@@ -145,7 +145,7 @@ FitPresenter::FitPresenter(Workbench& bench, ui::FitPage* page) : Presenter(benc
     run(method.toStdString(), {});
   });
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString&) {
-    const QString path = QFileDialog::getOpenFileName(m_page, tr("Recording of a newer run"), QDir::homePath(),
+    const QString path = QFileDialog::getOpenFileName(m_page, tr("Recording of a newer run"), this->bench().folder(),
                                                       tr("Recordings (*.csv)"));
     if (path.isEmpty() || this->bench().tasks().running()) return;
     m_undo.push_back(asked());  // undone by fitting as before

@@ -92,7 +92,7 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
       openJob(path);
     }
   });
-  connect(page, &ui::MachinePage::virtualMachineRequested, this, [this] { useVirtualMachine({}); });
+  connect(page, &ui::MachinePage::virtualMachineRequested, this, [this] { useAnyVirtualMachine(); });
   connect(page, &ui::MachinePage::sampleRequested, this, &MachinePresenter::sampleWanted);
   connect(page, &ui::MachinePage::ownRecordingRequested, this, &MachinePresenter::ownRecordingWanted);
   connect(page, &ui::Page::emptyActionTriggered, this, [this] {
@@ -103,9 +103,15 @@ MachinePresenter::MachinePresenter(Workbench& bench, ui::MachinePage* page, Demo
   connect(page, &ui::Page::primaryTriggered, this, &MachinePresenter::primary);
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
     if (action == QStringLiteral("import")) importProfile();
-    if (action == QStringLiteral("job")) unlessBusy(this->bench().closeJob());
+    if (action == QStringLiteral("job")) {
+      Q_EMIT endWorkWanted(tr("Leave this job?"), tr("End it and leave"),
+                           [this] { unlessBusy(this->bench().closeJob()); });
+    }
     if (action == QStringLiteral("test")) this->bench().connectMachine();
-    if (action == QStringLiteral("disconnect")) unlessBusy(this->bench().disconnectMachine());
+    if (action == QStringLiteral("disconnect")) {
+      Q_EMIT endWorkWanted(tr("Disconnect from the machine?"), tr("End it and disconnect"),
+                           [this] { unlessBusy(this->bench().disconnectMachine()); });
+    }
     if (action == QStringLiteral("virtual")) startVirtual();
     if (action == QStringLiteral("connect")) connectNow();
     if (action == QStringLiteral("start")) commissionAnew();
@@ -171,8 +177,17 @@ void MachinePresenter::useVirtualMachine(const DemoOptions& options) {
            QDateTime::currentDateTime().toString(QStringLiteral("yyyyMMdd-HHmmss")) + QStringLiteral(".zdj"));
   }
   m_connecting = true;
-  m_demo.start(options);
+  if (m_demo.running() && m_demo.options().seed == options.seed) {
+    useReadyMachine();
+  } else if (!m_demo.starting() || m_demo.options().seed != options.seed) {
+    m_demo.start(options);
+  }
   refresh();
+}
+
+void MachinePresenter::useAnyVirtualMachine() {
+  const bool there = m_demo.running() || m_demo.starting();
+  useVirtualMachine(there ? m_demo.options() : DemoOptions());
 }
 
 void MachinePresenter::newJob(const QString& path) {
@@ -209,7 +224,7 @@ void MachinePresenter::chooseJob() {
 
 void MachinePresenter::importProfile() {
   const QString path =
-      QFileDialog::getOpenFileName(m_page, tr("Connection profile"), QDir::homePath(), tr("Profiles (*.json)"));
+      QFileDialog::getOpenFileName(m_page, tr("Connection profile"), bench().folder(), tr("Profiles (*.json)"));
   if (path.isEmpty()) return;
   if (const Status loaded = bench().loadProfile(path.toStdString()); !loaded) {
     show(loaded.error());

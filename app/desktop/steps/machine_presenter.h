@@ -28,8 +28,11 @@ class MachinePresenter : public Presenter {
   void forget() override {}  // what it shows is the machine's, or read from the job each time
   void tour(std::function<void(bool good)> done) override;
 
-  /// The virtual machine beside the application, with a new job in the user's folder.
+  /// The virtual machine beside the application, with a new job in the user's folder. One that runs is not started
+  /// over: it holds a table, and its heat.
   void useVirtualMachine(const DemoOptions& options);
+  /// Whichever runs, else this one.
+  void useAnyVirtualMachine();
   void openJob(const QString& path);
   void newJob(const QString& path);
   static QString jobsFolder();
@@ -39,6 +42,8 @@ class MachinePresenter : public Presenter {
   void chooseJob();
 
  Q_SIGNALS:
+  /// To be done when nothing runs any more; what runs is ended if a person agrees.
+  void endWorkWanted(const QString& question, const QString& deed, const std::function<void()>& then);
   void sampleWanted();
   void ownRecordingWanted();
 

@@ -33,7 +33,7 @@ void PhysicsPresenter::describe(const QString& path) {
 }
 
 void PhysicsPresenter::chooseDescription() {
-  const QString path = QFileDialog::getOpenFileName(m_page, tr("Open a machine description"), QDir::homePath(),
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Open a machine description"), bench().folder(),
                                                     tr("Machine descriptions (*.json)"));
   if (!path.isEmpty()) describe(path);
 }

@@ -3,14 +3,20 @@
 #include <fmt/format.h>
 
 #include <QBuffer>
+#include <QDesktopServices>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QLocale>
+#include <QPrintDialog>
+#include <QPrinter>
+#include <QUrl>
 #include <algorithm>
 #include <array>
 
+#include "app/desktop/company.h"
 #include "app/reporting/writers.h"
+#include "app/text/error_text.h"
 #include "core/flow/steps/inputs.h"
 #include "core/report/build.h"
 #include "ui/pages/report_page.h"
@@ -37,6 +43,13 @@ QString page_of(const std::string& kind) {
   return QString::fromStdString(kind);
 }
 
+QString group_of(const std::string& kind) {
+  if (kind == "head") return ReportPresenter::tr("Head of the report");
+  QString name = stepName(kind);
+  if (!name.isEmpty()) name.front() = name.front().toUpper();
+  return name;
+}
+
 /// The report's own list: what the page shows first is what the paper says.
 QVector<ui::DoubtfulFigure> doubts_of(const report::Report& report) {
   QVector<ui::DoubtfulFigure> doubts;
@@ -47,7 +60,7 @@ QVector<ui::DoubtfulFigure> doubts_of(const report::Report& report) {
       if (text == nullptr || !text->warning) continue;
       const bool bad = text->verdict == report::Verdict::bad;
       doubts.append({QString::fromStdString(text->text), bad ? ui::Judgement::bad : ui::Judgement::warn,
-                     page_of(text->trace.artefact)});
+                     page_of(text->trace.artefact), group_of(text->trace.artefact)});
     }
   }
   return doubts;
@@ -97,9 +110,15 @@ ReportPresenter::ReportPresenter(Workbench& bench, ui::ReportPage* page) : Prese
     m_signature = signature;
     m_redraw.start();
   });
-  connect(page, &ui::Page::primaryTriggered, this, [this] { saveAs(QStringLiteral("pdf")); });
+  connect(page, &ui::ReportPage::companyRequested, this, [this] {
+    if (askCompany(m_page)) m_redraw.start();
+  });
+  connect(page, &ui::Page::primaryTriggered, this, &ReportPresenter::saveAs);
   connect(page, &ui::Page::secondaryTriggered, this, [this](const QString& action) {
-    if (action == QStringLiteral("html") || action == QStringLiteral("csv")) saveAs(action);
+    const QFileInfo saved(QDir::fromNativeSeparators(m_savedTo));
+    if (action == QStringLiteral("open")) openOutside(saved.absoluteFilePath());
+    if (action == QStringLiteral("folder")) openOutside(saved.absolutePath());
+    if (action == QStringLiteral("print")) print();
     if (action == QStringLiteral("bundle")) saveBundle();
   });
 }
@@ -138,6 +157,7 @@ report::Report ReportPresenter::chosen(report::Report whole) const {
     m_signature.save(&buffer, "PNG");
     whole.signature_png = bytes.toStdString();
   }
+  signWith(keptCompany(), whole);
   return whole;
 }
 
@@ -166,7 +186,8 @@ void ReportPresenter::built(const std::filesystem::path& job, Result<report::Rep
   m_report = std::move(*made);
   const report::Report shown = chosen(m_report);
   QStringList parts{QString::fromStdString(shown.language), QString::fromStdString(shown.provenance),
-                    QString::number(m_signature.cacheKey())};
+                    QString::number(m_signature.cacheKey()), QString::number(qHash(shown.logo_png))};
+  for (const auto& line : shown.company) parts << QString::fromStdString(line);
   for (const auto& [name, value] : shown.header) parts << QString::fromStdString(value);
   for (const auto& section : shown.sections) parts << QString::fromStdString(section.id);
   const QString of = parts.join(QLatin1Char('|'));
@@ -224,15 +245,54 @@ QString ReportPresenter::defaultPath(const QString& ending) const {
   return file.absoluteDir().filePath(file.completeBaseName() + QLatin1Char('.') + ending);
 }
 
-void ReportPresenter::saveAs(const QString& ending) {
+void ReportPresenter::saveAs() {
   if (bench().job() == nullptr) return;
-  const QString kinds = ending == QStringLiteral("pdf")    ? tr("Report (*.pdf)")
-                        : ending == QStringLiteral("html") ? tr("Report (*.html)")
-                                                           : tr("Figures (*.csv)");
-  QString path = QFileDialog::getSaveFileName(m_page, tr("Save report"), defaultPath(ending), kinds);
+  const QStringList kinds = {tr("Report to print and sign (*.pdf)"), tr("Web page with links to the data (*.html)"),
+                             tr("Figures for a spreadsheet (*.csv)")};
+  const QStringList endings = {QStringLiteral("pdf"), QStringLiteral("html"), QStringLiteral("csv")};
+  QString kind;
+  QString path = QFileDialog::getSaveFileName(m_page, tr("Save report"), defaultPath(endings.front()),
+                                              kinds.join(QStringLiteral(";;")), &kind);
   if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += QLatin1Char('.') + ending;
+  const QString ending = endings.value(std::max<qsizetype>(0, kinds.indexOf(kind)));
+  const QFileInfo file(path);
+  // The kind that was chosen counts, also over the ending of the name that was proposed.
+  if (file.suffix().isEmpty()) path += QLatin1Char('.') + ending;
+  if (endings.contains(file.suffix()) && file.suffix() != ending && !kind.isEmpty()) {
+    path = file.absoluteDir().filePath(file.completeBaseName() + QLatin1Char('.') + ending);
+  }
   save({path});
+}
+
+void ReportPresenter::openOutside(const QString& path) {
+  if (QDesktopServices::openUrl(QUrl::fromLocalFile(path))) return;
+  tell([path] {
+    return ui::Problem{
+        ui::ProblemKind::warning, tr("No program opens %1.").arg(path), tr("Open it with a program of your own."), {}};
+  });
+}
+
+void ReportPresenter::print() {
+  if (bench().job() == nullptr || m_writing.running()) return;
+  auto printer = std::make_unique<QPrinter>(QPrinter::HighResolution);
+  printer->setPageSize(QPageSize(QPageSize::A4));
+  printer->setFullPage(true);
+  printer->setDocName(QFileInfo(defaultPath(QStringLiteral("pdf"))).completeBaseName());
+  QPrintDialog dialog(printer.get(), m_page);
+  if (dialog.exec() != QDialog::Accepted) return;
+  runTask<report::Report>(
+      tr("Printing the report"),
+      [job = bench().job(), language = m_language](const TaskContext&) { return report::build_report(*job, language); },
+      [this, paper = std::make_shared<std::unique_ptr<QPrinter>>(std::move(printer))](Result<report::Report> made) {
+        if (!made) return;
+        m_page->setProgress(tr("Printing the report"), -1.0, std::nullopt, false);
+        m_writing.begin(reporting::print_drawing(chosen(std::move(*made)), std::move(*paper)),
+                        [this](const Status& ended) {
+                          m_page->clearProgress();
+                          if (!ended) return show(ended.error());
+                          bench().log(LogKind::good, tr("Report printed"));
+                        });
+      });
 }
 
 struct ReportPresenter::Saving {

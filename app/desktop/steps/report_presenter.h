@@ -31,7 +31,10 @@ class ReportPresenter : public Presenter {
   void tour(std::function<void(bool good)> done) override;
 
  private:
-  void saveAs(const QString& ending);
+  void saveAs();
+  void print();
+  /// By the desktop's own program.
+  void openOutside(const QString& path);
   void saveBundle();
   void setLanguage(int index);
   /// Every page of the window as it is now, for support.

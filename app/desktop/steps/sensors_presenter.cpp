@@ -8,6 +8,7 @@
 #include "core/flow/steps/inputs.h"
 #include "core/report/limits.h"
 #include "ui/pages/sensors_page.h"
+#include "ui/widgets/number_text.h"
 
 namespace zerodrift::desktop {
 
@@ -176,6 +177,7 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
   state.clusters = static_cast<int>(body.value("clusters", json::array()).size());
   const json suggested = body.value("suggested_clusters", json::object());
   state.suggestedClusters = suggested.value("silhouette", state.clusters);
+  state.proposal = proposalInWords(body);
   state.automatic = body.value("clusters_asked", 1) == 0;
   const json explained = body.value("explained_variance", json::array());
   if (explained.size() >= 2) {
@@ -195,6 +197,24 @@ void SensorsPresenter::fill(ui::SensorsState& state, const json& body) const {
     state.budgetCount.append(number(point, "sensors"));
     state.budgetError_um.append(number(point, "held_out_rms_um"));
   }
+}
+
+/// Why so many are proposed and not more or fewer; "" when they were chosen by hand.
+QString SensorsPresenter::proposalInWords(const json& body) const {
+  if (body.value("chosen_by", "") == "hand") return {};
+  const json choice = body.value("choice", json::object());
+  const auto count = static_cast<int>(body.value("chosen", json::array()).size());
+  if (choice.value("one_cycle", false)) {
+    return tr("%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.",
+              nullptr, count);
+  }
+  const json flat = choice.value("flat", json::object());
+  QStringList left;
+  for (const auto& sensor : flat.value("left", json::array())) left << bench().tagOf(sensor.get<std::string>());
+  if (left.isEmpty()) return {};
+  return tr("%n proposed: with %1 the error to expect would be only %2 µm less.", nullptr, count)
+      .arg(ui::listText(left))
+      .arg(std::max(0.0, flat.value("cost_um", 0.0)), 0, 'f', 2);
 }
 
 void SensorsPresenter::fillSeries(ui::SensorsState& state) const {

@@ -32,6 +32,7 @@ class SensorsPresenter : public Presenter {
   void run(const flow::SensorsOptions& options, std::function<void(bool good)> done);
   std::vector<std::string> errorsOf(const nlohmann::json& body) const;
   void fill(ui::SensorsState& state, const nlohmann::json& body) const;
+  QString proposalInWords(const nlohmann::json& body) const;
   void fillSeries(ui::SensorsState& state) const;
 
   ui::SensorsPage* m_page;

@@ -94,8 +94,12 @@ QStringList UploadPresenter::warningsInWords() const {
 }
 
 /// What a person should know before the question is answered: a model above its limit, a machine outside its range.
-QString UploadPresenter::doubtsOfWriting() const {
-  QString doubts;
+QStringList UploadPresenter::doubtsOfWriting() const {
+  QStringList doubts;
+  const std::string& outdated = m_preview->model_outdated_by;
+  if (!outdated.empty()) {
+    doubts << tr("The model is out of date: %1 changed after it was fitted.").arg(stepName(outdated));
+  }
   double peak_um = 0.0;
   const json model = bench().body("model");
   for (const auto& figure : model.is_object() ? model.value("figures", json::array()) : json::array()) {
@@ -104,14 +108,32 @@ QString UploadPresenter::doubtsOfWriting() const {
     }
   }
   if (!chosenTable() && peak_um > report::limits::attainable_peak_um) {
-    doubts += tr("The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm. ")
+    doubts << tr("The fit leaves up to %1 µm on unseen stretches, above the limit of %2 µm.")
                   .arg(peak_um, 0, 'f', 1)
                   .arg(report::limits::attainable_peak_um, 0, 'f', 0);
   }
-  for (const QString& warning : warningsInWords()) {
-    doubts += tr("%1.", "a whole sentence").arg(warning) + QLatin1Char(' ');
-  }
+  for (const QString& warning : warningsInWords()) doubts << tr("%1.", "a whole sentence").arg(warning);
   return doubts;
+}
+
+/// What is written, a line each.
+QString UploadPresenter::factsOfWriting() const {
+  const auto& record = m_preview->record;
+  const QString signs = m_correction   ? tr("Sign: as checked for the version before.")
+                        : signStands() ? tr("Sign: checked at %1.").arg(m_signAt.toString(QStringLiteral("HH:mm")))
+                                       : tr("Sign: each axis is first moved by 10 µm and back, watched by the camera.");
+  const QString change = m_preview->largest_change_axis.empty()
+                             ? tr("Nothing changes at the temperatures of this moment.")
+                             : tr("Largest change now: %1 µm in %2.")
+                                   .arg(m_preview->largest_change_um, 0, 'f', 1)
+                                   .arg(QString::fromStdString(m_preview->largest_change_axis));
+  const QString version =
+      controller::is_empty_table(record.old_words.size())
+          ? tr("Version %1; the machine holds no table now.").arg(record.sequence)
+          : tr("Version %1 takes the place of version %2.").arg(record.sequence).arg(record.old_sequence);
+  return QStringList{tr("Axes: %1.").arg(axes_text(m_preview->table)), change, version, signs,
+                     tr("The compensation is off while it is written and on afterwards.")}
+      .join(QLatin1Char('\n'));
 }
 
 void UploadPresenter::askAndWrite(Done done) {
@@ -126,25 +148,16 @@ void UploadPresenter::askAndWrite(Done done) {
     const QString heading =
         tr("Write the table into %1?")
             .arg(tr("%1 (serial %2)").arg(QString::fromStdString(record.machine)).arg(record.serial));
-    const QString signs = m_correction ? QString()
-                          : signStands()
-                              ? tr("The sign was checked at %1.").arg(m_signAt.toString(QStringLiteral("HH:mm")))
-                              : tr("Before that each axis is moved by 10 µm and back, watched by the camera.");
-    const std::string& outdated = m_preview->model_outdated_by;
-    const QString old_model =
-        outdated.empty() ? QString()
-                         : tr("The model is out of date: %1 changed after it was fitted. ").arg(stepName(outdated));
-    const QString text =
-        old_model + doubtsOfWriting() +
-        tr("Axes %1. The largest change now is %2 µm in %3. Version %4 takes the place of version %5. The compensation "
-           "is off while it is written and on afterwards. %6")
-            .arg(axes_text(m_preview->table))
-            .arg(m_preview->largest_change_um, 0, 'f', 1)
-            .arg(QString::fromStdString(m_preview->largest_change_axis))
-            .arg(record.sequence)
-            .arg(record.old_sequence)
-            .arg(signs);
-    if (confirmed(heading, text, tr("Write"))) {
+    const QStringList doubts = doubtsOfWriting();
+    QString text = factsOfWriting();
+    if (doubts.size() == 1) text += QStringLiteral("\n\n") + doubts.first();
+    if (doubts.size() > 1) {
+      text += QStringLiteral("\n\n") +
+              tr("%n warning(s), in the details. The first: %1", nullptr, static_cast<int>(doubts.size()))
+                  .arg(doubts.first());
+    }
+    const QString details = doubts.size() > 1 ? doubts.join(QStringLiteral("\n\n")) : QString();
+    if (confirmed(heading, text, tr("Write"), details)) {
       write(done);
     } else if (done) {
       done(false);

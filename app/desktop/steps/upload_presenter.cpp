@@ -156,8 +156,9 @@ bool UploadPresenter::signStands() const {
          m_signAt.secsTo(QDateTime::currentDateTime()) < qint64{60} * sign_stands_min;
 }
 
-bool UploadPresenter::confirmed(const QString& heading, const QString& text, const QString& deed) const {
-  return !m_asking || ask(m_page, heading, text, deed);
+bool UploadPresenter::confirmed(const QString& heading, const QString& text, const QString& deed,
+                                const QString& details) const {
+  return !m_asking || askWithDetails(m_page, heading, text, deed, details);
 }
 
 std::function<void(const controller::UploadStep&)> UploadPresenter::observer() {

@@ -40,9 +40,10 @@ class UploadPresenter : public Presenter {
 
   void preview(Done done);
   void askAndWrite(Done done);
-  QString doubtsOfWriting() const;
+  QStringList doubtsOfWriting() const;
+  QString factsOfWriting() const;
   QStringList warningsInWords() const;
-  bool confirmed(const QString& heading, const QString& text, const QString& deed) const;
+  bool confirmed(const QString& heading, const QString& text, const QString& deed, const QString& details = {}) const;
   void write(Done done);
   void rollBack(const QString& id);
   void askAndRollBack();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/desktop/ask.h"
 #include "app/text/error_text.h"
 #include "core/base/error_json.h"
 #include "core/flow/flow.h"
@@ -92,6 +93,8 @@ void VerifyPresenter::primary() {
   if (running()) {
     pauseOrResume();
     refresh();
+  } else if (m_page->state().phase == ui::VerifyPhase::interrupted) {
+    if (interrupted() && agreed(interrupted()->plan)) start({});
   } else if (m_page->state().phase != ui::VerifyPhase::finished) {
     const json warmup = bench().body("warmup");
     if (!warmup.is_object()) return;
@@ -103,6 +106,10 @@ void VerifyPresenter::primary() {
     Q_EMIT rollbackWanted(m_page->state().versionBefore);
   } else if (m_page->correctionNeeded()) {
     applyCorrection({});
+  } else if (m_page->furtherRunNeeded()) {
+    Q_EMIT furtherRunWanted();
+  } else if (m_page->verifyAgainNeeded()) {
+    secondary(QStringLiteral("again"));
   } else {
     Q_EMIT nextRequested();
   }
@@ -113,7 +120,9 @@ void VerifyPresenter::secondary(const QString& action) {
     m_again = true;
     forgetRun();  // the next run's plots begin empty
   }
-  if (action == QStringLiteral("skip")) m_skipped = true;
+  if (action == QStringLiteral("skip") || action == QStringLiteral("goOn")) m_skipped = true;
+  if (action == QStringLiteral("drop")) dropInterrupted();
+  if (action == QStringLiteral("finish") && !running()) return finishInterrupted();
   if (action == QStringLiteral("correct")) return applyCorrection({});
   if (action == QStringLiteral("rollback")) {
     Q_EMIT rollbackWanted(m_page->state().versionBefore);
@@ -121,6 +130,23 @@ void VerifyPresenter::secondary(const QString& action) {
   }
   steer(action);
   refresh();
+  if (action == QStringLiteral("goOn")) Q_EMIT nextRequested();
+}
+
+void VerifyPresenter::finishInterrupted() {
+  if (m_page->state().phase != ui::VerifyPhase::interrupted) return;
+  if (!ask(m_page, tr("Finish the interrupted run?"), tr("What was recorded until the interruption is kept and used."),
+           tr("Finish"))) {
+    return;
+  }
+  resumeToFinish();
+}
+
+Result<std::optional<flow::RecordedRun>> VerifyPresenter::readInterrupted() const {
+  ZD_TRY(auto found, flow::interrupted_verification(*bench().job()));
+  const json& kept = bench().body("verification");
+  const bool older = found && kept.is_object() && kept.value("series", 0LL) > found->series;
+  return older ? std::nullopt : std::move(found);
 }
 
 void VerifyPresenter::start(std::function<void(bool good)> done) {
@@ -164,10 +190,19 @@ void VerifyPresenter::applyCorrection(std::function<void(bool good)> done) {
 void VerifyPresenter::fillRun(ui::VerifyState& state) {
   const auto& now = feed().now();
   state.phase = feed().paused() ? ui::VerifyPhase::paused : ui::VerifyPhase::running;
+  state.silentSince = silentSince();
   if (!feed().receiving()) return;
   state.peakAfter_um = feed().largestError_um();
   state.afterAxis = feed().largestErrorAxis();
   if (feed().measuredAt_s() >= 0) state.lastGoodFrame_s = std::max(0.0, now.time_s - feed().measuredAt_s());
+}
+
+void VerifyPresenter::fillInterrupted(ui::VerifyState& state) {
+  state.phase = ui::VerifyPhase::interrupted;
+  state.keptBefore = bench().has("verification");
+  showInterrupted();
+  state.peakAfter_um = feed().largestError_um();
+  state.afterAxis = feed().largestErrorAxis();
 }
 
 /// The reference is the one the job's figures have: page and report say the same.
@@ -237,6 +272,7 @@ void VerifyPresenter::fillResult(ui::VerifyState& state, const json& body) {
   state.promiseReach = report::limits::promise_reach;
   state.promised_um = report::promise_of(bench().body("model"), body).promised_um;
   fillCorrection(state);
+  state.leftAsItIs = m_skipped;
 }
 
 void VerifyPresenter::compute(const commissioning::Artefact& verification) {
@@ -344,6 +380,8 @@ void VerifyPresenter::refresh() {
   const json& body = bench().body("verification");
   if (running()) {
     fillRun(state);
+  } else if (!m_again && interrupted()) {
+    fillInterrupted(state);
   } else if (body.is_object() && !m_again && !ofAnotherTable()) {
     fillResult(state, body);
   }

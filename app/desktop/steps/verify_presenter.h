@@ -25,11 +25,16 @@ class VerifyPresenter : public RunPresenter {
   void correctionWanted(const zerodrift::compensation::Table& table, std::function<void(bool good)> done);
   /// Going back to this version is to be looked at, where transactions are.
   void rollbackWanted(int version);
+  /// A further warm-up run is to be planned.
+  void furtherRunWanted();
 
  private:
   void primary();
   void secondary(const QString& action);
-  void start(std::function<void(bool good)> done);
+  void start(std::function<void(bool good)> done) override;
+  Result<std::optional<flow::RecordedRun>> readInterrupted() const override;
+  void finishInterrupted();
+  void fillInterrupted(ui::VerifyState& state);
   void applyCorrection(std::function<void(bool good)> done);
   void fillRun(ui::VerifyState& state);
   void fillResult(ui::VerifyState& state, const nlohmann::json& body);

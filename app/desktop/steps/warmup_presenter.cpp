@@ -7,7 +7,6 @@
 
 #include "app/desktop/ask.h"
 #include "app/text/core_text.h"
-#include "core/acquisition/job_sink.h"
 #include "core/base/json.h"
 #include "core/flow/steps/warmup_step.h"
 #include "core/recording/csv.h"
@@ -68,7 +67,6 @@ void WarmupPresenter::forget() {
   m_undo.clear();
   m_recording = 0;
   m_recordingsBefore.clear();
-  m_interrupted.reset();
 }
 
 void WarmupPresenter::setPlan(const acquisition::Plan& plan) {
@@ -83,6 +81,12 @@ void WarmupPresenter::propose(const acquisition::Plan& plan) {
   m_again = true;
   m_preset = -1;
   setPlan(plan);
+}
+
+void WarmupPresenter::planFurtherRun() {
+  if (running()) return;
+  m_again = true;
+  refresh();
 }
 
 void WarmupPresenter::undo() {
@@ -104,10 +108,15 @@ void WarmupPresenter::primary() {
     Q_EMIT importWanted();
   } else if (running()) {
     pauseOrResume();
-  } else if (agreed(m_plan)) {
+  } else if (agreed(comingPlan())) {
     start({});
   }
   refresh();
+}
+
+/// What would be run now.
+const acquisition::Plan& WarmupPresenter::comingPlan() {
+  return !m_again && interrupted() ? interrupted()->plan : m_plan;
 }
 
 void WarmupPresenter::secondary(const QString& action) {
@@ -117,10 +126,8 @@ void WarmupPresenter::secondary(const QString& action) {
   if (action == QStringLiteral("load")) loadPlan();
   if (action == QStringLiteral("save")) savePlan();
   if (action == QStringLiteral("export")) exportRun();
-  if (action == QStringLiteral("again")) {
-    m_again = true;
-    refresh();
-  }
+  if (action == QStringLiteral("drop")) dropInterrupted();
+  if (action == QStringLiteral("again")) planFurtherRun();
 }
 
 /// An interrupted run is taken up only to be ended as it should: spindle off, series closed, what there is kept.
@@ -137,13 +144,11 @@ void WarmupPresenter::finishInterrupted() {
             [](commissioning::Job& job, const TaskContext&) { return flow::end_interrupted_warmup(job); });
     return;
   }
-  connect(
-      &feed(), &RunFeed::updated, this, [this] { feed().finish(); }, Qt::SingleShotConnection);
-  start({});
+  resumeToFinish();
 }
 
 void WarmupPresenter::loadPlan() {
-  const QString path = QFileDialog::getOpenFileName(m_page, tr("Warm-up plan"), QDir::homePath(), tr("Plans (*.json)"));
+  const QString path = QFileDialog::getOpenFileName(m_page, tr("Warm-up plan"), bench().folder(), tr("Plans (*.json)"));
   if (path.isEmpty()) return;
   const auto plan = acquisition::read_plan(path.toStdString());
   if (!plan) {
@@ -158,7 +163,7 @@ void WarmupPresenter::exportRun() {
   const json body = bench().body("warmup");
   if (!body.is_object()) return;
   const QString path = QFileDialog::getSaveFileName(
-      m_page, tr("Save as CSV"), QDir::homePath() + QStringLiteral("/warm-up.csv"), tr("Recordings (*.csv)"));
+      m_page, tr("Save as CSV"), bench().folder() + QStringLiteral("/warm-up.csv"), tr("Recordings (*.csv)"));
   if (path.isEmpty()) return;
   const auto run = bench().job()->read_series(body.at("series").get<long long>());
   const Status written = run ? recording::write_recording(path.toStdString(), *run) : Status(fail(run.error()));
@@ -167,7 +172,7 @@ void WarmupPresenter::exportRun() {
 
 void WarmupPresenter::savePlan() {
   const QString path = QFileDialog::getSaveFileName(
-      m_page, tr("Save plan"), QDir::homePath() + QStringLiteral("/plan.json"), tr("Plans (*.json)"));
+      m_page, tr("Save plan"), bench().folder() + QStringLiteral("/plan.json"), tr("Plans (*.json)"));
   if (path.isEmpty()) return;
   if (const Status written = write_json_file(path.toStdString(), acquisition::to_json(m_plan)); !written) {
     show(written.error());
@@ -176,8 +181,9 @@ void WarmupPresenter::savePlan() {
 
 void WarmupPresenter::start(std::function<void(bool good)> done) {
   const auto& profile = bench().profile();
+  m_runningPlan = comingPlan();
   const auto plan = acquisition::with_measuring_position(
-      m_plan, profile ? profile->measure_position_mm : std::map<std::string, double>());
+      m_runningPlan, profile ? profile->measure_position_mm : std::map<std::string, double>());
   if (!plan) {
     show(plan.error());
     if (done) done(false);
@@ -194,7 +200,8 @@ void WarmupPresenter::start(std::function<void(bool good)> done) {
 void WarmupPresenter::fillRun(ui::WarmupState& state) {
   const auto& now = feed().now();
   state.phase = feed().paused() ? ui::RunPhase::paused : ui::RunPhase::running;
-  m_interrupted.reset();
+  state.silentSince = silentSince();
+  state.plan = rows_of(m_runningPlan);
   state.elapsed_s = now.time_s;
   if (feed().receiving()) {
     state.timeLeft_s = now.seconds_left;
@@ -237,17 +244,18 @@ void WarmupPresenter::fillImported(ui::WarmupState& state, const json& body) {
 
 /// What was recorded until then is there to be looked at before it is gone on with or finished.
 void WarmupPresenter::fillInterrupted(ui::WarmupState& state) {
+  const auto& run = *interrupted();
   state.phase = ui::RunPhase::interrupted;
-  if (showSeries(m_interrupted->series)) {
-    feed().showHappened(m_interrupted->happened, m_interrupted->summary.measurements, m_interrupted->summary.refused);
-  }
-  state.plan = rows_of(m_interrupted->plan);
-  state.elapsed_s = m_interrupted->summary.duration_s;
-  state.timeLeft_s = std::max(0.0, m_interrupted->plan.duration_s() - state.elapsed_s);
+  state.keptBefore = bench().has("warmup");
+  feed().setImported(false);
+  showInterrupted();
+  state.plan = rows_of(run.plan);
+  state.elapsed_s = run.summary.duration_s;
+  state.timeLeft_s = std::max(0.0, run.plan.duration_s() - state.elapsed_s);
   state.largestError_um = feed().largestError_um();
   state.largestErrorAxis = feed().largestErrorAxis();
-  state.samplesLost = m_interrupted->summary.lost_samples;
-  state.samples = m_interrupted->summary.rows;
+  state.samplesLost = run.summary.lost_samples;
+  state.samples = run.summary.rows;
   state.longestHole_s = feed().longestHole_s();
 }
 
@@ -276,13 +284,19 @@ void WarmupPresenter::refresh() {
   const json& body = bench().body("warmup");
   if (running()) {
     fillRun(state);
+  } else if (!m_again && interrupted()) {
+    fillInterrupted(state);
   } else if (body.is_object() && !m_again) {
     fillKept(state, body);
-  } else if (!m_again) {
-    if (!m_interrupted) m_interrupted = flow::interrupted_warmup(*job).value_or(std::nullopt);
-    if (m_interrupted) fillInterrupted(state);
   }
   m_page->setState(state);
+}
+
+Result<std::optional<flow::RecordedRun>> WarmupPresenter::readInterrupted() const {
+  ZD_TRY(auto found, flow::interrupted_warmup(*bench().job()));
+  const json& kept = bench().body("warmup");
+  const bool older = found && kept.is_object() && kept.value("series", 0LL) > found->series;
+  return older ? std::nullopt : std::move(found);
 }
 
 void WarmupPresenter::tour(std::function<void(bool good)> done) {

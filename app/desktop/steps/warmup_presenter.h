@@ -27,6 +27,8 @@ class WarmupPresenter : public RunPresenter {
   void setPlan(const acquisition::Plan& plan);
   /// A further run, planned elsewhere.
   void propose(const acquisition::Plan& plan);
+  /// The same, planned here.
+  void planFurtherRun();
   /// Beside the run of a job from files only.
   void addRecording(const recording::Recording& run, const QString& name, const nlohmann::json& how,
                     ui::RecordingUse use);
@@ -37,7 +39,9 @@ class WarmupPresenter : public RunPresenter {
  private:
   void primary();
   void secondary(const QString& action);
-  void start(std::function<void(bool good)> done);
+  void start(std::function<void(bool good)> done) override;
+  Result<std::optional<flow::RecordedRun>> readInterrupted() const override;
+  const acquisition::Plan& comingPlan();
   void fillRun(ui::WarmupState& state);
   void fillImported(ui::WarmupState& state, const nlohmann::json& body);
   void fillRecordings(ui::WarmupState& state);
@@ -55,11 +59,11 @@ class WarmupPresenter : public RunPresenter {
   ui::WarmupPage* m_page;
   std::vector<acquisition::Plan> m_presets;
   acquisition::Plan m_plan;
+  acquisition::Plan m_runningPlan;
   std::vector<acquisition::Plan> m_undo;
   int m_preset = 0;
   int m_recording = 0;  // that is shown; 0: the run itself
   std::vector<std::vector<flow::FurtherRecording>> m_recordingsBefore;
-  std::optional<flow::RecordedRun> m_interrupted;  // as it was drawn last
 };
 
 }  // namespace zerodrift::desktop

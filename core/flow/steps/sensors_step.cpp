@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/happening.h"
 #include "core/analysis/budget.h"
 #include "core/analysis/clustering.h"
+#include "core/analysis/evaluate.h"
 #include "core/analysis/sensor_choice.h"
 #include "core/analysis/statistics.h"
 #include "core/analysis/training.h"
@@ -29,7 +31,41 @@ constexpr std::size_t most_sensors = 8;
 /// One cycle does not say which bodies matter at other speeds: more of them keep a sensor.
 constexpr std::size_t most_of_one_cycle = 12;
 
+/// So little more error is no reason for another cable.
+constexpr double flat_um = 0.05;
+
 using Names = std::vector<std::string>;
+
+struct Thinned {
+  Names kept;
+  Names left;            // that the curve is flat without
+  double cost_um = 0.0;  // of leaving them, in error to expect
+};
+
+/// The sensor that is missed least goes, and so on, as long as the error to expect stays within flat_um of the whole
+/// set's; `fewest` stay, so that each cluster of bodies may keep one.
+Result<Thinned> thinned(const analysis::TrainingSet& training, const analysis::SensorSet& whole, std::size_t fewest,
+                        const TaskContext& context) {
+  Thinned out{whole.sensors, {}, 0.0};
+  while (out.kept.size() > fewest) {
+    std::size_t least = 0;
+    double least_um = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < out.kept.size(); ++i) {
+      Names tried = out.kept;
+      tried.erase(tried.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto recipe = analysis::make_recipe(judged_by, tried, training);
+      ZD_TRY(const auto judged, analysis::evaluate(training, recipe, 0.9, context));
+      if (judged.expected_um >= least_um) continue;
+      least = i;
+      least_um = judged.expected_um;
+    }
+    if (least_um > whole.expected_um + flat_um) break;
+    out.left.push_back(out.kept[least]);
+    out.kept.erase(out.kept.begin() + static_cast<std::ptrdiff_t>(least));
+    out.cost_um = least_um - whole.expected_um;
+  }
+  return out;
+}
 
 /// What the kept sensors leave on unseen stretches, what all would, and what each one is worth: kept, by how much the
 /// error rises without it; left, by how much it changes with it.
@@ -133,9 +169,16 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   choice_options.most = std::max(training.folds.cycles < 2 ? most_of_one_cycle : most_sensors, choice_options.few);
   ZD_TRY(const auto choice, analysis::choose_sensor_set(training, choice_options, context));
   const auto& best = choice.sets[choice.chosen];
-  const auto& chosen = options.chosen.empty() ? best.sensors : options.chosen;
+  // One cycle does not tell which sensor is idle: bodies that rose together in it need not do so at other speeds.
+  Thinned proposed{best.sensors, {}, 0.0};
+  if (options.chosen.empty() && !choice.one_cycle) {
+    ZD_TRY(proposed, thinned(training, best, choice_options.few, context));
+  }
+  const auto& chosen = options.chosen.empty() ? proposed.kept : options.chosen;
   for (const auto& one : chosen) ZD_CHECK(run.require(one).map([](auto) {}));
   body["choice"] = analysis::to_json(choice);
+  body["choice"]["one_cycle"] = choice.one_cycle;
+  body["choice"]["flat"] = {{"left", proposed.left}, {"cost_um", proposed.cost_um}};
   ZD_TRY(body["price"], price_of(training, chosen, context));
   ZD_TRY(body["budget"], budget_of(training, context));
   ZD_TRY(body["condition_number"]["chosen"], analysis::fitted_condition(training, chosen));

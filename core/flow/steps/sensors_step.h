@@ -2,8 +2,9 @@
 // Step "sensors" (S1, S2): clusters the temperature series of the warm-up run and compares the sensitive points with
 // other sets of sensors; the one with the least error to expect is kept. Makes the artefact "sensors": the clustering's
 // own JSON (core/analysis/clustering.h) and
-//   "clusters_asked": 0 as suggested, "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets}
-//   (core/analysis/sensor_choice.h), "price": {held_out_rms_um, held_out_peak_um (of the chosen), all_rms_um, change_um
+//   "clusters_asked": 0 as suggested, "chosen": [...], "chosen_by": kind of the set|"hand", "choice": {reason, sets
+//   (core/analysis/sensor_choice.h), one_cycle, flat {left: [...] of the best set, since the error hardly grows without
+//   them, cost_um}}, "price": {held_out_rms_um, held_out_peak_um (of the chosen), all_rms_um, change_um
 //   {sensor: change of the rms when a kept one is dropped or a left one is added}}, "budget": [{sensors, added,
 //   held_out_rms_um, held_out_peak_um}], "condition_number": {..., chosen (of the fit, its penalty included),
 //   chosen_temperatures}, "table": [{channel, label, note, cluster, correlation_sum, kept}], "left_out": [{channel,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error_json.h"
+#include "core/base/time_text.h"
 #include "core/compensation/residual.h"
 #include "core/flow/machine_table.h"
 #include "core/flow/steps/inputs.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double axis_threshold_um = 1.0;  // once the table is written again: what is worth correcting in each axis
 const std::string no_correction = "no_correction";
+const std::string verification_name = "verification";  // of its series
 
 ResidualSamples residuals_of(const recording::Recording& run, const compensation::Table& table) {
   ResidualSamples samples;
@@ -107,6 +109,18 @@ acquisition::Plan verification_plan(const acquisition::Plan& warmup) {
   return plan;
 }
 
+Result<std::optional<RecordedRun>> interrupted_verification(const commissioning::Job& job) {
+  ZD_TRY(auto interrupted, interrupted_recording(job, verification_name));
+  if (!interrupted) return std::nullopt;
+  ZD_TRY(const auto upload, job.latest("upload"));
+  if (!upload) return std::nullopt;
+  ZD_TRY(const UtcTime written, utc_from_text(upload->created_utc));
+  ZD_TRY(const auto series, job.series_info(interrupted->series));
+  ZD_TRY(const UtcTime begun, utc_from_text(series.started_utc));
+  if (begun < written) return std::nullopt;
+  return interrupted;
+}
+
 Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devices, const VerifyOptions& options,
                                           const TaskContext& context) {
   ZD_TRY(const Input warmup, need(job, "verify", "warmup"));
@@ -119,7 +133,9 @@ Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devi
     run_options.plan = verification_plan(plan);
   }
   acquisition::RecorderOptions recorder_options;
-  recorder_options.name = "verification";
+  recorder_options.name = verification_name;
+  ZD_TRY(const auto interrupted, interrupted_verification(job));
+  run_options.anew = run_options.anew || !interrupted;
   recorder_options.with_compensation = true;
   recorder_options.guard = acquisition::compensation_must_be_on("verification");
   if (warmup.body.contains("zero_um") && warmup.body["zero_um"].is_array()) {

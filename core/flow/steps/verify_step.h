@@ -33,6 +33,10 @@ struct VerifyOptions {
 /// The warm-up's speeds in another order with a rest between, three quarters as long.
 acquisition::Plan verification_plan(const acquisition::Plan& warmup);
 
+/// The verification that was broken off and can be gone on with: nothing when the last one was ended, or when a table
+/// was written since it was begun. verify() goes on with it, and begins anew otherwise.
+Result<std::optional<RecordedRun>> interrupted_verification(const commissioning::Job& job);
+
 Result<commissioning::NewArtefact> verify(commissioning::Job& job, Devices& devices, const VerifyOptions& options,
                                           const TaskContext& context);
 

@@ -198,8 +198,8 @@ Result<commissioning::NewArtefact> record_warmup(commissioning::Job& job, Device
   return warmup_artefact(job, run, machine, calibration);
 }
 
-Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job) {
-  ZD_TRY(const auto interrupted, acquisition::interrupted_run(job, "warm-up"));
+Result<std::optional<RecordedRun>> interrupted_recording(const commissioning::Job& job, const std::string& name) {
+  ZD_TRY(const auto interrupted, acquisition::interrupted_run(job, name));
   if (!interrupted) return std::nullopt;
   RecordedRun run;
   run.series = interrupted->series;
@@ -209,6 +209,10 @@ Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& 
   run.summary = summary_of(recording, run.plan);
   ZD_TRY(run.happened, happened_in(job, run.series));
   return run;
+}
+
+Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job) {
+  return interrupted_recording(job, "warm-up");
 }
 
 Result<commissioning::NewArtefact> end_interrupted_warmup(commissioning::Job& job) {

@@ -43,7 +43,8 @@ struct RecordedRun {
   std::vector<acquisition::Happening> happened;
   std::vector<controller::DeviceState> devices;  // beside the control
 };
-/// The warm-up run that was broken off, as far as it is on the disk; nothing when the last one was ended.
+/// The run of this name that was broken off, as far as it is on the disk; nothing when the last one was ended.
+Result<std::optional<RecordedRun>> interrupted_recording(const commissioning::Job& job, const std::string& name);
 Result<std::optional<RecordedRun>> interrupted_warmup(const commissioning::Job& job);
 
 Result<RecordedRun> record_run(commissioning::Job& job, Devices& devices, const RunOptions& options,
