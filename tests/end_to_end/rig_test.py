@@ -1,13 +1,16 @@
 """A whole commissioning on a rig of several devices, and one on a control without a link, where a stand-in does what the
 program asks of the operator. Judged by the machine's own truth."""
 
+import csv
 import json
 import os
 import subprocess
 import sys
 import threading
+import time
 import urllib.request
 
+from broker import Broker, wait_for
 from virtual_machine import BIN, VirtualMachine, cli, run_in_folder, warm_up_plan, write_json
 
 LIMIT_UM = 5.0
@@ -119,5 +122,37 @@ def test_manual(folder):
         assert "upload table" in trail, trail
 
 
+def test_faults(folder):
+    """A broker that is gone for a while costs its channels for that while, and not the run."""
+    with Broker(folder) as broker, VirtualMachine(folder, 120, 7, "--rig", "--mqtt-broker",
+                                                  f"127.0.0.1:{broker.port}") as machine:
+        plan = write_json(os.path.join(folder, "plan.json"), warm_up_plan(2.0))
+        job = os.path.join(folder, "job.zdj")
+        command = [os.path.join(BIN, "zerodrift-cli"), "record", "--profile", machine.profile, "--plan", plan, "--job", job,
+                   "--json"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        log = []
+        listener = threading.Thread(target=lambda: log.append(process.communicate()))
+        listener.start()
+        wait_for(lambda: machine.truth_rows() and any(row["dZ_um"] > 5 for row in machine.truth_rows()), 300)
+        broker.stop()
+        time.sleep(15)
+        broker.start()
+        listener.join(600)
+        out, err = log[0]
+        assert process.returncode == 0, err
+        run = json.loads(out)
+        assert any("shop" in str(problem) for problem in run["problems"]), run["problems"]
+        devices = {one["id"]: one for one in run["devices"]}
+        assert devices["shop"]["faults"] > 0 and devices["module-1"]["faults"] == 0, devices
+        recording = os.path.join(folder, "run.csv")
+        cli("recording", "--job", job, "--run", "warm-up", "--out", recording)
+        with open(recording, newline="") as file:
+            rows = list(csv.DictReader(file))
+        missing = [row["T20_C"] == "" for row in rows]
+        assert not missing[0] and any(missing) and not missing[-1], "missing only while the broker was gone"
+        assert all(row["T1_C"] for row in rows), "the module goes on"
+
+
 if __name__ == "__main__":
-    run_in_folder({"rig": test_rig, "manual": test_manual}[sys.argv[1]])
+    run_in_folder({"rig": test_rig, "manual": test_manual, "faults": test_faults}[sys.argv[1]])

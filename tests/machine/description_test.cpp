@@ -40,7 +40,7 @@ TEST(Description, TheRigsProfileGivesEachSensorItsDevice) {
   rig.operator_port = 8070;
   const auto manual = connection_profile(endpoints, {});
   EXPECT_FALSE(manual.contains("controller"));
-  EXPECT_EQ(manual["control"]["kind"], "manual");
+  EXPECT_EQ(manual["devices"].back()["kind"], "manual");
   EXPECT_EQ(manual["speed"]["signal"], "S1speed");
   EXPECT_EQ(manual["devices"][4]["port"], 1883);
   EXPECT_EQ(manual["sensors"][18]["signal"], "shop/T19#/temperature_C");
