@@ -9,6 +9,7 @@
 
 #include "app/desktop/ask.h"
 #include "app/desktop/file_opener.h"
+#include "app/desktop/operator_dialog.h"
 #include "app/desktop/pin_dialog.h"
 #include "app/desktop/registry.h"
 #include "app/desktop/steps/compensator_presenter.h"
@@ -54,7 +55,8 @@ Application::Application(ui::Theme& theme)
       m_window(std::make_unique<ui::MainWindow>()),
       m_opener(new FileOpener(*this)) {
   m_presenters = makePages(*m_bench, *m_window, *m_demo);
-  setLanguage(english);  // its plurals are translations too
+  new OperatorDialog(m_bench->questions(), m_window.get());  // the window's; it comes with a question
+  setLanguage(english);                                      // its plurals are translations too
   wire();
   openPage(m_presenters.front()->id());
   updateSteps();
@@ -210,8 +212,9 @@ void Application::switchCompensation() {
   if (!permit) return;
   m_bench->tasks().start<bool>(
       tr("Switching the compensation"),
-      [profile = *profile, permit = *permit, job = m_bench->job(), on](const TaskContext&) -> Result<bool> {
-        ZD_TRY(auto devices, flow::Devices::open(profile, false, permit));
+      [profile = *profile, permit = *permit, job = m_bench->job(), on,
+       questions = m_bench->questions()](const TaskContext& context) -> Result<bool> {
+        ZD_TRY(auto devices, flow::Devices::open(profile, false, permit, questions->of(profile, context.stop)));
         return flow::switch_compensation(job.get(), devices, flow::Consent::given(), on);
       },
       [this](Result<bool> now) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/controller/modbus_machine.h"
+#include "core/flow/devices.h"
 
 namespace zerodrift::desktop {
 
@@ -29,31 +29,34 @@ double seconds_between(steady_clock::time_point from, steady_clock::time_point t
 /// One connection and what is known through it.
 class Eye {
  public:
-  explicit Eye(const controller::Profile& profile) : m_profile(profile) {}
+  Eye(const controller::Profile& profile, std::shared_ptr<controller::Operator> person)
+      : m_profile(profile), m_person(std::move(person)) {}
 
   Result<MachineLook> look(const controller::RegisterMap* watched, double pace) {
     if (std::exchange(m_pace, pace) != pace) m_first.reset();  // its clock gained at another rate until now
-    if (!m_machine) {
-      ZD_TRY(m_machine, controller::ModbusMachine::open(m_profile));
-      m_machine->link().set_attempts(2);
-      ZD_TRY(m_identity, m_machine->identify());
+    if (!m_devices.machine) {
+      ZD_TRY(m_devices, flow::Devices::open(m_profile, false, access::Permit::read_only(), m_person));
+      if (m_devices.link != nullptr) m_devices.link->link().set_attempts(2);
+      ZD_TRY(m_identity, m_devices.machine->identify());
     }
     MachineLook seen;
     seen.identity = m_identity;
     const auto before = steady_clock::now();
-    ZD_TRY(seen.sample, m_machine->read());
+    ZD_TRY(seen.sample, m_devices.machine->read());
     const auto after = steady_clock::now();
     seen.round_trip_ms = 1000.0 * seconds_between(before, after);
     if (!m_first) m_first = {after, seen.sample.machine_time_s};
     const double host_s = seconds_between(m_first->host, after) * (pace > 0.0 ? pace : m_profile.time_factor);
     seen.clock_difference_s = (seen.sample.machine_time_s - m_first->machine_s) - host_s;
-    if (auto mark = controller::read_active_mark(*m_machine)) seen.table = *mark;
-    if (watched != nullptr) seen.registers = controller::read_all(m_machine->link(), *watched);
+    seen.devices = m_devices.device_states();
+    if (m_devices.link == nullptr) return seen;
+    if (auto mark = controller::read_active_mark(*m_devices.link)) seen.table = *mark;
+    if (watched != nullptr) seen.registers = controller::read_all(m_devices.link->link(), *watched);
     return seen;
   }
 
   void forget() {
-    m_machine.reset();
+    m_devices = {};
     m_first.reset();
   }
 
@@ -63,7 +66,8 @@ class Eye {
     double machine_s;
   };
   const controller::Profile& m_profile;
-  std::unique_ptr<controller::ModbusMachine> m_machine;
+  std::shared_ptr<controller::Operator> m_person;
+  flow::Devices m_devices;
   acquisition::MachineIdentity m_identity;
   std::optional<First> m_first;
   double m_pace = 0.0;
@@ -77,9 +81,11 @@ MachineMonitor::~MachineMonitor() {
   stop();
 }
 
-void MachineMonitor::start(const controller::Profile& profile) {
+void MachineMonitor::start(const controller::Profile& profile, std::shared_ptr<OperatorQuestions> questions) {
   stop();
-  m_thread = std::jthread([this, profile](const std::stop_token& token) { work(token, profile); });
+  m_thread = std::jthread([this, profile, questions = std::move(questions)](const std::stop_token& token) {
+    work(token, profile, questions->of(profile, token));
+  });
 }
 
 void MachineMonitor::stop() {
@@ -98,8 +104,9 @@ std::shared_ptr<const controller::RegisterMap> MachineMonitor::watched() const {
   return m_watched;
 }
 
-void MachineMonitor::work(const std::stop_token& stop, const controller::Profile& profile) {
-  Eye eye(profile);
+void MachineMonitor::work(const std::stop_token& stop, const controller::Profile& profile,
+                          std::shared_ptr<controller::Operator> person) {
+  Eye eye(profile, std::move(person));
   do {
     if (m_paused) {
       eye.forget();

@@ -8,9 +8,11 @@
 #include <mutex>
 #include <thread>
 
+#include "app/desktop/operator_questions.h"
 #include "app/tasks/aside.h"
 #include "core/acquisition/machine_io.h"
 #include "core/controller/active_table.h"
+#include "core/controller/device_readings.h"
 #include "core/controller/profile.h"
 #include "core/controller/register_view.h"
 
@@ -23,6 +25,7 @@ struct MachineLook {
   double clock_difference_s = 0.0;                   // machine clock gained on the host's since the first look
   std::optional<controller::ActiveMark> table;       // nothing: this controller cannot tell
   std::vector<controller::RegisterValue> registers;  // of the map that is watched
+  std::vector<controller::DeviceState> devices;      // beside the control
 };
 
 class MachineMonitor : public QObject {
@@ -32,7 +35,8 @@ class MachineMonitor : public QObject {
   explicit MachineMonitor(QObject* parent = nullptr);
   ~MachineMonitor() override;
 
-  void start(const controller::Profile& profile);
+  /// The state of a manual control is asked for by the questions, once.
+  void start(const controller::Profile& profile, std::shared_ptr<OperatorQuestions> questions);
   /// Returns at once: a look that waits for a dead machine ends beside the window, and nothing of it is told any more.
   void stop();
   void pause(bool paused) { m_paused = paused; }
@@ -47,7 +51,8 @@ class MachineMonitor : public QObject {
   void failed(const zerodrift::Error& error);
 
  private:
-  void work(const std::stop_token& stop, const controller::Profile& profile);
+  void work(const std::stop_token& stop, const controller::Profile& profile,
+            std::shared_ptr<controller::Operator> person);
 
   std::shared_ptr<const controller::RegisterMap> watched() const;
 

@@ -82,9 +82,9 @@ void RunPresenter::record(const QString& name, const acquisition::Plan& plan, St
   refresh();
   runStep(
       name,
-      [profile = *profile, options, permit = *permit, step = std::move(step)](
+      [profile = *profile, options, permit = *permit, step = std::move(step), questions = bench().questions()](
           commissioning::Job& job, const TaskContext& context) -> Result<commissioning::NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile, true, permit));
+        ZD_TRY(auto devices, flow::Devices::open(profile, true, permit, questions->of(profile, context.stop)));
         return step(job, devices, options, context);
       },
       [this, done = std::move(done)](bool good) {

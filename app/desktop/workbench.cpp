@@ -274,7 +274,8 @@ Status Workbench::setRegisterMap(const std::filesystem::path& path) {
 void Workbench::connectMachine() {
   if (!m_profile) return;
   m_reached = true;
-  m_monitor.start(*m_profile);
+  m_questions->forget();
+  m_monitor.start(*m_profile, m_questions);
 }
 
 Status Workbench::disconnectMachine() {

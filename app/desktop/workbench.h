@@ -88,6 +88,8 @@ class Workbench : public QObject {
   /// Between two pieces of work the machine's clock goes so fast; nothing: as its profile says.
   void setPaceAtRest(std::optional<double> pace) { m_monitor.setPace(pace); }
   void connectMachine();
+  /// The person at a manual control; a step asks by it (flow::Devices::open).
+  const std::shared_ptr<OperatorQuestions>& questions() const { return m_questions; }
   /// machine_busy while work runs: it may use the machine.
   Status disconnectMachine();
   bool connected() const { return m_look != nullptr; }
@@ -160,6 +162,7 @@ class Workbench : public QObject {
   nlohmann::json m_profileDocument;
   std::shared_ptr<const MachineLook> m_look;
   std::vector<std::shared_ptr<vision::Camera>> m_cameras;
+  std::shared_ptr<OperatorQuestions> m_questions = std::make_shared<OperatorQuestions>();
   MachineMonitor m_monitor;
   TaskRunner m_tasks;
   std::vector<std::weak_ptr<const QString>> m_work;  // beside the tasks: names

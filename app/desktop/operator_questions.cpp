@@ -1,0 +1,105 @@
+#include "app/desktop/operator_questions.h"
+
+#include <QCoreApplication>
+#include <QLocale>
+#include <QStringList>
+
+namespace zerodrift::desktop {
+
+using controller::OperatorAct;
+using controller::OperatorAnswer;
+using controller::OperatorRequest;
+
+/// As one step sees it.
+class OperatorQuestions::Person : public controller::Operator {
+ public:
+  Person(std::shared_ptr<OperatorQuestions> questions, std::stop_token stop)
+      : m_questions(std::move(questions)), m_stop(std::move(stop)) {}
+  Result<OperatorAnswer> ask(const OperatorRequest& request) override { return m_questions->ask(request, m_stop); }
+
+ private:
+  std::shared_ptr<OperatorQuestions> m_questions;
+  std::stop_token m_stop;
+};
+
+std::shared_ptr<controller::Operator> OperatorQuestions::of(const controller::Profile& profile, std::stop_token stop) {
+  if (!profile.manual) return nullptr;
+  return std::make_shared<Person>(shared_from_this(), std::move(stop));
+}
+
+Result<OperatorAnswer> OperatorQuestions::ask(const OperatorRequest& request, const std::stop_token& stop) {
+  const std::lock_guard turn(m_one_at_a_time);
+  std::unique_lock lock(m_lock);
+  if (request.act == OperatorAct::state && m_compensation_on) return OperatorAnswer{m_compensation_on, {}};
+  m_open = request;
+  m_answer.reset();
+  Q_EMIT changed();
+  m_answered.wait(lock, stop, [this] { return m_answer.has_value(); });
+  m_open.reset();
+  Result<OperatorAnswer> answer =
+      m_answer ? *std::exchange(m_answer, std::nullopt) : Result<OperatorAnswer>(fail(ErrorCode::cancelled));
+  if (answer && request.act == OperatorAct::state) m_compensation_on = answer->compensation_on;
+  if (answer && request.act == OperatorAct::switch_compensation) m_compensation_on = request.compensation_on;
+  Q_EMIT changed();
+  return answer;
+}
+
+std::optional<OperatorRequest> OperatorQuestions::open() const {
+  const std::lock_guard lock(m_lock);
+  return m_answer ? std::nullopt : m_open;
+}
+
+void OperatorQuestions::answer(const OperatorAnswer& answer) {
+  const std::lock_guard lock(m_lock);
+  m_answer = answer;
+  m_answered.notify_all();
+}
+
+void OperatorQuestions::decline(const QString& reason) {
+  const std::lock_guard lock(m_lock);
+  if (!m_open) return;
+  m_answer = fail(ErrorCode::operator_declined,
+                  {{"request", textOf(*m_open).toStdString()}, {"reason", reason.toStdString()}});
+  m_answered.notify_all();
+}
+
+void OperatorQuestions::forget() {
+  const std::lock_guard lock(m_lock);
+  m_compensation_on.reset();
+}
+
+QString textOf(const OperatorRequest& request) {
+  const auto tr = [](const char* text) { return QCoreApplication::translate("operator", text); };
+  const QLocale locale;
+  const QString spindle =
+      (request.coolant_on ? tr("spindle %1 rpm, coolant on") : tr("spindle %1 rpm, coolant off"))
+          .arg(locale.toString(request.spindle_rpm, 'f', 0));
+  switch (request.act) {
+    case OperatorAct::state:
+      return tr("Is the compensation switched on at the control?");
+    case OperatorAct::command:
+      return (request.path_cycle ? tr("Set %1, and start the warm-up path") : tr("Set %1, no warm-up path")).arg(spindle);
+    case OperatorAct::move: {
+      QStringList target;
+      for (const auto& [axis, position_mm] : request.target_mm) {
+        target << QStringLiteral("%1 %2").arg(QString::fromStdString(axis), locale.toString(position_mm, 'f', 3));
+      }
+      return tr("Stop the path and move to %1 mm (%2)").arg(target.join(QStringLiteral("  ")), spindle);
+    }
+    case OperatorAct::switch_compensation:
+      return request.compensation_on ? tr("Switch the compensation on") : tr("Switch the compensation off");
+    case OperatorAct::offset:
+      return tr("Enter a test offset of X %1, Y %2, Z %3 um")
+          .arg(request.offset_um[0])
+          .arg(request.offset_um[1])
+          .arg(request.offset_um[2]);
+    case OperatorAct::load_table:
+      return tr("Load the table %1 into the control, then type the check value that it shows")
+          .arg(QString::fromStdString(request.file));
+    case OperatorAct::check_table:
+      return tr("Type the check value that the control shows for its table");
+  }
+  return {};
+}
+
+}  // namespace zerodrift::desktop
