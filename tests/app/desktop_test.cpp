@@ -156,6 +156,8 @@ class DesktopTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(!dialog.takeLogo(m_folder.filePath(QStringLiteral("none.png"))));
     QVERIFY(dialog.takeLogo(file));
     QVERIFY(dialog.company().logo.width() <= 800);
+    const QString folder = qEnvironmentVariable("ZERODRIFT_PICTURES");
+    if (!folder.isEmpty()) dialog.grab().save(folder + QStringLiteral("/company.png"));
     desktop::keepCompany(dialog.company());
     report::Report report;
     desktop::signWith(desktop::keptCompany(), report);

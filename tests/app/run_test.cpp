@@ -54,6 +54,10 @@ class Answer : public QObject {
       auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
       if (box == nullptr) return;
       m_details = box->detailedText();
+      if (const QString folder = qEnvironmentVariable("ZERODRIFT_PICTURES"); !folder.isEmpty()) {
+        box->grab().save(folder + QStringLiteral("/question-") + box->text().section(QLatin1Char(' '), 0, 1) +
+                         QStringLiteral(".png"));
+      }
       m_asked = box->text() + QLatin1Char('\n') + box->informativeText();
       for (auto* button : box->buttons()) {
         if (button->text() != m_deed) continue;

@@ -53,6 +53,7 @@ class PagesTest : public QObject {
   void doubtsStandByWhatTheyAreAbout();
   void nothingIsPromisedOfADriftThatNobodyKnows();
   void whatIsGreenIsWithinTheLimitShown();
+  void sensorsFiguresAreWholeInTheSmallestWindow();
   void everyPageSurvivesNewLanguageAndNothing();
   void plotsFollowTheTheme_data();
   void plotsFollowTheTheme();
@@ -458,6 +459,34 @@ void PagesTest::nothingIsPromisedOfADriftThatNobodyKnows() {
   const auto plots = page.findChildren<XyPlot*>();
   QVERIFY(std::none_of(plots.begin(), plots.end(), [&page](const XyPlot* plot) { return plot->isVisibleTo(&page); }));
   for (const auto* card : page.findChildren<FigureCard*>()) QVERIFY(card->figure().label != "Expected drift");
+}
+
+/// The narrowest table of sensors holds the longest of its figures.
+void PagesTest::sensorsFiguresAreWholeInTheSmallestWindow() {
+  SensorsPage page;
+  SensorsState state;
+  SensorRow sensor;
+  sensor.id = "T1_C";
+  sensor.kept = true;
+  sensor.r = {-0.99, -0.44, -0.66};
+  sensor.sum = -2.09;
+  sensor.lag_s = -3600.0;
+  sensor.vif = 99.9;
+  sensor.price_um = -10.44;
+  state.sensors = {sensor};
+  page.setState(state);
+  page.resize(1280 - 236, 720 - 136);
+  page.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&page));
+  auto* table = page.findChild<QTableView*>();
+  QVERIFY(table != nullptr);
+  const int last = table->model()->columnCount() - 1;
+  for (int column = 1; column <= last; ++column) {
+    const QFontMetrics metrics(uiFont(12, column == last ? QFont::DemiBold : QFont::Normal));
+    const QString text = table->model()->index(0, column).data().toString();
+    constexpr int padding_px = 9;
+    QVERIFY2(metrics.horizontalAdvance(text) + padding_px <= table->columnWidth(column), qPrintable(text));
+  }
 }
 
 /// Where a share is within its limit for being small in micrometres, those are what is shown.

@@ -317,13 +317,13 @@ void SensorsPage::renderTable() {
   m_tableCard->setTitle(tr("Choice"));
   QVector<DataColumn> columns{{tr("Sensor"), 0, false, {}}};
   for (const QString& error : m_state.errors) {
-    columns.append({error, 38, true, tr("Correlation with the error in %1").arg(error)});
+    columns.append({error, 44, true, tr("Correlation with the error in %1").arg(error)});
   }
   columns.append(
-      {{tr("Sum"), 40, true, tr("Largest in its cluster: thermally sensitive point")},
-       {tr("Lag"), 58, true, tr("The error follows this sensor after so many minutes")},
-       {"VIF", 40, true, tr("Variance inflation: above 10 the sensor repeats others")},
-       {tr("Price"), 66, true,
+      {{tr("Sum"), 44, true, tr("Largest in its cluster: thermally sensitive point")},
+       {tr("Lag"), 62, true, tr("The error follows this sensor after so many minutes")},
+       {"VIF", 44, true, tr("Variance inflation: above 10 the sensor repeats others")},
+       {tr("Price"), 76, true,
         tr("Change of the error on unseen stretches when this tick is changed; plus: worse, minus: better")}});
   m_table->setColumns(columns);
   QVector<QVector<DataCell>> rows;

@@ -281,6 +281,7 @@ QVector<Figure> WarmupPage::runFigures() const {
   }
   Figure disk = figureAtLeast(tr("Disk free"), m_state.diskFree_GB, 1, "GB", 0.5);
   if (disk.judgement == Judgement::ok) disk.limit.clear();
+  if (m_state.phase == RunPhase::finished) return {left, largest, lostFigure(), disk};  // nothing moves any more
   return {left, largest, slope, heat, lostFigure(), disk};
 }
 

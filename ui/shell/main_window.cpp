@@ -9,12 +9,14 @@ namespace zerodrift::ui {
 
 namespace {
 
-constexpr QSize frame{4, 40};  // borders and title bar, at most as wide on common desktops
+constexpr QSize frame{4, 40};         // borders and title bar, at most as wide on common desktops
+constexpr QSize made_for{1280, 720};  // the pages scroll where they are lower, and cannot be narrower
+constexpr int lowest = 600;
 
 }  // namespace
 
 QSize MainWindow::smallestSize(const QSize& available) {
-  return QSize(1280, 720).boundedTo(available - frame);
+  return {made_for.width(), std::clamp(available.height() - frame.height(), lowest, made_for.height())};
 }
 
 QSize MainWindow::firstSize(const QSize& available) {
