@@ -59,7 +59,7 @@ void OperatorDialog::update() {
   const auto request = m_questions->open();
   if (!request) return hide();
   setWindowTitle(tr("At the control"));
-  m_text->setText(textOf(*request));
+  m_text->setText(requestText(*request));
   const bool state = request->act == OperatorAct::state;
   m_typed->setVisible(takes_check(request->act));
   m_typed->clear();

@@ -59,7 +59,7 @@ void OperatorQuestions::decline(const QString& reason) {
   const std::lock_guard lock(m_lock);
   if (!m_open) return;
   m_answer = fail(ErrorCode::operator_declined,
-                  {{"request", textOf(*m_open).toStdString()}, {"reason", reason.toStdString()}});
+                  {{"request", requestText(*m_open).toStdString()}, {"reason", reason.toStdString()}});
   m_answered.notify_all();
 }
 
@@ -68,17 +68,17 @@ void OperatorQuestions::forget() {
   m_compensation_on.reset();
 }
 
-QString textOf(const OperatorRequest& request) {
+QString requestText(const OperatorRequest& request) {
   const auto tr = [](const char* text) { return QCoreApplication::translate("operator", text); };
   const QLocale locale;
-  const QString spindle =
-      (request.coolant_on ? tr("spindle %1 rpm, coolant on") : tr("spindle %1 rpm, coolant off"))
-          .arg(locale.toString(request.spindle_rpm, 'f', 0));
+  const QString spindle = (request.coolant_on ? tr("spindle %1 rpm, coolant on") : tr("spindle %1 rpm, coolant off"))
+                              .arg(locale.toString(request.spindle_rpm, 'f', 0));
   switch (request.act) {
     case OperatorAct::state:
       return tr("Is the compensation switched on at the control?");
     case OperatorAct::command:
-      return (request.path_cycle ? tr("Set %1, and start the warm-up path") : tr("Set %1, no warm-up path")).arg(spindle);
+      return (request.path_cycle ? tr("Set %1, and start the warm-up path") : tr("Set %1, no warm-up path"))
+          .arg(spindle);
     case OperatorAct::move: {
       QStringList target;
       for (const auto& [axis, position_mm] : request.target_mm) {

@@ -46,6 +46,6 @@ class OperatorQuestions : public QObject, public std::enable_shared_from_this<Op
 };
 
 /// What the person is to do, in one sentence.
-QString textOf(const controller::OperatorRequest& request);
+QString requestText(const controller::OperatorRequest& request);
 
 }  // namespace zerodrift::desktop

@@ -258,9 +258,9 @@ void CalibratePresenter::start(std::function<void(bool good)> done) {
   }
   runStep(
       tr("Calibrating"),
-      [profile = *profile, permit = *permit, live = m_live, shown, asking = m_asking,
-       span_mm = m_page->state().span_mm, questions = bench().questions()](commissioning::Job& job,
-                                          const TaskContext& context) -> Result<commissioning::NewArtefact> {
+      [profile = *profile, permit = *permit, live = m_live, shown, asking = m_asking, span_mm = m_page->state().span_mm,
+       questions = bench().questions()](commissioning::Job& job,
+                                        const TaskContext& context) -> Result<commissioning::NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, true, permit, questions->of(profile, context.stop)));
         flow::CalibrateOptions options;
         options.regions = shown.regions;

@@ -281,9 +281,10 @@ void MachinePresenter::startCommissioning(std::function<void(bool good)> done) {
   const auto document = bench().profileDocument();
   runStep(
       tr("Checking the machine"),
-      [profile = *profile, document, questions = bench().questions()](commissioning::Job&,
-                                     const TaskContext& context) -> Result<commissioning::NewArtefact> {
-        ZD_TRY(auto devices, flow::Devices::open(profile, false, access::Permit::read_only(), questions->of(profile, context.stop)));
+      [profile = *profile, document, questions = bench().questions()](
+          commissioning::Job&, const TaskContext& context) -> Result<commissioning::NewArtefact> {
+        ZD_TRY(auto devices,
+               flow::Devices::open(profile, false, access::Permit::read_only(), questions->of(profile, context.stop)));
         return flow::check_machine(devices, document, context);
       },
       [this, done = std::move(done)](bool good) {

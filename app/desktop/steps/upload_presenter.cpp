@@ -94,8 +94,10 @@ void UploadPresenter::preview(Done done) {
   m_reading = true;
   runTask<flow::UploadPreview>(
       tr("Reading the table in the machine"),
-      [profile = *profile, job, table = chosenTable(), questions = bench().questions()](const TaskContext& context) -> Result<flow::UploadPreview> {
-        ZD_TRY(auto devices, flow::Devices::open(profile, false, access::Permit::read_only(), questions->of(profile, context.stop)));
+      [profile = *profile, job, table = chosenTable(),
+       questions = bench().questions()](const TaskContext& context) -> Result<flow::UploadPreview> {
+        ZD_TRY(auto devices,
+               flow::Devices::open(profile, false, access::Permit::read_only(), questions->of(profile, context.stop)));
         return flow::preview_upload(*job, devices, table, context);
       },
       [this, model, done = std::move(done)](Result<flow::UploadPreview> seen) {
@@ -209,8 +211,8 @@ void UploadPresenter::write(Done done) {
   });
   runStep(
       tr("Writing the table"),
-      [profile = *profile, options, permit = *permit, questions = bench().questions()](commissioning::Job& job,
-                                                      const TaskContext& context) -> Result<NewArtefact> {
+      [profile = *profile, options, permit = *permit, questions = bench().questions()](
+          commissioning::Job& job, const TaskContext& context) -> Result<NewArtefact> {
         ZD_TRY(auto devices, flow::Devices::open(profile, true, permit, questions->of(profile, context.stop)));
         return flow::upload(job, devices, options, context);
       },
