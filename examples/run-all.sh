@@ -57,6 +57,7 @@ run axis-apply --table out/axis.json --direction inverse --positions positions.c
 
 title "Table and files for controllers"
 run table --model out/model.json --axis-table out/axis.json --profile profile.json --out out/table.json
+run table --model out/model.json --axis-table out/axis.json --profile rig-profile.json --out out/rig-table.json
 run export --table out/axis.json --format linuxcnc --out out/x.comp
 run export --table out/axis.json --format sinumerik-leadscrew --out out/x_eec.ini
 run export --table out/table.json --format sinumerik-thermal --axis Z --out out/z_thermal.spf

@@ -38,8 +38,8 @@ std::string text_of(const OperatorRequest& request) {
     case OperatorAct::switch_compensation:
       return request.compensation_on ? "Switch the compensation on" : "Switch the compensation off";
     case OperatorAct::offset:
-      return fmt::format("Enter a test offset of X {:g}, Y {:g}, Z {:g} um", request.offset_um[0],
-                         request.offset_um[1], request.offset_um[2]);
+      return fmt::format("Enter a test offset of X {:g}, Y {:g}, Z {:g} um", request.offset_um[0], request.offset_um[1],
+                         request.offset_um[2]);
     case OperatorAct::load_table:
       return fmt::format("Load the table {} into the control", request.file);
     case OperatorAct::check_table:
@@ -149,8 +149,9 @@ class TerminalOperator : public controller::Operator {
 }  // namespace
 
 void add_operator_option(CLI::App& command, std::string& option) {
-  command.add_option("--operator", option,
-                     "Of a control without a link: - for a program that answers lines of JSON; else a terminal asks");
+  command.add_option(
+      "--operator", option,
+      "Who operates a control without a link: - for a program by lines of JSON; default: a person at this terminal");
 }
 
 Result<std::shared_ptr<controller::Operator>> operator_of(const controller::Profile& profile,

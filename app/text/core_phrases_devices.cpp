@@ -8,7 +8,7 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 57> devices = {{
+constexpr std::array<const char*, 90> devices = {{
     QT_TRANSLATE_NOOP("core", "the kind of device %1"),
     QT_TRANSLATE_NOOP("core", "a control"),
     QT_TRANSLATE_NOOP("core", "a device to read"),
@@ -68,6 +68,42 @@ constexpr std::array<const char*, 57> devices = {{
     QT_TRANSLATE_NOOP("core", "%1: an answer of the agent lacks the data item"),
     QT_TRANSLATE_NOOP("core", "%1: a value is no number"),
     QT_TRANSLATE_NOOP("core", "user and password go to the agent unencrypted, because it is not https"),
+    // The profile.
+    QT_TRANSLATE_NOOP("core", "a time from 0.01 to 3600 s"),
+    QT_TRANSLATE_NOOP("core", "a map of its registers"),
+    QT_TRANSLATE_NOOP("core", "a name that no other device has"),
+    QT_TRANSLATE_NOOP("core", "one control only; this profile has another one"),
+    QT_TRANSLATE_NOOP("core", "a control: modbus-tcp, modbus-rtu or manual"),
+    QT_TRANSLATE_NOOP("core", "the id of one of the devices"),
+    QT_TRANSLATE_NOOP("core", "the control: modbus-tcp, modbus-rtu or manual, here or among the devices"),
+    QT_TRANSLATE_NOOP("core", "%1:%2, unit %3"),
+    QT_TRANSLATE_NOOP("core", "%1, unit %2"),
+    QT_TRANSLATE_NOOP("core", "an address that is not that of %1"),
+    QT_TRANSLATE_NOOP("core", "the control"),
+    QT_TRANSLATE_NOOP("core", "which signal of device %1 it is"),
+    QT_TRANSLATE_NOOP("core", "the id of one of the devices that are read"),
+    QT_TRANSLATE_NOOP("core", "a signal that is not %1 already"),
+    QT_TRANSLATE_NOOP("core", "a channel that no other sensor has"),
+    QT_TRANSLATE_NOOP("core", "the device that reads it: a manual control reads nothing"),
+    // Reading.
+    QT_TRANSLATE_NOOP("core", "signal %1"),
+    QT_TRANSLATE_NOOP("core", "[1] to [%1]"),
+    QT_TRANSLATE_NOOP("core", "%1: %2 of %3 rounds were not answered"),
+    QT_TRANSLATE_NOOP("core", "device %1 does not answer: %2"),
+    QT_TRANSLATE_NOOP("core", "displacement probes"),
+    QT_TRANSLATE_NOOP("core", "another program has the serial port"),
+    QT_TRANSLATE_NOOP("core", "a kind of device without a reader"),
+    // A control without a link.
+    QT_TRANSLATE_NOOP("core", "a manual control"),
+    QT_TRANSLATE_NOOP("core", "a control with a link"),
+    QT_TRANSLATE_NOOP("core", "the link to the control"),
+    QT_TRANSLATE_NOOP("core", "the switch's state was not said"),
+    QT_TRANSLATE_NOOP("core", "A test offset"),
+    QT_TRANSLATE_NOOP("core", "a test offset"),
+    QT_TRANSLATE_NOOP("core", "the control's check value"),
+    QT_TRANSLATE_NOOP("core", "a table with the check value %1"),
+    QT_TRANSLATE_NOOP("core", "reading the active table"),
+    QT_TRANSLATE_NOOP("core", "going back to a former table"),
 }};
 
 }  // namespace

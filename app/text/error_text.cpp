@@ -275,7 +275,7 @@ constexpr std::array rows = {
         QT_TRANSLATE_NOOP("errors", "Check its power, its cable and its address; it is asked again by itself.")},
     Row{ErrorCode::operator_missing,
         QT_TRANSLATE_NOOP("errors", "The control of this machine has no link, and nobody is here to operate it."),
-        QT_TRANSLATE_NOOP("errors", "Start this on a terminal, or give --operator - and answer each line.")},
+        QT_TRANSLATE_NOOP("errors", "Start this on a terminal, or give \"--operator -\" and answer each line.")},
     Row{ErrorCode::operator_declined, QT_TRANSLATE_NOOP("errors", "The operator could not do \"{request}\": {reason}."),
         QT_TRANSLATE_NOOP("errors", "Put it right at the control and start the step again.")},
     Row{ErrorCode::operator_gone, QT_TRANSLATE_NOOP("errors", "The operator does not answer any more."),

@@ -5806,6 +5806,138 @@
         <source>the job&apos;s recordings</source>
         <translation>作业中的记录</translation>
     </message>
+    <message>
+        <source>a time from 0.01 to 3600 s</source>
+        <translation>0.01 至 3600 s 的时间</translation>
+    </message>
+    <message>
+        <source>a map of its registers</source>
+        <translation>其寄存器映射</translation>
+    </message>
+    <message>
+        <source>a name that no other device has</source>
+        <translation>其他设备未使用的名称</translation>
+    </message>
+    <message>
+        <source>one control only; this profile has another one</source>
+        <translation>只能有一个控制器；此配置文件已有另一个</translation>
+    </message>
+    <message>
+        <source>a control: modbus-tcp, modbus-rtu or manual</source>
+        <translation>控制器：modbus-tcp、modbus-rtu 或 manual</translation>
+    </message>
+    <message>
+        <source>the id of one of the devices</source>
+        <translation>某个设备的 id</translation>
+    </message>
+    <message>
+        <source>the control: modbus-tcp, modbus-rtu or manual, here or among the devices</source>
+        <translation>控制器：modbus-tcp、modbus-rtu 或 manual，写在此处或 devices 中</translation>
+    </message>
+    <message>
+        <source>%1:%2, unit %3</source>
+        <translation>%1:%2，单元 %3</translation>
+    </message>
+    <message>
+        <source>%1, unit %2</source>
+        <translation>%1，单元 %2</translation>
+    </message>
+    <message>
+        <source>an address that is not that of %1</source>
+        <translation>与 %1 不同的地址</translation>
+    </message>
+    <message>
+        <source>the control</source>
+        <translation>控制器</translation>
+    </message>
+    <message>
+        <source>which signal of device %1 it is</source>
+        <translation>设备 %1 的哪个信号</translation>
+    </message>
+    <message>
+        <source>the id of one of the devices that are read</source>
+        <translation>某个被读取的设备的 id</translation>
+    </message>
+    <message>
+        <source>a signal that is not %1 already</source>
+        <translation>尚未用于 %1 的信号</translation>
+    </message>
+    <message>
+        <source>a channel that no other sensor has</source>
+        <translation>其他传感器未使用的通道</translation>
+    </message>
+    <message>
+        <source>the device that reads it: a manual control reads nothing</source>
+        <translation>读取它的设备：人工操作的控制器不提供读数</translation>
+    </message>
+    <message>
+        <source>signal %1</source>
+        <translation>信号 %1</translation>
+    </message>
+    <message>
+        <source>[1] to [%1]</source>
+        <translation>[1] 至 [%1]</translation>
+    </message>
+    <message>
+        <source>%1: %2 of %3 rounds were not answered</source>
+        <translation>%1：%3 次查询中有 %2 次未得到应答</translation>
+    </message>
+    <message>
+        <source>device %1 does not answer: %2</source>
+        <translation>设备 %1 无应答：%2</translation>
+    </message>
+    <message>
+        <source>displacement probes</source>
+        <translation>位移测头</translation>
+    </message>
+    <message>
+        <source>another program has the serial port</source>
+        <translation>串口正被另一程序占用</translation>
+    </message>
+    <message>
+        <source>a kind of device without a reader</source>
+        <translation>没有读取程序的设备类型</translation>
+    </message>
+    <message>
+        <source>a manual control</source>
+        <translation>人工操作的控制器</translation>
+    </message>
+    <message>
+        <source>a control with a link</source>
+        <translation>有通信连接的控制器</translation>
+    </message>
+    <message>
+        <source>the link to the control</source>
+        <translation>与控制器的通信连接</translation>
+    </message>
+    <message>
+        <source>the switch&apos;s state was not said</source>
+        <translation>未说明开关状态</translation>
+    </message>
+    <message>
+        <source>A test offset</source>
+        <translation>测试偏置</translation>
+    </message>
+    <message>
+        <source>a test offset</source>
+        <translation>测试偏置</translation>
+    </message>
+    <message>
+        <source>the control&apos;s check value</source>
+        <translation>控制器的校验值</translation>
+    </message>
+    <message>
+        <source>a table with the check value %1</source>
+        <translation>校验值为 %1 的补偿表</translation>
+    </message>
+    <message>
+        <source>reading the active table</source>
+        <translation>读取当前生效的补偿表</translation>
+    </message>
+    <message>
+        <source>going back to a former table</source>
+        <translation>恢复以前的补偿表</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -6740,6 +6872,38 @@
     <message>
         <source>Check the name, or import the file again with the channel&apos;s name.</source>
         <translation>请检查名称，或重新导入文件并使用该通道名称。</translation>
+    </message>
+    <message>
+        <source>Device {device} does not answer, its values are missing: {reason}.</source>
+        <translation>设备 {device} 无应答，其数值缺失：{reason}。</translation>
+    </message>
+    <message>
+        <source>Check its power, its cable and its address; it is asked again by itself.</source>
+        <translation>请检查其电源、电缆和地址；程序会自动再次查询。</translation>
+    </message>
+    <message>
+        <source>The control of this machine has no link, and nobody is here to operate it.</source>
+        <translation>这台机床的控制器没有通信连接，也没有人在操作它。</translation>
+    </message>
+    <message>
+        <source>Start this on a terminal, or give &quot;--operator -&quot; and answer each line.</source>
+        <translation>请在终端上启动，或使用“--operator -”并逐行应答。</translation>
+    </message>
+    <message>
+        <source>The operator could not do &quot;{request}&quot;: {reason}.</source>
+        <translation>操作员无法执行“{request}”：{reason}。</translation>
+    </message>
+    <message>
+        <source>Put it right at the control and start the step again.</source>
+        <translation>请在控制器上排除问题，然后重新开始此步骤。</translation>
+    </message>
+    <message>
+        <source>The operator does not answer any more.</source>
+        <translation>操作员不再应答。</translation>
+    </message>
+    <message>
+        <source>Bring the machine to rest at its control, then start the step again.</source>
+        <translation>请在控制器上使机床停止，然后重新开始此步骤。</translation>
     </message>
 </context>
 <context>

@@ -93,6 +93,37 @@ tcp = {
 }
 rtu = {"format": "zerodrift-profile/1",
        "controller": {"kind": "modbus-rtu", "device": "/dev/null", "baud": 19200, "parity": "E", "stop_bits": 1, "unit": 1}}
+# A control, and every kind of device beside it.
+rig = {
+    "format": "zerodrift-profile/1",
+    "controller": {"kind": "modbus-tcp", "host": "127.0.0.1", "port": 9},
+    "devices": [
+        {"id": "module", "kind": "modbus-rtu", "device": "/dev/null", "baud": 19200, "parity": "none", "stop_bits": 1,
+         "unit": 3, "timeout_ms": 100, "register_map": "temperature-module-8-pt100", "poll_period_s": 1,
+         "stale_after_s": 5},
+        {"id": "amplifier", "kind": "modbus-tcp", "host": "127.0.0.1", "port": 10, "unit": 2,
+         "register_map": "probe-amplifier"},
+        {"id": "shop", "kind": "mqtt", "host": "127.0.0.1", "port": 9, "tls": True, "ca_file": "ca.pem",
+         "credentials_file": "user.json", "timeout_ms": 100, "poll_period_s": 1, "stale_after_s": 60},
+        {"id": "agent", "kind": "mtconnect", "url": "http://127.0.0.1:9/", "credentials_file": "user.json",
+         "timeout_ms": 100, "poll_period_s": 1, "stale_after_s": 60}],
+    "ambient": {"device": "shop", "signal": "shop/room#/temperature_C"},
+    "speed": {"device": "agent", "signal": "S1speed"},
+    "load": {"device": "agent", "signal": "S1load"},
+    "coolant": {"device": "agent", "signal": "coolant"},
+    "compensation_state": {"device": "agent", "signal": "switch"},
+    "positions": {"X": {"device": "agent", "signal": "Xact"}},
+    "probes": {"device": "amplifier", "signal": "probe_um"},
+    "sensors": [{"channel": "T1_C", "device": "module", "signal": "temperature_C[1]"}, {"channel": "T2_C"}]}
+# The control is one of the devices.
+own_control = {"format": "zerodrift-profile/1", "control": "plc",
+               "devices": [{"id": "plc", "kind": "modbus-tcp", "host": "127.0.0.1", "port": 9, "unit": 1},
+                           {"id": "agent", "kind": "mtconnect", "url": "http://127.0.0.1:9/"}]}
+# A control without a link, as `controller` and as one of the devices.
+manual = {"format": "zerodrift-profile/1", "controller": {"kind": "manual", "serial": 4711},
+          "devices": [{"id": "agent", "kind": "mtconnect", "url": "http://127.0.0.1:9/"}],
+          "sensors": [{"channel": "T1_C", "device": "agent", "signal": "T1"}]}
+manual_device = {"format": "zerodrift-profile/1", "devices": [{"id": "person", "kind": "manual", "serial": 4711}]}
 header_map = {
     "columns": {"Lager vorn (°C)": {"channel": "T1_C", "unit": "degC", "offset": 0.1, "location": "front bearing"},
                 "Taster Z [mm]": {"channel": "probe_um", "scale": 1000, "axis": "Z"}, "Bemerkung": None},
@@ -103,6 +134,8 @@ header_map = {
 elsewhere = {("components",), ("effect_parameters",), ("effect_parameters", "convection"),
              ("effect_parameters", "convection", "h_W_m2K"), ("sensors", 0, "position_mm"),
              ("couplings", 0, "between", 0, "position_mm")}
+# And which device a signal is of.
+elsewhere |= {("devices",)}
 
 
 def refused(name, document):
@@ -113,7 +146,7 @@ def refused(name, document):
         out = pathlib.Path(scratch) / "out"
         command = {
             "machine": ["simulate", "--machine", path, "--inputs", pathlib.Path(scratch) / "none.csv", "--out", out],
-            "profile": ["machine", "check", "--profile", path],
+            "profile": ["record", "--profile", path, "--plan", pathlib.Path(scratch) / "none.json", "--job", out],
             "header-map": ["import", root / "examples" / "logger.csv", "--map", path, "--out", out],
         }[name]
         done = subprocess.run([cli, *command], capture_output=True, text=True, timeout=60)
@@ -174,7 +207,7 @@ def check(name, document, where):
 check("machine", machine, "this test")
 check("machine", json.loads((root / "examples" / "machine.json").read_text()), "examples/machine.json")
 check("header-map", json.loads((root / "examples" / "names.json").read_text()), "examples/names.json")
-for path in [root / "examples" / "profile.json", *sorted((root / "resources" / "profiles").glob("*.json"))]:
+for path in [*sorted((root / "examples").glob("*profile.json")), *sorted((root / "resources" / "profiles").glob("*.json"))]:
     document = json.loads(path.read_text())
     check("profile", document, path.name)
     if isinstance(document.get("machine"), dict):
@@ -191,13 +224,44 @@ for path in sorted((root / "docs").rglob("*.md")):
         if kind:
             shown += 1
             check(kind, document, path.relative_to(root))
+        if kind == "profile" and (sentence := refused("profile", document)):
+            faults.append(f"{path.relative_to(root)}: the reader refuses the example: {sentence}")
 print(f"{shown} documents in docs/ are valid")
-if shown < 2:
-    faults.append("docs/ show no machine description and no header map any more")
+if shown < 5:
+    faults.append("docs/ show no machine description, header map or profile of a rig any more")
+
+with tempfile.TemporaryDirectory() as scratch:
+    for part in ("--rig", "--manual"):
+        path = pathlib.Path(scratch) / f"profile{part}.json"
+        machine_tool = subprocess.Popen(
+            [cli.with_name("zerodrift-machine"), "--port", "0", "--camera-port", "0", part, "--mqtt-broker", "127.0.0.1:9",
+             "--profile", path], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        machine_tool.stdout.readline()
+        machine_tool.terminate()
+        machine_tool.wait(20)
+        document = json.loads(path.read_text())
+        check("profile", document, f"zerodrift-machine {part}")
+        if sentence := refused("profile", document):
+            faults.append(f"zerodrift-machine {part}: the reader refuses its profile: {sentence}")
+
+
+def keys_of(schema):
+    """Names of all properties of a schema."""
+    if isinstance(schema, list):
+        return set().union(*map(keys_of, schema)) if schema else set()
+    if not isinstance(schema, dict):
+        return set()
+    return set(schema.get("properties", {})).union(*map(keys_of, schema.values()))
+
+
+reference = "".join((root / "docs" / page).read_text() for page in ("profile.md", "reference/devices.md"))
+for key in sorted(keys_of(schemas["profile"])):
+    if not re.search(rf"`[^`\n]*\b{key}\b[^`\n]*`", reference):
+        faults.append(f"docs/profile.md and docs/reference/devices.md do not explain the key {key}")
 
 compare("machine", machine)
-compare("profile", tcp)
-compare("profile", rtu)
+for profile in (tcp, rtu, rig, own_control, manual, manual_device):
+    compare("profile", profile)
 compare("header-map", header_map)
 listed = refused("machine", changed(machine, ("effects",), ["none"])).split("one of ")[1].split(". ")[0].split(", ")
 if set(listed) != set(schemas["machine"]["properties"]["effects"]["items"]["enum"]):
