@@ -10,6 +10,14 @@ using controller::OperatorAct;
 using controller::OperatorAnswer;
 using controller::OperatorRequest;
 
+namespace {
+
+struct OperatorText {
+  Q_DECLARE_TR_FUNCTIONS(zerodrift::desktop::OperatorQuestions)
+};
+
+}  // namespace
+
 /// As one step sees it.
 class OperatorQuestions::Person : public controller::Operator {
  public:
@@ -69,35 +77,37 @@ void OperatorQuestions::forget() {
 }
 
 QString requestText(const OperatorRequest& request) {
-  const auto tr = [](const char* text) { return QCoreApplication::translate("operator", text); };
   const QLocale locale;
-  const QString spindle = (request.coolant_on ? tr("spindle %1 rpm, coolant on") : tr("spindle %1 rpm, coolant off"))
+  const QString spindle = (request.coolant_on ? OperatorText::tr("spindle %1 rpm, coolant on")
+                                              : OperatorText::tr("spindle %1 rpm, coolant off"))
                               .arg(locale.toString(request.spindle_rpm, 'f', 0));
   switch (request.act) {
     case OperatorAct::state:
-      return tr("Is the compensation switched on at the control?");
+      return OperatorText::tr("Is the compensation switched on at the control?");
     case OperatorAct::command:
-      return (request.path_cycle ? tr("Set %1, and start the warm-up path") : tr("Set %1, no warm-up path"))
+      return (request.path_cycle ? OperatorText::tr("Set %1, and start the warm-up path")
+                                 : OperatorText::tr("Set %1, no warm-up path"))
           .arg(spindle);
     case OperatorAct::move: {
       QStringList target;
       for (const auto& [axis, position_mm] : request.target_mm) {
         target << QStringLiteral("%1 %2").arg(QString::fromStdString(axis), locale.toString(position_mm, 'f', 3));
       }
-      return tr("Stop the path and move to %1 mm (%2)").arg(target.join(QStringLiteral("  ")), spindle);
+      return OperatorText::tr("Stop the path and move to %1 mm (%2)").arg(target.join(QStringLiteral("  ")), spindle);
     }
     case OperatorAct::switch_compensation:
-      return request.compensation_on ? tr("Switch the compensation on") : tr("Switch the compensation off");
+      return request.compensation_on ? OperatorText::tr("Switch the compensation on")
+                                     : OperatorText::tr("Switch the compensation off");
     case OperatorAct::offset:
-      return tr("Enter a test offset of X %1, Y %2, Z %3 um")
+      return OperatorText::tr("Enter a test offset of X %1, Y %2, Z %3 um")
           .arg(request.offset_um[0])
           .arg(request.offset_um[1])
           .arg(request.offset_um[2]);
     case OperatorAct::load_table:
-      return tr("Load the table %1 into the control, then type the check value that it shows")
+      return OperatorText::tr("Load the table %1 into the control, then type the check value that it shows")
           .arg(QString::fromStdString(request.file));
     case OperatorAct::check_table:
-      return tr("Type the check value that the control shows for its table");
+      return OperatorText::tr("Type the check value that the control shows for its table");
   }
   return {};
 }

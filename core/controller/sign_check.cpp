@@ -75,7 +75,7 @@ class TestOffset {
   /// The switch on, and what the machine applies at rest.
   virtual Status begin() = 0;
   /// Puts the offset on the axis, or takes it off (0), and waits until it rests.
-  virtual Status put(std::size_t axis, double offset_um) = 0;
+  virtual Status apply(std::size_t axis, double offset_um) = 0;
   virtual Result<bool> still_holds(std::size_t axis, double offset_um) = 0;
   virtual Result<double> time_s() = 0;
   /// Offset 0 and the switch as it was found, whatever happened; `reason` is why it ends.
@@ -101,7 +101,7 @@ class LinkedOffset : public TestOffset {
     return settle(0.0);
   }
 
-  Status put(std::size_t axis, double offset_um) override {
+  Status apply(std::size_t axis, double offset_um) override {
     std::array<double, 3> offset{};
     offset[axis] = offset_um;
     ZD_TRY(const auto before, m_machine.read());
@@ -204,7 +204,7 @@ class OffsetByHand : public TestOffset {
     return m_control.wait_for_ramp(true, m_context.stop).map([](double) {});
   }
 
-  Status put(std::size_t axis, double offset_um) override {
+  Status apply(std::size_t axis, double offset_um) override {
     std::array<double, 3> offset{};
     offset[axis] = offset_um;
     ZD_CHECK(m_control.write_host_offset(offset));
@@ -352,7 +352,7 @@ class SignCheck {
     const std::size_t index = index_of(axis);
     const double offset_um = with ? m_options.offset_um : 0.0;
     for (int attempt = 0; attempt < 3; ++attempt) {
-      ZD_CHECK(m_offset.put(index, offset_um));
+      ZD_CHECK(m_offset.apply(index, offset_um));
       ZD_TRY(const double start_s, m_offset.time_s());
       ZD_TRY(const auto sample, m_source.measure(acquisition::standing_now(), m_context));
       ZD_TRY(const double end_s, m_offset.time_s());

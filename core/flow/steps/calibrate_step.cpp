@@ -113,7 +113,14 @@ Result<std::vector<acquisition::Latency>> measure_latencies(Devices& devices, co
       if (std::find(plan.axes.begin(), plan.axes.end(), axis) == plan.axes.end()) plan.axes.push_back(axis);
     }
   }
-  return vision::measure_latency(*devices.machine, cameras, plan, context);
+  ZD_TRY(auto latencies, vision::measure_latency(*devices.machine, cameras, plan, context));
+  if (!devices.machine->by_hand()) return latencies;
+  // A person begins a move some time after it was asked for: that is no age of the pictures.
+  for (std::size_t k = 0; k < latencies.size(); ++k) {
+    const double assumed_s = devices.cameras[k].profile.assumed_latency_s;
+    if (latencies[k].settle().count() > assumed_s) latencies[k] = {0.5 * assumed_s, 0.5 * assumed_s, 1};
+  }
+  return latencies;
 }
 
 /// The templates of all cameras, at one moment and before anything else moves: they are the zero of the errors, and the
