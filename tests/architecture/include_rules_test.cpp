@@ -61,6 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "mosquitto.h outside mqtt_device.cpp and the virtual machine"},
         Planted{"core/controller/link.h", "httplib.h",
                 "httplib.h outside mtconnect_device.cpp and the virtual machine"},
+        Planted{"core/vision/camera.cpp", "arv.h", "arv.h outside aravis_source.cpp"},
         Planted{"core/flow/x.cpp", "sqlite3.h", "sqlite3.h outside core/commissioning"},
         Planted{"app/machine/x.cpp", "opencv2/core.hpp", "OpenCV outside core/vision"},
         Planted{"ui/pages/x.cpp", "qcustomplot.h", "qcustomplot.h outside ui/plots"},
