@@ -16,6 +16,10 @@
 
 namespace zerodrift::flow {
 
+/// With the exposure and the gain that the profile gives it; it begins to read at once. A device that only one can read
+/// is opened once in the program: the window's preview and a run share it.
+std::shared_ptr<vision::Camera> open_camera(const controller::CameraProfile& profile);
+
 struct CameraDevice {
   controller::CameraProfile profile;
   std::shared_ptr<vision::Camera> camera;
@@ -27,7 +31,7 @@ struct Devices {
   std::unique_ptr<acquisition::MachineIo> machine;
   controller::ModbusMachine* link = nullptr;     // the machine, where its control has a link
   controller::ManualControl* by_hand = nullptr;  // the machine, where a person is its link
-  std::vector<CameraDevice> cameras;  // reading already; empty when the errors come from probes
+  std::vector<CameraDevice> cameras;             // reading already; empty when the errors come from probes
 
   /// The machine connects at its first request, the cameras by themselves; `with_cameras` false opens none.
   /// Without a permit to write the machine can only be read. operator_missing for a manual control without a person.
