@@ -13,6 +13,7 @@
 #include "core/base/redact.h"
 #include "core/vision/aravis_source.h"
 #include "core/vision/capture_stream.h"
+#include "core/vision/mjpeg_stream.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -77,6 +78,10 @@ struct Camera::Work {
 
 Result<std::unique_ptr<PictureStream>> Camera::Work::open(const std::stop_token& stop) {
   if (kind_of(source) == SourceKind::genicam) return open_aravis(source, identity.serial, options);
+  if (source.rfind("http://", 0) == 0 || source.rfind("https://", 0) == 0) {
+    ZD_TRY(auto pictures, open_mjpeg(source, options, stop));
+    if (pictures) return pictures;
+  }
   ZD_TRY(auto stream, open_capture(source, options, stop));
   if (!stream) return fail(ErrorCode::camera_unreachable, {{"detail", "no picture could be opened"}});
   return stream;
