@@ -7,11 +7,11 @@ build_dir="$root/build/release"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config
   qt6-base-dev qt6-svg-dev qt6-tools-dev qt6-tools-dev-tools qt6-l10n-tools qt6-translations-l10n libqt6svg6 libqcustomplot-dev
-  libopencv-dev libmodbus-dev libmosquitto-dev libsqlite3-dev libeigen3-dev nlohmann-json3-dev libfmt-dev
+  libopencv-dev libaravis-dev libusb-1.0-0-dev libmodbus-dev libmosquitto-dev libsqlite3-dev libeigen3-dev nlohmann-json3-dev libfmt-dev
   libqpdf-dev libzip-dev libicu-dev libpugixml-dev libcli11-dev libexpected-dev libcpp-httplib-dev libssl-dev zlib1g-dev libgtest-dev libgmock-dev
   fonts-inter fonts-noto-cjk
 )
-check_packages=(dpkg-dev file desktop-file-utils appstream shared-mime-info python3 python3-pymodbus python3-serial python3-serial-asyncio python3-openpyxl python3-jsonschema mbpoll mosquitto mosquitto-clients openssl socat poppler-utils clang-format clang-tidy)
+check_packages=(dpkg-dev file desktop-file-utils appstream shared-mime-info python3 python3-pymodbus python3-serial python3-serial-asyncio python3-openpyxl python3-jsonschema mbpoll mosquitto mosquitto-clients aravis-tools openssl socat poppler-utils clang-format clang-tidy)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 

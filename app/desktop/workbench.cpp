@@ -9,6 +9,7 @@
 #include "app/text/error_text.h"
 #include "core/base/json.h"
 #include "core/base/redact.h"
+#include "core/flow/devices.h"
 #include "core/flow/flow.h"
 
 namespace zerodrift::desktop {
@@ -303,7 +304,7 @@ HeldTable Workbench::heldTable() const {
 
 const std::vector<std::shared_ptr<vision::Camera>>& Workbench::cameras() {
   if (m_cameras.empty() && m_reached && m_profile && m_profile->error_source == controller::ErrorSourceKind::camera) {
-    for (const auto& camera : m_profile->cameras) m_cameras.push_back(std::make_shared<vision::Camera>(camera.url));
+    for (const auto& camera : m_profile->cameras) m_cameras.push_back(flow::open_camera(camera));
   }
   return m_cameras;
 }

@@ -14,6 +14,8 @@ namespace {
 
 constexpr NumberRange factor_range{0.0, 100000.0, true, "a number above 0, at most 100000"};
 
+constexpr NumberRange exposure_range{1.0, 1e7, false, "a time from 1 to 10000000 us"};
+constexpr NumberRange gain_range{-100.0, 100.0, false, "a gain from -100 to 100 dB"};
 constexpr NumberRange latency_range{0.1, 60.0, false, "a time from 0.1 to 60 s"};
 
 std::array<int, 4> region_of(const JsonObject& o, const std::string& key, const std::vector<double>& numbers) {
@@ -61,6 +63,14 @@ CameraProfile read_camera(JsonObject& o) {
   camera.reference_rois_px = read_marks(o, "reference_roi_px");
   camera.pixel_size_known = o.flag_or("pixel_size_known", true);
   camera.assumed_latency_s = o.number_or("assumed_latency_s", camera.assumed_latency_s, latency_range);
+  camera.exposure_us = o.number_if("exposure_us", exposure_range);
+  camera.gain_db = o.number_if("gain_db", gain_range);
+  for (const char* key : {"exposure_us", "gain_db"}) {
+    if (o.number_if(key) && camera.url.find("://") != std::string::npos) {
+      o.reject(key, "a stream over the network",
+               "a camera at aravis: or a device; a stream is set in its camera");
+    }
+  }
   return camera;
 }
 
@@ -106,7 +116,7 @@ Profile read_body(JsonObject& o) {
 bool leads_to_a_camera(const std::string& url) {
   const bool number = !url.empty() && url.find_first_not_of("0123456789") == std::string::npos;
   if (number || (url.rfind("/dev/video", 0) == 0 && url.find("..") == std::string::npos)) return true;
-  for (const char* scheme : {"http://", "https://", "rtsp://"}) {
+  for (const char* scheme : {"http://", "https://", "rtsp://", "aravis:"}) {
     if (url.rfind(scheme, 0) == 0) return true;
   }
   return false;

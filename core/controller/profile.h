@@ -24,7 +24,9 @@ struct CameraProfile {
   std::array<int, 4> target_roi_px{};                 // x, y, width, height
   std::vector<std::array<int, 4>> reference_rois_px;  // fixed marks, in the order of the file; may be none
   bool pixel_size_known = true;
-  double assumed_latency_s = 3.0;  // age of its pictures that is waited for as long as none was measured
+  double assumed_latency_s = 3.0;     // age of its pictures that is waited for as long as none was measured
+  std::optional<double> exposure_us;  // set while the camera is read; absent: as the camera is set
+  std::optional<double> gain_db;
 };
 
 struct SensorProfile {

@@ -1,6 +1,10 @@
 #include "core/flow/devices.h"
 
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
 
 #include "core/controller/device_readings.h"
 #include "core/controller/probe_source.h"
@@ -13,6 +17,21 @@ constexpr double fast_time_factor = 10.0;
 constexpr int fast_frames = 3;
 
 }  // namespace
+
+std::shared_ptr<vision::Camera> open_camera(const controller::CameraProfile& profile) {
+  vision::CameraOptions options;
+  options.exposure_us = profile.exposure_us;
+  options.gain_db = profile.gain_db;
+  if (!vision::Camera::is_exclusive(profile.url)) return std::make_shared<vision::Camera>(profile.url, options);
+  using Key = std::tuple<std::string, std::optional<double>, std::optional<double>>;
+  static std::mutex mutex;
+  static std::map<Key, std::weak_ptr<vision::Camera>> open;
+  const std::lock_guard lock(mutex);
+  auto& known = open[Key{profile.url, profile.exposure_us, profile.gain_db}];
+  auto camera = known.lock();
+  if (!camera) known = camera = std::make_shared<vision::Camera>(profile.url, options);
+  return camera;
+}
 
 Result<Devices> Devices::open(const controller::Profile& profile, bool with_cameras, access::Permit permit,
                               std::shared_ptr<controller::Operator> person) {
@@ -30,7 +49,7 @@ Result<Devices> Devices::open(const controller::Profile& profile, bool with_came
   }
   if (!with_cameras || profile.error_source != controller::ErrorSourceKind::camera) return devices;
   for (const auto& camera : profile.cameras) {
-    devices.cameras.push_back({camera, std::make_shared<vision::Camera>(camera.url)});
+    devices.cameras.push_back({camera, open_camera(camera)});
   }
   return devices;
 }

@@ -16,6 +16,10 @@
 
 namespace zerodrift::flow {
 
+/// With the exposure and the gain that the profile gives it; it begins to read at once. A device that only one can read
+/// is opened once in the program: the window's preview and a run share it.
+std::shared_ptr<vision::Camera> open_camera(const controller::CameraProfile& profile);
+
 struct CameraDevice {
   controller::CameraProfile profile;
   std::shared_ptr<vision::Camera> camera;

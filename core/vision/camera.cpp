@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <cstdlib>
 #include <deque>
 #include <mutex>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <thread>
 
 #include "core/base/redact.h"
-#include "core/vision/opencv_image.h"
+#include "core/vision/aravis_source.h"
+#include "core/vision/capture_stream.h"
+#include "core/vision/mjpeg_stream.h"
 
 namespace zerodrift::vision {
 namespace {
@@ -30,41 +29,13 @@ constexpr std::size_t most_sketches = 2000;
 // A device's stamp is believed when it is of the host's own clock: not of the future, and not older than this.
 constexpr double oldest_stamp_s = 10.0;
 
-enum class SourceKind { stream, device, file };
-
-SourceKind kind_of(const std::string& source) {
-  if (source.find("://") != std::string::npos) return SourceKind::stream;
-  const bool number =
-      !source.empty() && std::all_of(source.begin(), source.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return number || source.rfind("/dev/", 0) == 0 ? SourceKind::device : SourceKind::file;
-}
-
-// The libraries below print to stderr on their own; what matters is said through the errors.
-void quiet_libraries() {
-  static const bool once = [] {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-    return true;
-  }();
-  (void)once;
-}
-
-bool open_source(cv::VideoCapture& capture, const std::string& source, const CameraOptions& options) {
-  // The back end is always named: the automatic choice walks through all of them, which takes seconds.
-  if (kind_of(source) == SourceKind::device) {
-    const bool number = source.front() != '/';
-    return number ? capture.open(std::atoi(source.c_str()), cv::CAP_V4L2) : capture.open(source, cv::CAP_V4L2);
-  }
-  return capture.open(source, cv::CAP_FFMPEG,
-                      {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, static_cast<int>(options.open_timeout.count()),
-                       cv::CAP_PROP_READ_TIMEOUT_MSEC, static_cast<int>(options.read_timeout.count())});
-}
-
-GrayImage gray_of(const cv::Mat& picture) {
-  if (picture.channels() == 1) return gray_from_mat(picture);
-  cv::Mat gray;
-  cv::cvtColor(picture, gray, picture.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
-  return gray_from_mat(gray);
+CameraHealth sum(const CameraHealth& a, const CameraHealth& b) {
+  CameraHealth both = a;
+  both.incomplete += b.incomplete;
+  both.lost += b.lost;
+  both.lost_packets += b.lost_packets;
+  both.resent_packets += b.resent_packets;
+  return both;
 }
 
 std::string seconds_text(Steady::duration duration) {
@@ -86,10 +57,15 @@ struct Camera::Work {
   std::deque<std::shared_ptr<const PictureSketch>> history;
   std::uint64_t opened = 0;
   std::string detail = "not opened yet";
+  std::optional<Error> refused;  // why what is there is not read
+  CameraIdentity identity;
+  CameraHealth health;  // of the streams before the one that is open
+  CameraHealth open_health;
   std::jthread thread;
 
   void run(const std::stop_token& stop);
-  void read_all(cv::VideoCapture& capture, const std::stop_token& stop);
+  Result<std::unique_ptr<PictureStream>> open(const std::stop_token& stop);
+  void read_all(PictureStream& stream, const std::stop_token& stop);
   void publish(GrayImage image, std::optional<Seconds> device_stamp);
   Result<std::shared_ptr<const CameraFrame>> state(Steady::time_point now) const;
   std::optional<Steady::duration> repeating(Steady::time_point now) const;
@@ -100,23 +76,43 @@ struct Camera::Work {
   }
 };
 
+Result<std::unique_ptr<PictureStream>> Camera::Work::open(const std::stop_token& stop) {
+  if (kind_of(source) == SourceKind::genicam) return open_aravis(source, identity.serial, options);
+  if (source.rfind("http://", 0) == 0 || source.rfind("https://", 0) == 0) {
+    ZD_TRY(auto pictures, open_mjpeg(source, options, stop));
+    if (pictures) return pictures;
+  }
+  ZD_TRY(auto stream, open_capture(source, options, stop));
+  if (!stream) return fail(ErrorCode::camera_unreachable, {{"detail", "no picture could be opened"}});
+  return stream;
+}
+
 void Camera::Work::run(const std::stop_token& stop) {
   Milliseconds wait{200};
   while (!stop.stop_requested()) {
     bool worked = false;
     try {
-      cv::VideoCapture capture;
-      if (open_source(capture, source, options)) {
-        const std::uint64_t before = frame ? frame->count : 0;
-        {
-          const std::lock_guard lock(mutex);
+      auto stream = open(stop);
+      {
+        const std::lock_guard lock(mutex);
+        refused.reset();
+        if (stream) {
           ++opened;
+          identity = (*stream)->identity();
+          detail = "the stream ended";
+        } else if (stream.error().code == ErrorCode::camera_unreachable) {
+          detail = stream.error().context["detail"];
+        } else {
+          refused = stream.error();
+          refused->context["url"] = without_secrets(source);
         }
-        read_all(capture, stop);
+      }
+      changed.notify_all();
+      if (stream) {
+        const std::uint64_t before = frame ? frame->count : 0;
+        read_all(**stream, stop);
         worked = frame && frame->count > before;
       }
-      const std::lock_guard lock(mutex);
-      detail = worked ? "the stream ended" : "no picture could be opened";
     } catch (const cv::Exception& problem) {
       const std::lock_guard lock(mutex);
       detail = problem.err;
@@ -128,23 +124,27 @@ void Camera::Work::run(const std::stop_token& stop) {
   }
 }
 
-void Camera::Work::read_all(cv::VideoCapture& capture, const std::stop_token& stop) {
+void Camera::Work::read_all(PictureStream& stream, const std::stop_token& stop) {
   const bool from_file = kind_of(source) == SourceKind::file;
-  const bool device = kind_of(source) == SourceKind::device;
-  double rate = capture.get(cv::CAP_PROP_FPS);
+  double rate = stream.claimed_rate_hz();
   if (!(rate > 0.5 && rate < 500.0)) rate = default_file_rate_hz;
   const auto period = std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(1.0 / rate));
   Steady::time_point due = Steady::now();
-  cv::Mat picture;
-  while (!stop.stop_requested() && capture.read(picture) && !picture.empty()) {
-    std::optional<Seconds> device_stamp;
-    // V4L2 stamps its buffers by the host's monotonic clock; what other back ends call a position is the stream's own.
-    if (device) device_stamp = Seconds(capture.get(cv::CAP_PROP_POS_MSEC) / 1000.0);
-    publish(gray_of(picture), device_stamp);
+  while (!stop.stop_requested()) {
+    auto picture = stream.next(stop);
+    {
+      const std::lock_guard lock(mutex);
+      open_health = stream.health();
+    }
+    if (!picture) break;
+    publish(std::move(picture->image), picture->stamp);
     if (!from_file) continue;
     due += period;
-    if (!pause(due - Steady::now(), stop)) return;
+    if (!pause(due - Steady::now(), stop)) break;
   }
+  const std::lock_guard lock(mutex);
+  health = sum(health, open_health);
+  open_health = {};
 }
 
 void Camera::Work::publish(GrayImage image, std::optional<Seconds> device_stamp) {
@@ -177,6 +177,7 @@ void Camera::Work::publish(GrayImage image, std::optional<Seconds> device_stamp)
 // With the mutex held.
 Result<std::shared_ptr<const CameraFrame>> Camera::Work::state(Steady::time_point now) const {
   const bool live = kind_of(source) != SourceKind::file;
+  if (refused) return fail(*refused);
   if (!frame) {
     if (opened == 0) return fail(ErrorCode::camera_unreachable, {{"url", without_secrets(source)}, {"detail", detail}});
     return fail(ErrorCode::camera_silent, {{"url", without_secrets(source)}, {"seconds", seconds_text(now - started)}});
@@ -208,7 +209,6 @@ bool Camera::Work::in_a_burst() const {
 }
 
 Camera::Camera(std::string source, CameraOptions options) : m_work(std::make_shared<Work>()) {
-  quiet_libraries();
   m_work->source = std::move(source);
   m_work->options = options;
   m_work->thread = std::jthread([work = m_work.get()](const std::stop_token& stop) { work->run(stop); });
@@ -216,7 +216,11 @@ Camera::Camera(std::string source, CameraOptions options) : m_work(std::make_sha
 
 Camera::~Camera() {
   m_work->thread.request_stop();
-  m_work->thread.join();  // at most the read timeout
+  m_work->thread.join();  // at most the read timeout; of a camera at aravis: a search or a camera that is gone, seconds
+}
+
+bool Camera::is_exclusive(const std::string& source) {
+  return kind_of(source) == SourceKind::device || kind_of(source) == SourceKind::genicam;
 }
 
 const std::string& Camera::source() const {
@@ -248,9 +252,10 @@ Result<std::shared_ptr<const CameraFrame>> Camera::fresh_frame(Time after, Milli
       }
     }
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
+    if (m_work->refused) return fail(*m_work->refused);
     const std::uint64_t seen = frame ? frame->count : 0;
-    const bool more =
-        m_work->changed.wait_until(lock, stop, deadline, [&] { return m_work->frame && m_work->frame->count != seen; });
+    const bool more = m_work->changed.wait_until(
+        lock, stop, deadline, [&] { return m_work->refused || (m_work->frame && m_work->frame->count != seen); });
     if (more) continue;
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
     const Time now = Steady::now();
@@ -280,9 +285,10 @@ Result<std::shared_ptr<const CameraFrame>> Camera::next_picture(Seconds after, M
       }
     }
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
+    if (m_work->refused) return fail(*m_work->refused);
     const std::uint64_t seen = frame ? frame->count : 0;
-    const bool more =
-        m_work->changed.wait_until(lock, stop, deadline, [&] { return m_work->frame && m_work->frame->count != seen; });
+    const bool more = m_work->changed.wait_until(
+        lock, stop, deadline, [&] { return m_work->refused || (m_work->frame && m_work->frame->count != seen); });
     if (more) continue;
     if (stop.stop_requested()) return fail(ErrorCode::cancelled);
     const Time now = Steady::now();
@@ -316,9 +322,18 @@ double Camera::frames_per_s() const {
   return span_s > 0.0 ? static_cast<double>(arrivals.size() - 1) / span_s : 0.0;
 }
 
-std::uint64_t Camera::reconnections() const {
+std::optional<CameraIdentity> Camera::identity(Milliseconds wait, const std::stop_token& stop) const {
+  std::unique_lock lock(m_work->mutex);
+  m_work->changed.wait_for(lock, stop, wait, [&] { return m_work->opened > 0; });
+  return m_work->opened > 0 ? std::optional(m_work->identity) : std::nullopt;
+}
+
+CameraHealth Camera::health() const {
   const std::lock_guard lock(m_work->mutex);
-  return m_work->opened > 0 ? m_work->opened - 1 : 0;
+  CameraHealth health = sum(m_work->health, m_work->open_health);
+  health.pictures = m_work->frame ? m_work->frame->count : 0;
+  health.reconnections = m_work->opened > 0 ? m_work->opened - 1 : 0;
+  return health;
 }
 
 }  // namespace zerodrift::vision

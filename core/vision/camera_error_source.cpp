@@ -30,6 +30,14 @@ std::string problem_of(const Error& error) {
       return "camera sends no picture";
     case ErrorCode::camera_frozen:
       return "camera is frozen";
+    case ErrorCode::camera_exchanged:
+      return "another camera than before";
+    case ErrorCode::camera_ambiguous:
+      return "several cameras have this address";
+    case ErrorCode::camera_setting:
+      return "camera does not take its setting";
+    case ErrorCode::camera_format:
+      return "pixel format of the camera is not read";
     default:
       return std::string(name_of(error.code));
   }

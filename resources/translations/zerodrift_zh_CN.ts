@@ -5937,6 +5937,88 @@
     <message>
         <source>going back to a former table</source>
         <translation>恢复以前的补偿表</translation>
+        <source>another camera than before</source>
+        <translation>与此前不同的相机</translation>
+    </message>
+    <message>
+        <source>several cameras have this address</source>
+        <translation>该地址有多台相机</translation>
+    </message>
+    <message>
+        <source>camera does not take its setting</source>
+        <translation>相机不接受其设置</translation>
+    </message>
+    <message>
+        <source>pixel format of the camera is not read</source>
+        <translation>相机的像素格式无法读取</translation>
+    </message>
+    <message>
+        <source>a time from 1 to 10000000 us</source>
+        <translation>1 至 10000000 us 的时间</translation>
+    </message>
+    <message>
+        <source>a gain from -100 to 100 dB</source>
+        <translation>-100 至 100 dB 的增益</translation>
+    </message>
+    <message>
+        <source>a stream over the network</source>
+        <translation>网络视频流</translation>
+    </message>
+    <message>
+        <source>a camera at aravis: or a device; a stream is set in its camera</source>
+        <translation>aravis: 相机或本机设备；视频流须在其相机中设置</translation>
+    </message>
+    <message>
+        <source>no camera was found</source>
+        <translation>未找到相机</translation>
+    </message>
+    <message>
+        <source>found were only %1</source>
+        <translation>仅找到 %1</translation>
+    </message>
+    <message>
+        <source>another program reads it</source>
+        <translation>另一程序正在读取该相机</translation>
+    </message>
+    <message>
+        <source>exposure</source>
+        <translation>曝光时间</translation>
+    </message>
+    <message>
+        <source>gain</source>
+        <translation>增益</translation>
+    </message>
+    <message>
+        <source>the serial number</source>
+        <translation>序列号</translation>
+    </message>
+    <message>
+        <source>the exposure</source>
+        <translation>曝光时间</translation>
+    </message>
+    <message>
+        <source>the gain</source>
+        <translation>增益</translation>
+    </message>
+    <message>
+        <source>the model</source>
+        <translation>型号</translation>
+    </message>
+    <message>
+        <source>picture of the camera</source>
+        <translation>相机图像</translation>
+    </message>
+    <message>
+        <source>%1 bytes</source>
+        <translation>%1 字节</translation>
+    </message>
+    <message>
+        <source>%1 x %2 pixels</source>
+        <translation>%1 x %2 像素</translation>
+    </message>
+    <message>
+        <source>2 x 2 pixels or more</source>
+        <translation>2 x 2 像素或更多</translation>
     </message>
 </context>
 <context>
@@ -6904,6 +6986,44 @@
     <message>
         <source>Bring the machine to rest at its control, then start the step again.</source>
         <translation>请在控制器上使机床停止，然后重新开始此步骤。</translation>
+        <source>The camera at {url} has the serial number {found}; it was {expected} before.</source>
+        <translation>{url} 的相机序列号为 {found}；此前为 {expected}。</translation>
+    </message>
+    <message>
+        <source>Connect the camera that was there before, or connect anew and calibrate.</source>
+        <translation>请接回此前的相机，或重新连接并标定。</translation>
+    </message>
+    <message>
+        <source>{url} does not say which camera: those with the serial numbers {found} are there.</source>
+        <translation>{url} 未指明是哪台相机：现有序列号为 {found} 的相机。</translation>
+    </message>
+    <message>
+        <source>Write the serial number of one of them into the profile: aravis:SERIAL.</source>
+        <translation>请将其中一台的序列号写入连接配置：aravis:SERIAL。</translation>
+    </message>
+    <message>
+        <source>The camera at {url} does not take {what} {expected} ({found}).</source>
+        <translation>{url} 的相机不接受{what} {expected}（{found}）。</translation>
+    </message>
+    <message>
+        <source>Write a value that the camera has into the profile, or remove the key.</source>
+        <translation>请在连接配置中填写相机支持的值，或删除该键。</translation>
+    </message>
+    <message>
+        <source>The camera at {url} sends pictures as {found}, which is not read.</source>
+        <translation>{url} 的相机以 {found} 格式发送图像，无法读取。</translation>
+    </message>
+    <message>
+        <source>Set the camera to one of the formats {expected} or another grey or Bayer format.</source>
+        <translation>请将相机设为 {expected} 或其他灰度或 Bayer 格式。</translation>
+    </message>
+    <message>
+        <source>Camera {camera} was calibrated with {what} {expected}; now it is {found}.</source>
+        <translation>相机 {camera} 标定时{what}为 {expected}；现在为 {found}。</translation>
+    </message>
+    <message>
+        <source>Put it back as it was calibrated, or calibrate anew.</source>
+        <translation>请恢复标定时的状态，或重新标定。</translation>
     </message>
 </context>
 <context>
@@ -7031,6 +7151,22 @@
     <message>
         <source>camera later than known</source>
         <translation>相机延迟比已知的更长</translation>
+    </message>
+    <message>
+        <source>another camera than before</source>
+        <translation>与此前不同的相机</translation>
+    </message>
+    <message>
+        <source>several cameras</source>
+        <translation>有多台相机</translation>
+    </message>
+    <message>
+        <source>camera refuses a setting</source>
+        <translation>相机拒绝设置</translation>
+    </message>
+    <message>
+        <source>pixel format not read</source>
+        <translation>像素格式无法读取</translation>
     </message>
 </context>
 <context>

@@ -53,6 +53,29 @@ TEST(ProfileMeasuring, LatencyAndDriftHaveSafeDefaultsAndLimits) {
   EXPECT_EQ(refused.error().context.at("key"), "cameras[0].assumed_latency_s");
 }
 
+TEST(ProfileCameras, ExposureAndGainOfACameraThatCanBeSet) {
+  json document = shipped();
+  json& camera = document["cameras"][0];
+  EXPECT_FALSE(profile_from_json(document, "machine.json")->cameras[0].exposure_us);
+  for (const char* url : {"aravis:DA1234567", "aravis:*", "/dev/video0", "0"}) {
+    camera["url"] = url;
+    camera["exposure_us"] = 5000;
+    camera["gain_db"] = -1.5;
+    const auto profile = profile_from_json(document, "machine.json");
+    ASSERT_TRUE(profile) << describe(profile.error());
+    EXPECT_EQ(profile->cameras[0].exposure_us, 5000.0);
+    EXPECT_EQ(profile->cameras[0].gain_db, -1.5);
+    EXPECT_TRUE(profile_from_job(*document_for_job(document, *profile))) << "a job may lead to " << url;
+  }
+  camera["exposure_us"] = 0;
+  EXPECT_EQ(profile_from_json(document, "machine.json").error().context.at("key"), "cameras[0].exposure_us");
+  camera["exposure_us"] = 5000;
+  camera["url"] = "http://127.0.0.1/front.mjpg";
+  const auto stream = profile_from_json(document, "machine.json");
+  ASSERT_FALSE(stream) << "nothing would set it";
+  EXPECT_EQ(stream.error().context.at("key"), "cameras[0].exposure_us");
+}
+
 TEST(ProfileMarks, NoneOneAndSeveral) {
   json without = shipped();
   without["cameras"][1].erase("reference_roi_px");

@@ -12,6 +12,7 @@ void add_machine_check(Cli& cli);
 void add_machine_table(Cli& cli);
 void add_table(Cli& cli);
 void add_calibrate(Cli& cli);
+void add_camera(Cli& cli);
 void add_bundle(Cli& cli);
 void add_cluster(Cli& cli);
 void add_commission(Cli& cli);
@@ -37,6 +38,7 @@ void add_all_commands(Cli& cli) {
   add_machine_table(cli);
   add_table(cli);
   add_calibrate(cli);
+  add_camera(cli);
   add_bundle(cli);
   add_cluster(cli);
   add_commission(cli);

@@ -10,6 +10,7 @@
 #include "core/base/redact.h"
 #include "core/controller/device_readings.h"
 #include "core/controller/modbus_machine.h"
+#include "core/flow/devices.h"
 #include "core/vision/camera.h"
 
 namespace zerodrift::cli {
@@ -72,13 +73,26 @@ void list_state(const acquisition::MachineIdentity& identity, const acquisition:
 Status look_at_cameras(const controller::Profile& profile, const TaskContext& context, CommandOutput& output) {
   json cameras = json::array();
   for (const auto& entry : profile.cameras) {
-    const vision::Camera camera(entry.url);
+    const auto opened = flow::open_camera(entry);
+    const vision::Camera& camera = *opened;
     const auto frame = camera.fresh_frame(vision::Camera::Time::clock::now(), camera_timeout, context.stop);
     json row = {{"id", entry.id}, {"url", without_secrets(entry.url)}, {"ok", frame.has_value()}};
     if (frame) {
       row["width_px"] = (*frame)->image.width;
       row["height_px"] = (*frame)->image.height;
-      output.text += fmt::format("camera {:<8} {} x {} px\n", entry.id, (*frame)->image.width, (*frame)->image.height);
+      const auto identity = camera.identity().value_or(vision::CameraIdentity{});
+      if (!identity.serial.empty()) row["serial"] = identity.serial;
+      if (!identity.model.empty()) row["model"] = identity.model;
+      if (identity.exposure_us) row["exposure_us"] = *identity.exposure_us;
+      const auto health = camera.health();
+      row["pictures_incomplete"] = health.incomplete;
+      row["pictures_lost"] = health.lost;
+      output.text += fmt::format("camera {:<8} {} x {} px{}\n", entry.id, (*frame)->image.width, (*frame)->image.height,
+                                 identity.serial.empty() ? "" : ", serial " + identity.serial);
+      if (health.incomplete + health.lost > 0) {
+        output.warnings.push_back(
+            fmt::format("camera {}: {} pictures incomplete, {} lost", entry.id, health.incomplete, health.lost));
+      }
     } else {
       if (profile.error_source == controller::ErrorSourceKind::camera) return fail(frame.error());
       output.warnings.push_back(sentence(frame.error()));
@@ -103,8 +117,8 @@ void list_devices(const controller::DeviceReadings& readings, CommandOutput& out
     output.text += fmt::format("device {:<12} {}\n", state.id,
                                state.fault ? "no answer" : fmt::format("{:.0f} ms", 1000.0 * state.round_trip_s));
     if (state.fault) {
-      output.warnings.push_back(sentence(
-          Error{ErrorCode::device_failing, {{"device", state.id}, {"reason", sentence(*state.fault)}}}));
+      output.warnings.push_back(
+          sentence(Error{ErrorCode::device_failing, {{"device", state.id}, {"reason", sentence(*state.fault)}}}));
     }
   }
   output.json["devices"] = devices;

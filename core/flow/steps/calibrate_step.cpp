@@ -21,6 +21,10 @@ namespace {
 
 constexpr int template_frames = 8;  // averaged: the template's noise enters every measurement
 constexpr std::chrono::milliseconds frame_timeout{6000};
+constexpr std::chrono::milliseconds opening_timeout{8000};  // a camera on the network is looked for first
+// A camera gives its exposure back in steps of its own clock; its gain in steps of a tenth of a decibel.
+constexpr double same_exposure = 0.01;
+constexpr double same_gain_db = 0.1;
 
 vision::Region region_of(const std::array<int, 4>& box) {
   return vision::Region{box[0], box[1], box[2], box[3]};
@@ -211,6 +215,9 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
       {"positions", outcome.calibration.views.size()},
       {"latency", {{"mean_s", latency.mean_s}, {"spread_s", latency.spread_s}, {"observations", latency.observations}}},
       {"calibration", vision::to_json(outcome.calibration)}};
+  if (const auto identity = device.camera->identity(); identity) {
+    if (json kept = device_json(*identity); !kept.is_null()) made.body["device"] = std::move(kept);
+  }
   if (marks.size() == 1) made.body["reference_roi"] = marks.front();
   if (marks.size() > 1) {
     made.body["reference_roi"] = marks;
@@ -223,9 +230,20 @@ Result<CameraCalibration> calibrate_camera(Devices& devices, const CameraDevice&
   return made;
 }
 
+/// A camera that does not open in time cannot be told from another one.
+Status is_calibrated_device(const json& body, const CameraDevice& device) {
+  const auto kept = body.find("device");
+  if (kept == body.end() || !kept->is_object()) return {};
+  const auto identity = device.camera->identity(opening_timeout);
+  if (identity) return same_device(device.profile.id, *kept, *identity);
+  const auto frame = device.camera->newest();
+  return frame ? Status{} : fail(frame.error());
+}
+
 Result<vision::ErrorView> view_of(const commissioning::Job& job, const commissioning::Artefact& artefact,
                                   const json& body, const CameraDevice& device) {
   const std::string id = device.profile.id;
+  ZD_CHECK(is_calibrated_device(body, device));
   ZD_TRY(const vision::GrayImage image, picture_of(job, artefact.id, id + "-template.png"));
   std::vector<vision::GrayImage> frames;
   for (const auto& name : artefact.blob_names) {
@@ -274,6 +292,45 @@ vision::TakenOff taken_off_by(const std::vector<std::array<int, 4>>& marks) {
   std::vector<vision::Region> regions;
   for (const auto& mark : marks) regions.push_back(region_of(mark));
   return vision::taken_off_by(regions);
+}
+
+json device_json(const vision::CameraIdentity& identity) {
+  if (identity.kind.empty()) return {};
+  json device = {
+      {"kind", identity.kind}, {"vendor", identity.vendor}, {"model", identity.model}, {"serial", identity.serial}};
+  if (identity.exposure_us) device["exposure_us"] = *identity.exposure_us;
+  if (identity.gain_db) device["gain_db"] = *identity.gain_db;
+  return device;
+}
+
+Status same_device(const std::string& camera, const json& kept, const vision::CameraIdentity& now) {
+  const auto other = [&](const char* what, const std::string& found, const std::string& expected) {
+    return fail(ErrorCode::calibration_of_another_camera,
+                {{"camera", camera}, {"what", what}, {"found", found}, {"expected", expected}});
+  };
+  const auto text = [&](const char* key) {
+    const auto at = kept.find(key);
+    return at != kept.end() && at->is_string() ? at->get<std::string>() : std::string();
+  };
+  const auto number = [&](const char* key) {
+    const auto at = kept.find(key);
+    return at != kept.end() && at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
+  };
+  if (const std::string serial = text("serial"); !serial.empty() && serial != now.serial) {
+    return other("the serial number", now.serial.empty() ? "none" : now.serial, serial);
+  }
+  if (const std::string model = text("model"); !model.empty() && !now.model.empty() && model != now.model) {
+    return other("the model", now.model, model);
+  }
+  const auto exposure_us = number("exposure_us");
+  if (exposure_us && now.exposure_us && std::abs(*now.exposure_us - *exposure_us) > same_exposure * *exposure_us) {
+    return other("the exposure", fmt::format("{:g} us", *now.exposure_us), fmt::format("{:g} us", *exposure_us));
+  }
+  const auto gain_db = number("gain_db");
+  if (gain_db && now.gain_db && std::abs(*now.gain_db - *gain_db) > same_gain_db) {
+    return other("the gain", fmt::format("{:g} dB", *now.gain_db), fmt::format("{:g} dB", *gain_db));
+  }
+  return {};
 }
 
 Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,

@@ -3,7 +3,9 @@
 // target and of the fixed marks, then the moves that give um per px. Makes the artefact "calibration":
 //   {"source": "camera", "reference_target": true,
 //    "cameras": [{"id", "axes", "roi", "reference_roi", "um_per_px", "rotation_deg", "rms_um", "positions",
-//                 "latency": {"mean_s", "spread_s", "observations"}, "calibration": {...contract...}}]}
+//                 "latency": {"mean_s", "spread_s", "observations"}, "calibration": {...contract...},
+//                 "device": {"kind", "vendor", "model", "serial", "exposure_us", "gain_db"}}]}
+// "device" is who the camera is and how it was set, as far as it tells; a stream over the network has none.
 // with one fixed mark "reference_roi": [x, y, w, h]; with several a list of such, and "takes_off": "shift" | "turn",
 // what of the camera's own motion they take off (turn: shift, turn and scale).
 // with the blobs "<camera>-template.png" and "<camera>-view-<n>.png" (the views teach the target's mask).
@@ -19,6 +21,7 @@
 #include "core/commissioning/job.h"
 #include "core/flow/devices.h"
 #include "core/vision/calibration_run.h"
+#include "core/vision/camera_identity.h"
 #include "core/vision/error_view.h"
 
 namespace zerodrift::flow {
@@ -48,11 +51,18 @@ std::vector<std::array<int, 4>> marks_of(const nlohmann::json& camera);
 /// What marks in these regions take off of the camera's own motion.
 vision::TakenOff taken_off_by(const std::vector<std::array<int, 4>>& marks);
 
+/// What the artefact keeps of a camera's identity; null of one that tells nothing.
+nlohmann::json device_json(const vision::CameraIdentity& identity);
+/// Whether `now` is the camera that `kept` describes, set alike. What one of both does not tell is not compared, but
+/// for a serial number that was told when it was calibrated. calibration_of_another_camera.
+Status same_device(const std::string& camera, const nlohmann::json& kept, const vision::CameraIdentity& now);
+
 /// Moves the machine. Refused while it is compensating: the moves would be falsified.
 Result<commissioning::NewArtefact> calibrate(const commissioning::Job& job, Devices& devices,
                                              const CalibrateOptions& options, const TaskContext& context);
 
-/// The views of the job's latest calibration on the open cameras.
+/// The views of the job's latest calibration on the open cameras. A camera that tells its serial number or its exposure
+/// is asked whether it is the calibrated one: calibration_of_another_camera.
 Result<std::vector<vision::ErrorView>> calibrated_views(const commissioning::Job& job, Devices& devices);
 
 }  // namespace zerodrift::flow
