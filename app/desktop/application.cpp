@@ -401,7 +401,8 @@ void Application::lightController() {
   if (m_bench->tasks().running() && unseen) {
     return light(tr("Controller not asked just now"), ui::Judgement::none);
   }
-  light(tr("Controller connected"), ui::Judgement::ok);
+  const bool manual = m_bench->profile() && m_bench->profile()->manual;
+  light(manual ? tr("Manual control") : tr("Controller connected"), ui::Judgement::ok);
 }
 
 void Application::lightCamera() {

@@ -99,14 +99,14 @@ void MapEditor::load() {
   const auto& profile = m_bench.profile();
   std::string of;
   if (profile) {
-    of = profile->file + "\n" + profile->controller.register_map;
+    of = profile->file + "\n" + profile->controller.register_map + (profile->manual ? "\nmanual" : "");
     if (profile->controller.own_map) of += profile->controller.own_map->dump();
   }
   if (of == m_of && m_draft) return;
   m_of = of;
   m_draft.reset();
   m_changed = false;
-  if (profile) {
+  if (profile && !profile->manual) {  // without a link there is nothing to read by a map
     auto map = controller::map_of(*profile);
     if (map) {
       m_draft = std::move(*map);

@@ -7528,6 +7528,10 @@
         <source>The spindle, the path and the coolant stop; the compensation stays as it is switched. What was recorded is kept and the run can be resumed.</source>
         <translation>主轴、轨迹运动和冷却液停止；补偿开关保持现状。已记录的数据会保留，运行可继续。</translation>
     </message>
+    <message>
+        <source>Manual control</source>
+        <translation>手动控制</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::AxisErrorsPresenter</name>
@@ -7983,6 +7987,10 @@
     <message>
         <source>End it and disconnect</source>
         <translation>结束并断开</translation>
+    </message>
+    <message>
+        <source>Manual control</source>
+        <translation>手动控制</translation>
     </message>
 </context>
 <context>
@@ -10600,6 +10608,66 @@
     <message>
         <source>Warmest less coldest of the sensors that live, each by the mean of its last readings. It forbids nothing: a sensor by a motor that always holds is always warmer. What counts is that nothing changes any more (%1 K/h) when the run begins.</source>
         <translation>正常传感器中最热与最冷之差，各取最近读数的平均值。它不禁止任何操作：始终通电的电机旁的传感器总是较热。重要的是运行开始时不再变化（%1 K/h）。</translation>
+    </message>
+    <message>
+        <source>This control has no link: connect to the devices, and answer what is asked about the control.</source>
+        <translation>该控制器没有通信连接：请连接各设备，并回答有关控制器的询问。</translation>
+    </message>
+    <message>
+        <source>Devices that answer</source>
+        <translation>有应答的设备</translation>
+    </message>
+    <message>
+        <source>Devices</source>
+        <translation>设备</translation>
+    </message>
+    <message>
+        <source>Device</source>
+        <translation>设备</translation>
+    </message>
+    <message>
+        <source>From the request to the last answer</source>
+        <translation>从询问到最近一次应答的时间</translation>
+    </message>
+    <message>
+        <source>Age</source>
+        <translation>时效</translation>
+    </message>
+    <message>
+        <source>Since the last answer</source>
+        <translation>距最近一次应答的时间</translation>
+    </message>
+    <message>
+        <source>Missed</source>
+        <translation>未应答</translation>
+    </message>
+    <message>
+        <source>Requests without an answer since the connection was made</source>
+        <translation>连接以来未应答的询问次数</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>does not answer</source>
+        <translation>无应答</translation>
+    </message>
+    <message>
+        <source>answers</source>
+        <translation>有应答</translation>
+    </message>
+    <message>
+        <source>not asked yet</source>
+        <translation>尚未询问</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 / %2</translation>
     </message>
 </context>
 <context>

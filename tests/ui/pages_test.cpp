@@ -22,10 +22,12 @@
 #include "ui/shell/theme.h"
 #include "ui/widgets/channel_table.h"
 #include "ui/widgets/column_dialog.h"
+#include "ui/widgets/data_table.h"
 #include "ui/widgets/empty_state.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/machine_drawing.h"
 #include "ui/widgets/number_text.h"
+#include "ui/widgets/toggle_segment.h"
 
 using namespace zerodrift::ui;
 
@@ -37,6 +39,8 @@ class PagesTest : public QObject {
   void emptyPagesSayHowToGetThere();
   void machineStartsJobsAndSelectsSensors();
   void registersAreEdited();
+  void devicesAreListedWithWhatIsWrong();
+  void manualControlHasNoRegisters();
   void warmthIsJudgedByItsChange();
   void columnsAreTold();
   void compensationOnLocksStart();
@@ -134,6 +138,68 @@ void PagesTest::registersAreEdited() {
   page.setState(state);
   QCOMPARE(edited.count(), 1);
   QCOMPARE(table->item(4, RegisterTable::value)->text(), QString("21.000"));
+}
+
+void PagesTest::devicesAreListedWithWhatIsWrong() {
+  MachinePage page;
+  shown(&page);
+  auto* devices = page.findChild<DataTable*>("devices");
+  auto* words = page.findChild<QLabel*>("deviceState");
+  samples::fillMachine(&page, "filled");  // the control has all of it
+  QVERIFY(!devices->isVisible() && !words->isVisible());
+  samples::fillMachine(&page, "devices");
+  QVERIFY(devices->isVisible());
+  auto* table = devices->findChild<QTableWidget*>();
+  const auto row = [table](int at) {
+    QStringList texts;
+    for (int i = 0; i < table->columnCount(); ++i) texts << table->item(at, i)->text();
+    return texts;
+  };
+  QCOMPARE(row(0), QStringList({"module-1", "11.8 ms", "0.4 s", "2", "answers"}));
+  QCOMPARE(row(2).mid(0, 4), QStringList({"amplifier", "–", "75.0 s", "6"}));
+  QVERIFY(row(2)[4].startsWith("No connection to 192.168.0.21"));
+  QVERIFY(row(3)[4].contains("opened anew"));
+  // What is wrong is read without a pointer: of the first that does not answer, or of the selected one.
+  QVERIFY(words->isVisible() && words->text().startsWith("amplifier: No connection"));
+  QVERIFY(words->toolTip().contains("cable"));  // what to do
+  table->setCurrentCell(3, 0);
+  QVERIFY(words->text().contains("opened anew"));
+  page.showView(1);  // the registers need the room
+  QVERIFY(!devices->isVisible() && !words->isVisible());
+  page.showView(0);
+  QVERIFY(devices->isVisible());
+  // A rig of many devices leaves the drawing its room.
+  MachineState state = page.state();
+  while (state.devices.size() < 12) state.devices.append(state.devices.first());
+  page.setState(state);
+  QVERIFY(devices->height() < 200);
+  QCOMPARE(devices->rowCount(), 12);
+}
+
+void PagesTest::manualControlHasNoRegisters() {
+  MachinePage page;
+  shown(&page);
+  samples::fillMachine(&page, "registers");
+  auto* registers = page.findChild<QTableWidget*>("registers");
+  QVERIFY(registers->isVisible());
+  samples::fillMachine(&page, "manual");
+  QVERIFY(!registers->isVisible());
+  QVERIFY(!page.findChild<ToggleSegment*>()->isVisible());
+  QVERIFY(page.findChild<MachineDrawing*>()->isVisible());
+  // No link, so no round trip and no other clock: its devices instead.
+  const auto cards = page.findChildren<FigureCard*>();
+  QStringList labels;
+  for (const FigureCard* card : cards) {
+    if (card->isVisible()) labels << card->figure().label;
+  }
+  QCOMPARE(labels, QStringList({"Sensors alive", "Spread at rest", "Devices that answer"}));
+  MachineState state = page.state();
+  state.connected = false;
+  page.setState(state);
+  QVERIFY(page.sentence().contains("no link"));
+  QVERIFY(!page.findChild<DataTable*>("devices")->isVisible());
+  samples::fillMachine(&page, "registers");
+  QVERIFY(page.findChild<ToggleSegment*>()->isVisible());
 }
 
 void PagesTest::warmthIsJudgedByItsChange() {

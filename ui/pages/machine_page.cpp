@@ -5,6 +5,7 @@
 #include "ui/pages/machine_start.h"
 #include "ui/widgets/card.h"
 #include "ui/widgets/channel_table.h"
+#include "ui/widgets/data_table.h"
 #include "ui/widgets/figure_card.h"
 #include "ui/widgets/machine_drawing.h"
 #include "ui/widgets/number_text.h"
@@ -13,6 +14,9 @@
 
 namespace zerodrift::ui {
 namespace {
+
+constexpr int device_row_px = 22;
+constexpr int devices_most = 5;  // rows without scrolling: the drawing needs the rest of the height
 
 QString htmlColor(const QColor& color) {
   return color.name();
@@ -73,6 +77,14 @@ QWidget* MachinePage::makeMachine() {
   m_parts->setTextFormat(Qt::RichText);
   m_drawingCard->body()->addWidget(m_drawingViews, 1);
   m_drawingCard->body()->addWidget(m_parts);
+  m_devices = new DataTable(m_drawingCard);
+  m_devices->setObjectName("devices");
+  m_devices->setRowHeight(device_row_px);
+  m_deviceState = new WrapLabel(m_drawingCard);
+  m_deviceState->setObjectName("deviceState");
+  m_deviceState->setProperty("role", "caption");
+  m_drawingCard->body()->addWidget(m_devices);
+  m_drawingCard->body()->addWidget(m_deviceState);
 
   m_sensorCard = new Card(view);
   m_sensorCard->setBodyMargins(1, 0, 1, 6);
@@ -89,6 +101,7 @@ QWidget* MachinePage::makeMachine() {
   all->addWidget(m_sensorCard, 4);
 
   connect(m_profile, &QComboBox::activated, this, &MachinePage::profileChosen);
+  connect(m_devices, &DataTable::rowSelected, this, &MachinePage::renderDevices);
   connect(m_view, &ToggleSegment::currentChanged, this, &MachinePage::viewShown);
   connect(m_drawing, &MachineDrawing::selected, this, [this](const QString& id) {
     m_table->select(id);
@@ -136,7 +149,8 @@ void MachinePage::showView(int index) {
 void MachinePage::viewShown(int index) {
   m_drawingViews->setCurrentIndex(index);
   m_sensorCard->setVisible(index == 0);  // the registers need the room
-  m_parts->setVisible(index == 0 && m_state.connected && !m_state.parts.isEmpty());
+  renderParts();
+  renderDevices();
   Q_EMIT registersShown(index == 1);
 }
 
@@ -156,6 +170,9 @@ QString MachinePage::title() const {
 QString MachinePage::sentence() const {
   if (!m_state.jobOpen) return tr("Start a job for this machine, or go on with one.");
   if (startsVirtual()) return tr("The machine of this job is a virtual one: start it, or connect to another.");
+  if (!m_state.connected && m_state.manual) {
+    return tr("This control has no link: connect to the devices, and answer what is asked about the control.");
+  }
   if (!m_state.connected) return tr("Choose the connection profile and connect to the controller.");
   if (tableLost()) {
     return tr("The machine does not hold version %1, which this job has written: bring it back in Upload, or start "
@@ -254,10 +271,25 @@ QVector<Figure> MachinePage::figures() const {
     sensors.judgement = all ? Judgement::ok : Judgement::warn;
     sensors.word = all ? tr("all") : tr("%n to check", nullptr, static_cast<int>(m_state.sensors.size() - alive));
   }
+  if (m_state.manual) return {sensors, restFigure(), devicesFigure()};
   Figure clock = figureAtMost(tr("Clock difference"), m_state.clockDifference_s, 1, "s", m_state.clockLimit_s);
   clock.tip = tr("Controller's clock minus this computer's.");
   return {sensors, restFigure(),
           figureAtMost(tr("Round trip"), m_state.roundTrip_ms, 1, "ms", m_state.roundTripLimit_ms), clock};
+}
+
+/// Of a control without a link: nothing else is asked, and the clock is this computer's.
+Figure MachinePage::devicesFigure() const {
+  const auto answering = std::count_if(m_state.devices.begin(), m_state.devices.end(),
+                                       [](const DeviceHealth& d) { return d.judgement == Judgement::ok; });
+  const bool known = m_state.connected && !m_state.devices.isEmpty();
+  Figure figure = figureOf(tr("Devices that answer"), known ? static_cast<double>(answering) : NAN, 0,
+                           tr("of %1").arg(m_state.devices.size()));
+  if (!known) return figure;
+  const auto silent = static_cast<int>(m_state.devices.size() - answering);
+  figure.judgement = silent == 0 ? Judgement::ok : Judgement::warn;
+  figure.word = silent == 0 ? tr("all") : tr("%n to check", nullptr, silent);
+  return figure;
 }
 
 Figure MachinePage::restFigure() const {
@@ -300,6 +332,7 @@ void MachinePage::render() {
   m_start->setState(m_state.recent, m_state.sampleAvailable);
   renderMachine();
   renderParts();
+  renderDevices();
   renderRegisters();
 }
 
@@ -310,6 +343,8 @@ void MachinePage::renderMachine() {
                                             : tr("Not connected"));
   m_drawingCard->setToolTip(m_state.address);
   m_view->setItems({tr("Drawing"), tr("Registers")});
+  m_view->setVisible(!m_state.manual);  // without a link there are no registers
+  if (m_state.manual) m_view->setCurrentIndex(0);
   {
     const QSignalBlocker quiet(m_profile);
     m_profile->clear();
@@ -370,6 +405,50 @@ void MachinePage::renderParts() {
   }
   m_parts->setText(words.join(" &nbsp;&nbsp; "));
   m_parts->setVisible(m_state.connected && !words.isEmpty() && m_view->currentIndex() == 0);
+}
+
+void MachinePage::renderDevices() {
+  m_devices->setAccessibleName(tr("Devices"));
+  m_devices->setColumns({{tr("Device"), 116, false, {}},
+                         {tr("Round trip"), 84, true, tr("From the request to the last answer")},
+                         {tr("Age"), 62, true, tr("Since the last answer")},
+                         {tr("Missed"), 68, true, tr("Requests without an answer since the connection was made")},
+                         {tr("State"), 0, false, {}}});
+  QVector<QVector<DataCell>> rows;
+  const DeviceHealth* said = nullptr;  // the selected one, else the first that does not answer
+  for (int i = 0; i < m_state.devices.size(); ++i) {
+    const DeviceHealth& device = m_state.devices[i];
+    const bool bad = device.judgement == Judgement::bad;
+    const QString word = bad                                 ? tr("does not answer")
+                         : device.judgement == Judgement::ok ? tr("answers")
+                                                             : tr("not asked yet");
+    const QString state = device.state.isEmpty() ? word : device.state;
+    const QString whole = device.remedy.isEmpty() ? state : state + QLatin1Char(' ') + device.remedy;
+    rows.append(
+        {{device.id, device.judgement, true, {}, {}, false, false, false, device.id + ": " + word},
+         {std::isnan(device.roundTrip_ms) ? QStringLiteral("–") : tr("%1 ms").arg(fixedText(device.roundTrip_ms, 1))},
+         {std::isnan(device.age_s) ? QStringLiteral("–") : tr("%1 s").arg(fixedText(device.age_s, 1))},
+         {QString::number(device.missed),
+          Judgement::none,
+          false,
+          {},
+          {},
+          false,
+          false,
+          false,
+          tr("%1 of %2").arg(device.missed).arg(device.rounds)},
+         {state, device.judgement, false, {}, {}, false, false, bad, whole}});
+    const bool selected = i == m_devices->currentRow() && !device.state.isEmpty();
+    if (selected || (bad && said == nullptr)) said = &device;
+  }
+  m_devices->setRows(rows);
+  m_devices->setFixedHeight(m_devices->heightOfRows() -
+                            device_row_px * std::max(0, m_devices->rowCount() - devices_most));
+  const bool visible = m_state.connected && !rows.isEmpty() && m_view->currentIndex() == 0;
+  m_devices->setVisible(visible);
+  m_deviceState->setText(said == nullptr ? QString() : said->id + ": " + said->state);
+  m_deviceState->setToolTip(said == nullptr ? QString() : said->remedy);
+  m_deviceState->setVisible(visible && said != nullptr);
 }
 
 void MachinePage::renderRegisters() {

@@ -19,6 +19,7 @@ namespace zerodrift::ui {
 
 class Card;
 class ChannelTable;
+class DataTable;
 class MachineDrawing;
 class ToggleSegment;
 
@@ -42,6 +43,18 @@ struct PartHealth {
   Judgement judgement = Judgement::none;
 };
 
+/// A device that is read beside the control.
+struct DeviceHealth {
+  QString id{};                                                    // "module-1"
+  Judgement judgement = Judgement::none;                           // ok: answers, bad: does not, none: not asked yet
+  double roundTrip_ms = std::numeric_limits<double>::quiet_NaN();  // NaN: the last round was not answered
+  double age_s = std::numeric_limits<double>::quiet_NaN();         // of the last answer, NaN: there was none
+  long missed = 0;                                                 // rounds without an answer
+  long rounds = 0;                                                 // all of them
+  QString state{};                                                 // the fault in a sentence, else the remarks
+  QString remedy{};
+};
+
 /// How the machine stands before a run. The spread alone says little: a sensor by a motor that always holds is always
 /// warmer. What matters is whether anything still changes.
 struct RestState {
@@ -60,6 +73,7 @@ struct MachineState {
   bool jobOpen = false;
   bool connected = false;
   bool connecting = false;
+  bool manual = false;          // the control has no link: a person does what is asked
   bool virtualOffered = false;  // the job's machine is a virtual one, which can be started here
   bool compensationOn = false;
   int writtenVersion = 0;  // of the table that this job has put into the machine; 0: none yet
@@ -74,6 +88,7 @@ struct MachineState {
   QVector<RecentJob> recent{};
   QVector<SensorHealth> sensors{};
   QVector<PartHealth> parts{};
+  QVector<DeviceHealth> devices{};
   QVector<RegisterRow> registers{};
   QStringList registerNames{};  // what a register may be
   QString mapNotes{};           // "plc.json, changed; no table"
@@ -134,9 +149,11 @@ class MachinePage : public Page {
   void viewShown(int index);
   void renderMachine();
   void renderParts();
+  void renderDevices();
   void renderRegisters();
   QVector<Figure> figures() const;
   Figure restFigure() const;
+  Figure devicesFigure() const;
 
   MachineState m_state;
   QStackedWidget* m_views;
@@ -152,6 +169,8 @@ class MachinePage : public Page {
   ToggleSegment* m_view;
   QComboBox* m_profile;
   QLabel* m_parts;
+  DataTable* m_devices;
+  QLabel* m_deviceState;
   ChannelTable* m_table;
 };
 

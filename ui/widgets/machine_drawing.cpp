@@ -31,7 +31,7 @@ QSize MachineDrawing::sizeHint() const {
 }
 
 QSize MachineDrawing::minimumSizeHint() const {
-  return {260, 220};
+  return {260, 150};
 }
 
 void MachineDrawing::setSensors(const QVector<SensorSpot>& sensors) {

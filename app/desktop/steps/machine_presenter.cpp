@@ -11,6 +11,7 @@
 
 #include "app/desktop/moment.h"
 #include "app/text/core_text.h"
+#include "app/text/error_text.h"
 #include "core/acquisition/machine_fault.h"
 #include "core/base/resources.h"
 #include "core/flow/devices.h"
@@ -328,13 +329,15 @@ std::optional<int> MachinePresenter::virtualSeed() const {
   const auto& workbench = bench();
   const auto& profile = workbench.profile();
   const auto& machine = workbench.body("machine");
-  if (!profile || profile->controller.host != "127.0.0.1" || !machine.is_object()) return std::nullopt;
+  if (!profile || profile->manual || profile->controller.host != "127.0.0.1" || !machine.is_object())
+    return std::nullopt;
   return virtual_seed_of(machine.value("identity", nlohmann::json::object()).value("serial", 0U));
 }
 
 QString MachinePresenter::connectionText() const {
   const auto& profile = bench().profile();
   if (!profile) return {};
+  if (profile->manual) return tr("Manual control");
   const auto& link = profile->controller;
   if (link.kind == controller::LinkKind::rtu) {
     return tr("Modbus RTU %1, unit %2").arg(QString::fromStdString(link.device)).arg(link.unit);
@@ -365,6 +368,7 @@ void MachinePresenter::refresh() {
   if (const auto& profile = bench().profile()) {
     state.profiles = {QString::fromStdString(profile->name)};
     state.profile = 0;
+    state.manual = profile->manual;
     state.machineName = QString::fromStdString(profile->name);
   }
   if (bench().look()) {
@@ -374,6 +378,7 @@ void MachinePresenter::refresh() {
       state.keptFrom = momentText(m_lookedAt);
     } else {
       fillParts(state);
+      fillDevices(state);
     }
   } else if (!m_connecting) {
     fillKept(state);
@@ -474,6 +479,28 @@ void MachinePresenter::fillParts(ui::MachineState& state) const {
   }
   state.parts.append({QStringLiteral("switch"), tr("Compensation"), sample.compensation_on ? tr("ON") : tr("OFF"),
                       sample.compensation_on ? ui::Judgement::warn : ui::Judgement::ok});
+}
+
+void MachinePresenter::fillDevices(ui::MachineState& state) const {
+  for (const controller::DeviceState& device : bench().look()->devices) {
+    ui::DeviceHealth health;
+    health.id = QString::fromStdString(device.id);
+    health.missed = device.faults;
+    health.rounds = device.rounds + device.faults;
+    health.judgement = device.fault ? ui::Judgement::bad : device.rounds > 0 ? ui::Judgement::ok : ui::Judgement::none;
+    if (device.age_s) health.age_s = *device.age_s;
+    if (device.rounds > 0 && !device.fault) health.roundTrip_ms = 1000.0 * device.round_trip_s;
+    if (device.fault) {
+      const ErrorText text = textOf(*device.fault, Reader::window);
+      health.state = text.sentence;
+      health.remedy = text.remedy;
+    } else {
+      QStringList remarks;
+      for (const auto& remark : device.remarks) remarks << coreText(remark);
+      health.state = remarks.join(QStringLiteral("; "));
+    }
+    state.devices.append(health);
+  }
 }
 
 void MachinePresenter::tour(std::function<void(bool good)> done) {

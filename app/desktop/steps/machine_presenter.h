@@ -67,6 +67,7 @@ class MachinePresenter : public Presenter {
   void fillSensors(ui::MachineState& state);
   void fillRest(ui::MachineState& state) const;
   void fillParts(ui::MachineState& state) const;
+  void fillDevices(ui::MachineState& state) const;
   /// Without a connection: how the machine stood when the commissioning was started, as the job kept it.
   void fillKept(ui::MachineState& state) const;
 

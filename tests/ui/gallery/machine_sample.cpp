@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tests/ui/gallery/page_samples.h"
 #include "ui/pages/machine_page.h"
 
@@ -91,6 +93,22 @@ void fillMachine(Page* page, const QString& scene) {
     s.virtualOffered = true;
     s.keptFrom = "30 Sep 2026, 13:06";
     s.writtenVersion = 4;
+  }
+  if (scene == "devices" || scene == "manual") {
+    s.devices = {
+        {"module-1", Judgement::ok, 11.8, 0.4, 2, 1260, {}, {}},
+        {"module-2", Judgement::ok, 12.1, 0.7, 0, 1258, {}, {}},
+        {"amplifier", Judgement::bad, NAN, 75.0, 6, 1190,
+         "No connection to 192.168.0.21, port 502 (Connection refused).",
+         "Check cable, address and port, that the Modbus server, broker or agent there is on, and user and password "
+         "where it asks for them."},
+        {"shop", Judgement::ok, 0.1, 1.2, 0, 1260, "the connection to the broker was lost and opened anew", {}}};
+  }
+  if (scene == "manual") {
+    s.manual = true;
+    s.address = "Manual control";
+    s.registers.clear();
+    s.mapNotes.clear();
   }
   machine->setState(s);
   machine->selectSensor("T1_C");
