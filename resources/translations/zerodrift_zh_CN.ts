@@ -4600,7 +4600,7 @@
     </message>
     <message>
         <source>the control&apos;s backlash parameter (BACKLASH is written 0: its sign and share are not published)</source>
-        <translation>控制系统的反向间隙参数（BACKLASH 写为 0：其符号和所占份额未公开）</translation>
+        <translation>控制器的反向间隙参数（BACKLASH 写为 0：其符号和所占份额未公开）</translation>
     </message>
     <message>
         <source>BACKLASH 0: its sign and share are not published</source>
@@ -8118,7 +8118,7 @@
     <name>zerodrift::desktop::OperatorDialog</name>
     <message>
         <source>At the control</source>
-        <translation>在控制系统旁</translation>
+        <translation>在控制器旁</translation>
     </message>
     <message>
         <source>Check value</source>
@@ -8161,7 +8161,7 @@
     </message>
     <message>
         <source>Is the compensation switched on at the control?</source>
-        <translation>控制系统上的补偿是否已接通？</translation>
+        <translation>控制器上的补偿是否已接通？</translation>
     </message>
     <message>
         <source>Set %1, and start the warm-up path</source>
@@ -8189,11 +8189,11 @@
     </message>
     <message>
         <source>Load the table %1 into the control, then type the check value that it shows</source>
-        <translation>将补偿表 %1 载入控制系统，然后输入其显示的校验值</translation>
+        <translation>将补偿表 %1 载入控制器，然后输入其显示的校验值</translation>
     </message>
     <message>
         <source>Type the check value that the control shows for its table</source>
-        <translation>输入控制系统为其补偿表显示的校验值</translation>
+        <translation>输入控制器为其补偿表显示的校验值</translation>
     </message>
 </context>
 <context>
