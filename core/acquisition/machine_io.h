@@ -52,8 +52,8 @@ struct MachineSample {
   std::vector<Seconds> temperature_at{};           // host time of each, where they are not of one request; else empty
   std::array<double, 3> applied_um{};              // compensation the controller applies now, X Y Z
   std::optional<std::array<double, 5>> probes_um;  // displacement probes X1 X2 Y1 Y2 Z, if there are any
-  Seconds probes_at{0.0};                                       // host time of these
-  std::map<std::string, Error> device_faults{};  // device of the rig -> why its values are missing
+  Seconds probes_at{0.0};                          // host time of these
+  std::map<std::string, Error> device_faults{};    // device of the rig -> why its values are missing
 };
 
 class MachineIo {

@@ -106,7 +106,7 @@ class Run {
   std::optional<double> m_commanded_rpm;        // as the machine took it last
   std::optional<double> m_other_speed_since_s;  // machine time of the first reading with another speed than that
   std::vector<std::string> m_failing_devices;
-  std::optional<std::size_t> m_known_step;      // the conditions the trend counts from
+  std::optional<std::size_t> m_known_step;  // the conditions the trend counts from
   int m_failed_measurements = 0;
   DriftLimit m_drift;
   struct Good {

@@ -38,17 +38,17 @@ struct DeviceProfile {
   std::string id;
   DeviceKind kind = DeviceKind::modbus;
   ControllerSettings modbus;
-  std::string file;               // of the profile: relative paths are beside it
-  bool of_job = false;            // files that it names are not read
-  double poll_period_s = 1.0;     // host time from one reading to the next
-  double stale_after_s = 10.0;    // host time after which a value that was not renewed is missing
-  int timeout_ms = 1000;          // until an answer is missed
-  std::string host;               // mqtt
-  int port = 1883;                // mqtt
-  bool tls = false;               // mqtt
-  std::string ca_file;            // mqtt: the broker's authority; empty: the system's
-  std::string credentials_file;   // mqtt, mtconnect: {"user": ..., "password": ...}, never a part of the profile
-  std::string url;                // mtconnect: the agent, "http://host:5000/"
+  std::string file;              // of the profile: relative paths are beside it
+  bool of_job = false;           // files that it names are not read
+  double poll_period_s = 1.0;    // host time from one reading to the next
+  double stale_after_s = 10.0;   // host time after which a value that was not renewed is missing
+  int timeout_ms = 1000;         // until an answer is missed
+  std::string host;              // mqtt
+  int port = 1883;               // mqtt
+  bool tls = false;              // mqtt
+  std::string ca_file;           // mqtt: the broker's authority; empty: the system's
+  std::string credentials_file;  // mqtt, mtconnect: {"user": ..., "password": ...}, never a part of the profile
+  std::string url;               // mtconnect: the agent, "http://host:5000/"
 };
 
 /// Where a quantity is read: a device of the profile, and the signal in the device's own words: a register and, of

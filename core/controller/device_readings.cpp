@@ -212,8 +212,8 @@ std::vector<std::string> DeviceReadings::remarks() const {
   std::vector<std::string> out;
   for (const DeviceState& state : states()) {
     if (state.faults > 0) {
-      out.push_back(fmt::format("{}: {} of {} rounds were not answered", state.id, state.faults,
-                                state.rounds + state.faults));
+      out.push_back(
+          fmt::format("{}: {} of {} rounds were not answered", state.id, state.faults, state.rounds + state.faults));
     }
     for (const std::string& remark : state.remarks) out.push_back(state.id + ": " + remark);
   }

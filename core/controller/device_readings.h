@@ -19,12 +19,12 @@ namespace zerodrift::controller {
 /// How a device does, for the page and the record.
 struct DeviceState {
   std::string id;
-  long rounds = 0;                  // that were answered
-  long faults = 0;                  // that were not
-  std::optional<Error> fault;       // of the last round; nothing: it answers
-  std::optional<double> age_s;      // of its last answer
-  double round_trip_s = 0.0;        // of its last answer
-  double mean_age_s = 0.0;          // of the values that were taken over into samples
+  long rounds = 0;              // that were answered
+  long faults = 0;              // that were not
+  std::optional<Error> fault;   // of the last round; nothing: it answers
+  std::optional<double> age_s;  // of its last answer
+  double round_trip_s = 0.0;    // of its last answer
+  double mean_age_s = 0.0;      // of the values that were taken over into samples
   double largest_age_s = 0.0;
   std::vector<std::string> remarks;
 };

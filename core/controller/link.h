@@ -75,8 +75,8 @@ class Link {
   LinkHealth m_health;
   int m_attempts = 5;
   bool m_was_connected = false;
-  std::set<int> m_answered;  // functions that the device has carried out: it does not lack them
-  bool m_without_6 = false;  // the device writes single registers by function 16
+  std::set<int> m_answered;            // functions that the device has carried out: it does not lack them
+  bool m_without_6 = false;            // the device writes single registers by function 16
   std::shared_ptr<SerialLine> m_line;  // null over TCP
 };
 

@@ -26,8 +26,8 @@ Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* war
 
 class ModbusMachine : public acquisition::MachineIo {
  public:
-  /// Loads the profile's register map and starts to ask the rig's devices; the first request connects. Without a permit to write every write is
-  /// access_locked before a byte is sent.
+  /// Loads the profile's register map and starts to ask the rig's devices; the first request connects. Without a permit
+  /// to write every write is access_locked before a byte is sent.
   static Result<std::unique_ptr<ModbusMachine>> open(const Profile& profile,
                                                      access::Permit permit = access::Permit::read_only());
   /// The control alone.

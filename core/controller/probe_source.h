@@ -13,7 +13,8 @@ namespace zerodrift::controller {
 class ProbeErrorSource : public acquisition::ErrorSource {
  public:
   /// The machine must outlive the source and is used from the same thread.
-  explicit ProbeErrorSource(acquisition::MachineIo& machine, int readings = 5) : m_machine(machine), m_readings(readings) {}
+  explicit ProbeErrorSource(acquisition::MachineIo& machine, int readings = 5)
+      : m_machine(machine), m_readings(readings) {}
 
   Status take_zero(const acquisition::Stand& stand, const TaskContext& context) override;
   Result<acquisition::ErrorSample> measure(const acquisition::Stand& stand, const TaskContext& context) override;

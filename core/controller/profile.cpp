@@ -67,8 +67,7 @@ CameraProfile read_camera(JsonObject& o) {
   camera.gain_db = o.number_if("gain_db", gain_range);
   for (const char* key : {"exposure_us", "gain_db"}) {
     if (o.number_if(key) && camera.url.find("://") != std::string::npos) {
-      o.reject(key, "a stream over the network",
-               "a camera at aravis: or a device; a stream is set in its camera");
+      o.reject(key, "a stream over the network", "a camera at aravis: or a device; a stream is set in its camera");
     }
   }
   return camera;

@@ -100,7 +100,8 @@ void read_devices(JsonObject& o, Profile& profile) {
       continue;
     }
     if (has_control) entry.reject("kind", kind, "one control only; this profile has another one");
-    if (kind == "mqtt" || kind == "mtconnect") entry.reject("kind", kind, "a control: modbus-tcp, modbus-rtu or manual");
+    if (kind == "mqtt" || kind == "mtconnect")
+      entry.reject("kind", kind, "a control: modbus-tcp, modbus-rtu or manual");
     read_control(entry, kind, profile);
     has_control = true;
   }
@@ -114,7 +115,8 @@ void read_devices(JsonObject& o, Profile& profile) {
     if (device.kind != DeviceKind::modbus) continue;
     const std::string address = address_of(device.modbus);
     if (!taken.emplace(address, device.id).second) {
-      o.reject("devices", fmt::format("{} at {}", device.id, address), "an address that is not that of " + taken[address]);
+      o.reject("devices", fmt::format("{} at {}", device.id, address),
+               "an address that is not that of " + taken[address]);
     }
   }
 }

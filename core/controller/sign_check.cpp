@@ -216,19 +216,16 @@ class OffsetByHand : public TestOffset {
 
   Result<bool> still_holds(std::size_t /*axis*/, double /*offset_um*/) override { return true; }
 
-  Result<double> time_s() override {
-    return host_clock().steady().count() * m_control.profile().time_factor;
-  }
+  Result<double> time_s() override { return host_clock().steady().count() * m_control.profile().time_factor; }
 
   Status end(const std::string& reason) override {
     if (!m_begun) return {};
     Status left = m_control.write_host_offset({});
     if (left && !m_was_on) left = m_control.switch_compensation(false);
     if (left) return {};
-    return fail(ErrorCode::compensation_left, {{"reason", reason},
-                                               {"detail", describe(left.error())},
-                                               {"held", "the test offset"},
-                                               {"switch", "on"}});
+    return fail(
+        ErrorCode::compensation_left,
+        {{"reason", reason}, {"detail", describe(left.error())}, {"held", "the test offset"}, {"switch", "on"}});
   }
 
   std::array<bool, 4> order() const override { return {true, true, false, false}; }

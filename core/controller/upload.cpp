@@ -195,8 +195,8 @@ Status compare_tables(UploadRecord& record, const Profile& profile, const acquis
   ZD_TRY(const Table new_table, decode_table(record.new_words, profile));
   ZD_TRY(record.old_table, decode_table(record.old_words, profile));
   record.old_table.version = record.old_sequence;
-  ZD_TRY(record.difference, compensation::difference(record.old_table, new_table, temperatures_of(profile, sample),
-                                                     sample.axes));
+  ZD_TRY(record.difference,
+         compensation::difference(record.old_table, new_table, temperatures_of(profile, sample), sample.axes));
   for (const auto& axis : record.difference) {
     if (axis.largest_um <= profile.max_um) continue;
     return fail(ErrorCode::limit_exceeded, {{"what", "the change of the compensation of axis " + axis.axis},

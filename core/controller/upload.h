@@ -82,8 +82,8 @@ struct UploadRecord {
 };
 nlohmann::json to_json(const UploadRecord& record);
 
-/// The difference at the present temperatures into the record, and the machine's limits for it: no axis may jump by more
-/// than it takes, no term be steeper.
+/// The difference at the present temperatures into the record, and the machine's limits for it: no axis may jump by
+/// more than it takes, no term be steeper.
 Status compare_tables(UploadRecord& record, const Profile& profile, const acquisition::MachineSample& sample);
 /// Is `table` too steep, and is the machine inside the range it was made in? The latter is a warning.
 Status check_for_machine(UploadRecord& record, const compensation::Table& table, const Profile& profile,

@@ -30,8 +30,8 @@ class Device {
   virtual std::vector<std::string> remarks() const { return {}; }
 };
 
-/// The device of a profile, reading the signals `names` (addresses in the device's own words, docs/profile.md). Nothing is
-/// connected before the first read(). data_does_not_fit for a signal that such a device cannot have.
+/// The device of a profile, reading the signals `names` (addresses in the device's own words, docs/profile.md). Nothing
+/// is connected before the first read(). data_does_not_fit for a signal that such a device cannot have.
 Result<std::unique_ptr<Device>> open_device(const DeviceProfile& profile, const std::vector<std::string>& names);
 
 }  // namespace zerodrift::controller
