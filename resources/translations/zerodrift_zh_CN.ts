@@ -5937,6 +5937,8 @@
     <message>
         <source>going back to a former table</source>
         <translation>恢复以前的补偿表</translation>
+    </message>
+    <message>
         <source>another camera than before</source>
         <translation>与此前不同的相机</translation>
     </message>
@@ -6986,6 +6988,8 @@
     <message>
         <source>Bring the machine to rest at its control, then start the step again.</source>
         <translation>请在控制器上使机床停止，然后重新开始此步骤。</translation>
+    </message>
+    <message>
         <source>The camera at {url} has the serial number {found}; it was {expected} before.</source>
         <translation>{url} 的相机序列号为 {found}；此前为 {expected}。</translation>
     </message>
