@@ -174,7 +174,8 @@ class JobChangeTest : public QObject, private zerodrift::desktop::TestHome {
     QCOMPARE(page->state().phase, zerodrift::ui::RunPhase::planning);
   }
 
-  /// The machine goes away for good in the middle: the page says since when, and Finish ends the run with what there is.
+  /// The machine goes away for good in the middle: the page says since when, and Finish ends the run with what there
+  /// is.
   void finishEndsARunWhoseControllerIsAway() {
     Application application(m_theme);
     show(application);
