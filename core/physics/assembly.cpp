@@ -1,15 +1,16 @@
 #include "core/physics/assembly.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 namespace zerodrift::physics {
 namespace {
 
-/// Breadth first through the links from the node with the fewest: neighbours get rows close to each other (Cuthill and
-/// McKee 1969), so that a chain beside a chain costs a few chains.
-std::vector<int> neighbourly_order(const Network& network) {
-  const std::size_t n = network.nodes();
-  std::vector<std::vector<int>> linked(n);
+using Links = std::vector<std::vector<int>>;  // of each node: the others, ascending
+
+Links links_of(const Network& network) {
+  Links linked(network.nodes());
   for (const auto& term : network.terms) {
     for (const auto& link : term.links) {
       linked[link.first].push_back(link.second);
@@ -20,6 +21,13 @@ std::vector<int> neighbourly_order(const Network& network) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
+  return linked;
+}
+
+/// Breadth first through the links from the node with the fewest: neighbours get rows close to each other (Cuthill and
+/// McKee 1969), so that a chain beside a chain costs a few chains.
+std::vector<int> neighbourly_order(const Links& linked) {
+  const std::size_t n = linked.size();
   std::vector<int> order;
   std::vector<bool> taken(n, false);
   while (order.size() < n) {
@@ -48,29 +56,83 @@ std::vector<int> neighbourly_order(const Network& network) {
   return order;
 }
 
+void unite(std::vector<int>& list, const std::vector<int>& more, int but) {
+  std::vector<int> all;
+  std::set_union(list.begin(), list.end(), more.begin(), more.end(), std::back_inserter(all));
+  all.erase(std::remove(all.begin(), all.end(), but), all.end());
+  list = std::move(all);
+}
+
+/// The node with the fewest neighbours first, which then are neighbours of each other (minimum degree: Tinney and
+/// Walker 1967): a coupling fills in little, wherever along a chain it is.
+std::vector<int> order_of_least_degree(Links linked) {
+  std::vector<int> order;
+  std::vector<bool> taken(linked.size(), false);
+  while (order.size() < linked.size()) {
+    int least = -1;
+    for (std::size_t i = 0; i < linked.size(); ++i) {
+      if (!taken[i] && (least < 0 || linked[i].size() < linked[least].size())) least = static_cast<int>(i);
+    }
+    taken[least] = true;
+    order.push_back(least);
+    const std::vector<int> around = linked[least];
+    for (const int node : around) {
+      unite(linked[node], around, node);
+      linked[node].erase(std::remove(linked[node].begin(), linked[node].end(), least), linked[node].end());
+    }
+  }
+  return order;
+}
+
+/// Adds what elimination makes different from zero: a column hands its other rows on to the first of them.
+void fill_in(std::vector<std::vector<int>>& columns) {
+  std::vector<std::vector<int>> rows(columns.size());  // of each column, ascending
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (const int column : columns[i]) rows[column].push_back(static_cast<int>(i));
+  }
+  for (auto& below : rows) {
+    if (below.size() > 1) unite(rows[below.front()], {below.begin() + 1, below.end()}, below.front());
+  }
+  for (auto& row : columns) row.clear();
+  for (std::size_t column = 0; column < rows.size(); ++column) {
+    for (const int row : rows[column]) columns[row].push_back(static_cast<int>(column));
+  }
+}
+
 }  // namespace
 
 Skyline Assembly::empty_matrix() {
-  const auto envelope = [&] {
-    std::vector<int> first(m_n);
-    for (std::size_t i = 0; i < m_n; ++i) first[i] = static_cast<int>(i);
-    for (const auto& term : m_net.terms) {
-      for (const auto& link : term.links) {
-        const auto [low, high] = std::minmax(m_rank[link.first], m_rank[link.second]);
-        first[high] = std::min(first[high], low);
+  const Links links = links_of(m_net);
+  const auto ranked = [&](const std::vector<int>& order) {
+    m_rank.resize(m_n);
+    for (std::size_t i = 0; i < m_n; ++i) m_rank[order[i]] = static_cast<int>(i);
+    std::vector<std::vector<int>> columns(m_n);
+    for (std::size_t node = 0; node < m_n; ++node) {
+      for (const int other : links[node]) {
+        if (m_rank[other] < m_rank[node]) columns[m_rank[node]].push_back(m_rank[other]);
       }
     }
-    return first;
+    for (auto& row : columns) std::sort(row.begin(), row.end());
+    return columns;
   };
-  m_rank.resize(m_n);
-  for (std::size_t i = 0; i < m_n; ++i) m_rank[i] = static_cast<int>(i);
-  std::vector<int> first = envelope();
-  bool chain = true;
-  for (std::size_t i = 0; i < m_n; ++i) chain = chain && static_cast<int>(i) - first[i] <= 1;
-  if (chain) return Skyline(std::move(first));
-  std::vector<int> order = neighbourly_order(m_net);
-  for (std::size_t i = 0; i < m_n; ++i) m_rank[order[i]] = static_cast<int>(i);
-  return Skyline(envelope(), std::move(order));
+  const auto width = [](const std::vector<std::vector<int>>& columns) {
+    int widest = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!columns[i].empty()) widest = std::max(widest, static_cast<int>(i) - columns[i].front());
+    }
+    return widest;
+  };
+  std::vector<int> order(m_n);
+  std::iota(order.begin(), order.end(), 0);
+  if (auto columns = ranked(order); width(columns) <= 1) return Skyline(columns);
+  order = neighbourly_order(links);
+  auto columns = ranked(order);
+  if (width(columns) > 2) {
+    order = order_of_least_degree(links);
+    columns = ranked(order);
+    fill_in(columns);
+  }
+  return Skyline(columns, std::move(order));
 }
 
 Assembly::Assembly(const Network& network, const InputSet& inputs, const std::vector<double>& values,

@@ -4,29 +4,52 @@
 
 namespace zerodrift::physics {
 
-Skyline::Skyline(std::vector<int> first, std::vector<int> order)
-    : m_first(std::move(first)), m_order(std::move(order)), m_sorted(m_order.size(), 0.0) {
-  std::ptrdiff_t total = 0;
-  for (int i = 0; i < static_cast<int>(m_first.size()); ++i) {
-    m_start.push_back(total);
-    total += i - m_first[i];
-    m_chain = m_chain && i - m_first[i] <= 1;
-    m_band = m_band && i - m_first[i] <= 2;
+Skyline::Skyline(const std::vector<std::vector<int>>& columns, std::vector<int> order) : m_order(std::move(order)) {
+  const std::size_t n = columns.size();
+  const auto place = [&](std::size_t i) { return m_order.empty() ? i : static_cast<std::size_t>(m_order[i]); };
+  m_up.assign(n + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    m_start.push_back(m_column.size());
+    for (const int column : columns[i]) {
+      const auto at = static_cast<std::size_t>(column);
+      m_column.push_back(at);
+      m_place.push_back(place(at));
+      ++m_up[at + 1];
+      m_chain = m_chain && at + 1 == i;
+      m_band = m_band && at + 2 >= i;
+    }
   }
-  m_below.assign(total, 0.0);
-  m_diagonal.assign(m_first.size(), 0.0);
-  m_inverse.assign(m_first.size(), 0.0);
+  m_start.push_back(m_column.size());
+  for (std::size_t i = 0; i < n; ++i) m_up[i + 1] += m_up[i];
+  m_up_entry.resize(m_column.size());
+  m_up_place = m_up_entry;
+  std::vector<std::size_t> next(m_up.begin(), m_up.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t e = m_start[i]; e < m_start[i + 1]; ++e) {
+      const std::size_t to = next[m_column[e]]++;
+      m_up_entry[to] = e;
+      m_up_place[to] = place(i);
+    }
+  }
+  m_below.assign(m_column.size(), 0.0);
+  m_diagonal.assign(n, 0.0);
+  m_inverse = m_work = m_diagonal;
   m_chain = m_chain && m_order.empty();
   constexpr std::size_t worth_two_halves = 8;
-  m_band = m_band && !m_chain && m_first.size() >= worth_two_halves;
-  if (m_band) {
-    m_near.assign(m_first.size(), 0.0);
-    m_far = m_near_up = m_far_up = m_near;
-  }
-  if (m_chain) {
-    m_link.assign(m_first.size(), 0.0);
-    m_factor.assign(m_first.size(), 0.0);
-  }
+  m_band = m_band && !m_chain && n >= worth_two_halves;
+  if (m_band) m_near = m_far = m_near_up = m_far_up = m_diagonal;
+  if (m_chain) m_link = m_factor = m_diagonal;
+}
+
+std::size_t Skyline::find(std::size_t row, std::size_t column) const {
+  std::size_t at = m_start[row];
+  while (at < m_start[row + 1] && m_column[at] != column) ++at;
+  return at;
+}
+
+double Skyline::entry(std::size_t row, std::size_t column) const {
+  const std::size_t at = find(row, column);
+  return at < m_start[row + 1] ? m_below[at] : 0.0;
 }
 
 void Skyline::clear() {
@@ -35,9 +58,9 @@ void Skyline::clear() {
 }
 
 void Skyline::factor_chain() {
-  const int n = static_cast<int>(m_first.size());
+  const int n = static_cast<int>(size());
   const int middle = n / 2;
-  for (int i = 1; i < n; ++i) m_link[i] = m_first[i] < i ? m_below[m_start[i]] : 0.0;
+  for (int i = 1; i < n; ++i) m_link[i] = m_start[i] < m_start[i + 1] ? m_below[m_start[i]] : 0.0;
   for (int i = 0; i < middle; ++i) {
     const double pivot = m_diagonal[i] - (i > 0 ? m_factor[i - 1] * m_link[i] : 0.0);
     m_inverse[i] = 1.0 / pivot;
@@ -55,25 +78,21 @@ void Skyline::factor_chain() {
 }
 
 void Skyline::factor() {
-  if (m_first.empty()) return;
-  if (m_chain) return factor_chain();
+  if (m_chain) return size() == 0 ? void() : factor_chain();
   if (m_band) return factor_band();
-  const int n = static_cast<int>(m_first.size());
-  for (int i = 0; i < n; ++i) {
-    double* row = m_below.data() + m_start[i];
-    const int low = m_first[i];
-    for (int j = low; j < i; ++j) {
-      const double* other = m_below.data() + m_start[j];
-      const int from = std::max(low, m_first[j]);
-      double sum = row[j - low];
-      for (int k = from; k < j; ++k) sum -= row[k - low] * other[k - m_first[j]];
-      row[j - low] = sum;  // L_ij D_j until the row is complete
-    }
+  for (std::size_t i = 0; i < size(); ++i) {
     double pivot = m_diagonal[i];
-    for (int j = low; j < i; ++j) {
-      const double scaled = row[j - low];
-      row[j - low] = scaled * m_inverse[j];
-      pivot -= scaled * row[j - low];
+    for (std::size_t e = m_start[i]; e < m_start[i + 1]; ++e) {
+      const std::size_t j = m_column[e];
+      double sum = m_below[e];
+      for (std::size_t f = m_start[j]; f < m_start[j + 1]; ++f) sum -= m_below[f] * m_work[m_column[f]];
+      m_work[j] = sum;  // L_ij D_j
+    }
+    for (std::size_t e = m_start[i]; e < m_start[i + 1]; ++e) {
+      const std::size_t j = m_column[e];
+      m_below[e] = m_work[j] * m_inverse[j];
+      pivot -= m_below[e] * m_work[j];
+      m_work[j] = 0.0;
     }
     m_inverse[i] = 1.0 / pivot;
   }
@@ -81,7 +100,7 @@ void Skyline::factor() {
 
 /// The last row of each half stays in a register: written and read again it would be waited for.
 ZERODRIFT_WIDE void Skyline::solve_chain(double* x) const {
-  const std::size_t n = m_first.size();
+  const std::size_t n = size();
   const std::size_t middle = n / 2;
   const double* f = m_factor.data();
   const double* inverse = m_inverse.data();
@@ -108,7 +127,7 @@ ZERODRIFT_WIDE void Skyline::solve_chain(double* x) const {
 }
 
 ZERODRIFT_WIDE void Skyline::solve_lanes_of_chain(double* x) const {
-  const std::size_t n = m_first.size();
+  const std::size_t n = size();
   const std::size_t middle = n / 2;
   Four* rows = reinterpret_cast<Four*>(x);
   for (std::size_t i = 0; i < middle; ++i) {
@@ -134,12 +153,11 @@ ZERODRIFT_WIDE void Skyline::solve_lanes_of_chain(double* x) const {
 }
 
 void Skyline::factor_band() {
-  const std::size_t n = m_first.size();
+  const std::size_t n = size();
   const std::size_t m = middle();
   // Entries of the matrix beside the diagonal, 0 outside the envelope.
   const auto beside = [&](std::size_t i, std::size_t distance) {
-    const int row = static_cast<int>(i), column = row - static_cast<int>(distance);
-    return i < n && column >= m_first[i] ? m_below[m_start[i] + column - m_first[i]] : 0.0;
+    return i < n && i >= distance ? entry(i, i - distance) : 0.0;
   };
   std::vector<double>& pivot = m_inverse;  // the diagonal as it is left; rows already eliminated hold 1 / pivot
   for (std::size_t i = 0; i < n; ++i) pivot[i] = m_diagonal[i];
@@ -171,7 +189,7 @@ void Skyline::factor_band() {
 }
 
 ZERODRIFT_WIDE void Skyline::solve_band(double* x) const {
-  const std::size_t n = m_first.size();
+  const std::size_t n = size();
   const std::size_t m = middle();
   const int* order = m_order.empty() ? nullptr : m_order.data();
   const auto at = [&](std::size_t i) -> double& {
@@ -205,34 +223,28 @@ ZERODRIFT_WIDE void Skyline::solve_band(double* x) const {
   }
 }
 
-void Skyline::solve(double* given) {
-  const int n = static_cast<int>(m_first.size());
-  if (m_chain) return solve_chain(given);
-  if (m_band) return solve_band(given);
-  double* x = given;
-  if (!m_order.empty()) {
-    x = m_sorted.data();
-    for (int i = 0; i < n; ++i) x[i] = given[m_order[i]];
+ZERODRIFT_WIDE void Skyline::solve(double* x) const {
+  if (m_chain) return solve_chain(x);
+  if (m_band) return solve_band(x);
+  const std::size_t n = size();
+  const auto place = [&](std::size_t i) { return m_order.empty() ? i : static_cast<std::size_t>(m_order[i]); };
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = x[place(i)];
+    for (std::size_t e = m_start[i]; e < m_start[i + 1]; ++e) sum -= m_below[e] * x[m_place[e]];
+    x[place(i)] = sum;
   }
-  for (int i = 0; i < n; ++i) {
-    const double* row = m_below.data() + m_start[i];
-    double sum = x[i];
-    for (int j = m_first[i]; j < i; ++j) sum -= row[j - m_first[i]] * x[j];
-    x[i] = sum;
+  for (std::size_t i = n; i-- > 0;) {
+    double sum = x[place(i)] * m_inverse[i];
+    for (std::size_t u = m_up[i]; u < m_up[i + 1]; ++u) sum -= m_below[m_up_entry[u]] * x[m_up_place[u]];
+    x[place(i)] = sum;
   }
-  for (int i = 0; i < n; ++i) x[i] *= m_inverse[i];
-  for (int i = n - 1; i >= 0; --i) {
-    const double* row = m_below.data() + m_start[i];
-    for (int j = m_first[i]; j < i; ++j) x[j] -= row[j - m_first[i]] * x[i];
-  }
-  for (int i = 0; i < n && x != given; ++i) given[m_order[i]] = x[i];
 }
 
 /// The two rows that the next one of its half needs stay in registers, and the halves take turns, so that neither waits
 /// for itself alone. Everything is written out here: what is called would be
 /// compiled for the narrow registers.
 ZERODRIFT_WIDE void Skyline::solve_lanes_of_band(double* x) const {
-  const std::size_t n = m_first.size();
+  const std::size_t n = size();
   const std::size_t m = middle();
   const int* order = m_order.empty() ? nullptr : m_order.data();
   const auto at = [&](std::size_t i) {
@@ -297,28 +309,32 @@ ZERODRIFT_WIDE void Skyline::solve_lanes_of_band(double* x) const {
 }
 
 ZERODRIFT_WIDE void Skyline::solve_lanes(double* x) const {
-  if (m_first.empty()) return;
-  if (m_chain) return solve_lanes_of_chain(x);
+  if (m_chain) return size() == 0 ? void() : solve_lanes_of_chain(x);
   if (m_band) return solve_lanes_of_band(x);
-  const int n = static_cast<int>(m_first.size());
-  const auto at = [&](int i) {
-    return reinterpret_cast<Four*>(x + static_cast<std::size_t>(m_order.empty() ? i : m_order[i]) * lanes);
-  };
-  const auto eliminate = [&](int target, int source, int i, int j) {
-    const double factor = m_below[m_start[i] + j - m_first[i]];
-    if (factor == 0.0) return;
-    at(target)[0] -= factor * at(source)[0];
-    at(target)[1] -= factor * at(source)[1];
-  };
-  for (int i = 0; i < n; ++i) {
-    for (int j = m_first[i]; j < i; ++j) eliminate(i, j, i, j);
+  const std::size_t n = size();
+  const int* order = m_order.empty() ? nullptr : m_order.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    Four* own = reinterpret_cast<Four*>(x + (order == nullptr ? i : static_cast<std::size_t>(order[i])) * lanes);
+    Four a = own[0], b = own[1];
+    for (std::size_t e = m_start[i]; e < m_start[i + 1]; ++e) {
+      const Four* other = reinterpret_cast<const Four*>(x + m_place[e] * lanes);
+      a -= m_below[e] * other[0];
+      b -= m_below[e] * other[1];
+    }
+    own[0] = a;
+    own[1] = b;
   }
-  for (int i = 0; i < n; ++i) {
-    at(i)[0] *= m_inverse[i];
-    at(i)[1] *= m_inverse[i];
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    for (int j = m_first[i]; j < i; ++j) eliminate(j, i, i, j);
+  for (std::size_t i = n; i-- > 0;) {
+    Four* own = reinterpret_cast<Four*>(x + (order == nullptr ? i : static_cast<std::size_t>(order[i])) * lanes);
+    Four a = own[0] * m_inverse[i], b = own[1] * m_inverse[i];
+    for (std::size_t u = m_up[i]; u < m_up[i + 1]; ++u) {
+      const Four* other = reinterpret_cast<const Four*>(x + m_up_place[u] * lanes);
+      const double factor = m_below[m_up_entry[u]];
+      a -= factor * other[0];
+      b -= factor * other[1];
+    }
+    own[0] = a;
+    own[1] = b;
   }
 }
 

@@ -24,15 +24,12 @@ using search::Posterior;
 namespace {
 
 void tell_rivals(const Weighed& weighed, Diagnosis& answer) {
-  std::set<Name> named;
-  for (const HeldEffect& effect : weighed.best.model().hypothesis().effects) {
-    if (weighed.mass_of(name_of(effect)) >= weighed.settings.named_from) named.insert(name_of(effect));
-  }
   std::set<std::string> ids;
   for (const Explanation& one : weighed.posterior.explanations) {
     for (const HeldEffect& effect : one.fit->model().hypothesis().effects) {
       const Name name = name_of(effect);
-      if (named.count(name) != 0 || weighed.mass_of(name) < weighed.settings.rival_from || !ids.insert(name.id).second)
+      if (weighed.named.count(name) != 0 || weighed.mass_of(name) < weighed.settings.rival_from ||
+          !ids.insert(name.id).second)
         continue;
       Rival rival;
       rival.id = name.id;
@@ -66,8 +63,8 @@ void tell_verdict(const Weighed& weighed, Diagnosis& answer) {
   const bool any = std::any_of(answer.channels.begin(), answer.channels.end(),
                                [](const auto& one) { return one.verdict == ChannelVerdict::unexplained; });
   if (answer.effects.empty()) {
-    // Something is missing, and no one explanation of it is likely enough.
-    const bool missing = weighed.probability[weighed.posterior.described] < 1.0 - weighed.settings.named_from;
+    // The description is not right for certain, and no one explanation of it is likely enough.
+    const bool missing = weighed.probability[weighed.posterior.described] < 1.0 - weighed.decisive();
     answer.verdict = any || missing ? Verdict::unexplained : Verdict::consistent;
     return;
   }
@@ -88,7 +85,8 @@ void tell_details(const Weighed& weighed, Diagnosis& answer) {
     };
     const auto& all = weighed.posterior.explanations;
     const auto at = std::find_if(all.begin(), all.end(), holds);
-    if (at != all.end() && at->fit.get() != &weighed.best) rivals.push_back(at->fit.get());
+    if (at != all.end() && at->fit.get() != weighed.posterior.explanations.front().fit.get())
+      rivals.push_back(at->fit.get());
     if (!rivals.empty()) break;
   }
   if (!rivals.empty()) answer.suggested = suggest_experiment(weighed.best, rivals);

@@ -47,9 +47,7 @@ void place(const Weighed& weighed, std::size_t effect, FoundEffect& found) {
     const Fit& fit = *weighed.posterior.explanations[i].fit;
     const auto& held = fit.model().hypothesis().effects;
     for (std::size_t e = 0; e < held.size(); ++e) {
-      const bool same =
-          &fit == &weighed.best ? e == effect : is(held[e], weighed.best.model().hypothesis().effects[effect]);
-      if (!same) continue;
+      if (!is(held[e], weighed.best.model().hypothesis().effects[effect])) continue;
       std::map<std::string, double> sigma;
       const physics::EffectSpec spec = fitted_effect(fit, e, &sigma);
       if (spec.numbers.count("position_mm") == 0) continue;
@@ -63,31 +61,6 @@ void place(const Weighed& weighed, std::size_t effect, FoundEffect& found) {
   found.position_sigma_mm = found.sigma["position_mm"] = sigma_mm;
   if (sigma_mm > widest_point_mm)
     found.between_mm = {std::max(0.0, at_mm - 2.0 * sigma_mm), std::min(length_mm, at_mm + 2.0 * sigma_mm)};
-}
-
-/// Does it leave more of some channel?
-bool is_material(const Weighed& weighed, const Fit& less) {
-  for (std::size_t c = 0; c < weighed.evidence.series(); ++c) {
-    if (weighed.evidence.samples(c) > 0 &&
-        weighed.taken(less, c) > weighed.settings.material_share * leftover(weighed.base, c))
-      return true;
-  }
-  return false;
-}
-
-/// Effects of the best explanation that only take details which a better form of something else would take as well:
-/// left out one after the other, the least supported first, as long as no channel is left with more.
-std::set<Name> of_details(const Weighed& weighed) {
-  std::vector<Name> order;
-  for (const Name& name : names_of(weighed.posterior.explanations.front())) order.push_back(name);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](const Name& a, const Name& b) { return weighed.gain_of(a) < weighed.gain_of(b); });
-  std::set<Name> out;
-  for (const Name& name : order) {
-    out.insert(name);
-    if (is_material(weighed, weighed.without(out))) out.erase(name);
-  }
-  return out;
 }
 
 /// Measured less fitted in the first recording that has the series, rms.
@@ -130,11 +103,8 @@ ShownBy shown_by(const Weighed& weighed, const std::vector<ChannelReport>& chann
 std::vector<FoundEffect> found_effects(const Weighed& weighed, const std::vector<ChannelReport>& channels) {
   std::vector<FoundEffect> effects;
   const auto& held = weighed.best.model().hypothesis().effects;
-  const std::set<Name> left_out = of_details(weighed);
   for (std::size_t e = 0; e < held.size(); ++e) {
     const Name name = name_of(held[e]);
-    const double mass = weighed.mass_of(name);
-    if (mass < weighed.settings.named_from || left_out.count(name) != 0) continue;
     FoundEffect found;
     const physics::EffectSpec spec = fitted_effect(weighed.best, e, &found.sigma);
     found.id = spec.id;
@@ -148,7 +118,7 @@ std::vector<FoundEffect> found_effects(const Weighed& weighed, const std::vector
     found.bounds_reached = bounds_of(weighed, e);
     if (spec.numbers.count("position_mm") != 0) place(weighed, e, found);
     if (weighed.options.details) found.heat = heat_of_effect(weighed.best, e);
-    found.confidence = mass;
+    found.confidence = weighed.mass_of(name);
     found.log_evidence_gain = weighed.gain_of(name);
     found.explanation = explain_effect(found, weighed.recordings.front().time_s.back(),
                                        shown_by(weighed, channels, found, weighed.without({name})));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 namespace zerodrift::diagnosis::answer {
@@ -33,6 +34,21 @@ Fit at_usual_sizes(const Fit& start) {
   fit.set_sizes(fit.model().evidence().usual_sizes());
   fit.fit({fit.model().evidence().settings().iterations, true});
   return fit;
+}
+
+/// `fit` without these effects, fitted anew.
+Fit reduced(const Fit& fit, const std::set<Name>& names) {
+  inference::Hypothesis hypothesis = fit.model().hypothesis();
+  std::erase_if(hypothesis.effects, [&](const HeldEffect& held) { return names.count(name_of(held)) != 0; });
+  Fit less(std::make_shared<inference::JointModel>(std::move(hypothesis), fit.model().shared_evidence()), fit.sizes());
+  less.start_from(fit, false);
+  less.fit({fit.model().evidence().settings().iterations, true});
+  return less;
+}
+
+double taken_by(const Fit& more, const Fit& less, std::size_t series) {
+  const double before = leftover(less, series), after = leftover(more, series);
+  return std::sqrt(std::max(0.0, before * before - after * after));
 }
 
 }  // namespace
@@ -68,13 +84,14 @@ Weighed::Weighed(const Posterior& of, const physics::Machine& machine, const Che
     : posterior(of),
       evidence(*of.evidence),
       settings(evidence.settings()),
-      best(*of.explanations.front().fit),
       base(at_usual_sizes(*of.described_straight)),
       described(machine),
       runs(checked),
       recordings(checked.recordings),
       options(wanted),
-      probability(probabilities(of, settings.tempering)) {}
+      probability(probabilities(of, settings.tempering)),
+      named(effects_to_name()),
+      best(answer()) {}
 
 double Weighed::mass_of(const Name& name) const {
   double mass = 0.0;
@@ -99,17 +116,66 @@ double Weighed::allowed(std::size_t series) const {
 }
 
 double Weighed::taken(const Fit& less, std::size_t series) const {
-  const double before = leftover(less, series), after = leftover(best, series);
-  return std::sqrt(std::max(0.0, before * before - after * after));
+  return taken_by(best, less, series);
 }
 
 Fit Weighed::without(const std::set<Name>& names) const {
-  inference::Hypothesis hypothesis = best.model().hypothesis();
-  std::erase_if(hypothesis.effects, [&](const HeldEffect& held) { return names.count(name_of(held)) != 0; });
-  Fit fit(std::make_shared<inference::JointModel>(std::move(hypothesis), best.model().shared_evidence()), best.sizes());
-  fit.start_from(best, false);
-  fit.fit({settings.iterations, true});
-  return fit;
+  return reduced(best, names);
+}
+
+double Weighed::decisive() const {
+  return 1.0 / (1.0 + std::exp(-settings.decisive));
+}
+
+std::size_t Weighed::effects_missing() const {
+  std::size_t count = names_of(posterior.explanations.front()).size();
+  for (; count > 0; --count) {
+    double mass = 0.0;
+    for (std::size_t i = 0; i < probability.size(); ++i) {
+      if (names_of(posterior.explanations[i]).size() >= count) mass += probability[i];
+    }
+    if (mass >= decisive()) break;
+  }
+  return count;
+}
+
+/// Does `less` leave more of some channel than `more`, in proportion to what the description leaves?
+bool Weighed::is_material(const Fit& more, const Fit& less) const {
+  for (std::size_t c = 0; c < evidence.series(); ++c) {
+    if (evidence.samples(c) > 0 && taken_by(more, less, c) > settings.material_share * leftover(base, c)) return true;
+  }
+  return false;
+}
+
+/// As many as are supported, the likeliest first, each more likely than not. Those that only take details which a
+/// better form of something else would take as well are left out one after the other, the least supported first.
+std::set<Name> Weighed::effects_to_name() const {
+  const Fit& top = *posterior.explanations.front().fit;
+  const std::set<Name> all = names_of(posterior.explanations.front());
+  std::vector<Name> order;
+  for (const Name& name : all) {
+    if (mass_of(name) >= settings.named_from) order.push_back(name);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](const Name& a, const Name& b) { return gain_of(a) > gain_of(b); });
+  order.resize(std::min(order.size(), effects_missing()));
+  std::set<Name> kept(order.begin(), order.end()), out;
+  std::set_difference(all.begin(), all.end(), kept.begin(), kept.end(), std::inserter(out, out.end()));
+  for (auto name = order.rbegin(); name != order.rend(); ++name) {
+    out.insert(*name);
+    if (is_material(top, reduced(top, out))) {
+      out.erase(*name);
+    } else {
+      kept.erase(*name);
+    }
+  }
+  return kept;
+}
+
+Fit Weighed::answer() const {
+  const Explanation& top = posterior.explanations.front();
+  std::set<Name> all = names_of(top), out;
+  std::set_difference(all.begin(), all.end(), named.begin(), named.end(), std::inserter(out, out.end()));
+  return out.empty() ? Fit(*top.fit) : reduced(*top.fit, out);
 }
 
 recording::Recording Weighed::driven(const recording::Recording& run) const {

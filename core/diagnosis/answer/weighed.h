@@ -1,6 +1,6 @@
 #pragma once
-// The posterior as the answer reads it: the likeliest explanation, the description alone, what either leaves of each
-// channel, and how much of the probability holds an effect.
+// The posterior as the answer reads it: which effects are named, the machine with these, the description alone, what
+// either leaves of each channel, and how much of the probability holds an effect.
 
 #include <set>
 #include <string>
@@ -33,15 +33,19 @@ struct Weighed {
           const DiagnoseOptions& options);
 
   double mass_of(const Name& name) const;
-  /// Log odds that the best loses without this effect: against the best explanation that has it not.
+  /// Probability from which something is certain enough to act on.
+  double decisive() const;
+  /// How many effects are missing at least: as many as are decisively more likely than fewer.
+  std::size_t effects_missing() const;
+  /// Log odds that the likeliest explanation loses without this effect: against the best one that has it not.
   double gain_of(const Name& name) const;
   /// What a good description leaves of a channel: settings.adequate_*.
   double allowed(std::size_t series) const;
-  /// What the best explanation takes of a series beyond a lesser one, rms.
+  /// What the answer takes of a series beyond a lesser one, rms.
   double taken(const inference::Fit& less, std::size_t series) const;
-  /// The best explanation without these effects, fitted anew.
+  /// The answer without these effects, fitted anew.
   inference::Fit without(const std::set<Name>& names) const;
-  /// With its inputs at the times at which the best explanation has them.
+  /// With its inputs at the times at which the answer has them.
   recording::Recording driven(const recording::Recording& run) const;
   /// Those of the channels that are reported: measured in the first recording.
   std::vector<std::size_t> reported() const;
@@ -49,13 +53,19 @@ struct Weighed {
   const search::Posterior& posterior;
   const inference::Evidence& evidence;
   const DiagnosisSettings& settings;
-  const inference::Fit& best;
   inference::Fit base;  // the description alone, as near as it comes
   const physics::Machine& described;
   const CheckedRuns& runs;
   const std::vector<recording::Recording>& recordings;
   const DiagnoseOptions& options;
   std::vector<double> probability;  // of each explanation
+  std::set<Name> named;             // effects that are certain enough to be told
+  inference::Fit best;              // the likeliest explanation with these effects alone
+
+ private:
+  bool is_material(const inference::Fit& more, const inference::Fit& less) const;
+  std::set<Name> effects_to_name() const;
+  inference::Fit answer() const;
 };
 
 }  // namespace zerodrift::diagnosis::answer

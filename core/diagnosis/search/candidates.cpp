@@ -45,8 +45,10 @@ bool measured(const EffectSpec& spec, const physics::RunFacts& facts) {
          std::find(facts.channels.begin(), facts.channels.end(), channel) != facts.channels.end();
 }
 
-/// What cannot be there without another effect is not offered before that one is in the model.
-bool premature(const Machine& machine, const EffectSpec& spec, const EffectTraits& traits) {
+}  // namespace
+
+bool lacks_required(const Machine& machine, const EffectSpec& spec) {
+  const EffectTraits& traits = physics::find_effect(spec.id)->traits;
   if (traits.requires_id.empty()) return false;
   const std::string component = spec.word_or("component", "");
   return std::none_of(machine.effects.begin(), machine.effects.end(), [&](const EffectSpec& have) {
@@ -54,8 +56,6 @@ bool premature(const Machine& machine, const EffectSpec& spec, const EffectTrait
     return have.id == traits.requires_id && (component.empty() || other.empty() || component == other);
   });
 }
-
-}  // namespace
 
 std::vector<Candidate> candidates_for(const inference::Hypothesis& hypothesis,
                                       const std::vector<physics::RunFacts>& facts, double effect_log_prior) {
@@ -73,8 +73,7 @@ std::vector<Candidate> candidates_for(const inference::Hypothesis& hypothesis,
         });
         // An event may happen several times, at other times.
         const bool again = effect->traits.once && taken;
-        if ((taken && !again) || !measured(spec, known) || premature(machine, spec, effect->traits) ||
-            of_a_fluid(machine, spec))
+        if ((taken && !again) || !measured(spec, known) || lacks_required(machine, spec) || of_a_fluid(machine, spec))
           continue;
         list.push_back({{std::move(spec), run}, effect_log_prior + effect->traits.log_rarity});
       }

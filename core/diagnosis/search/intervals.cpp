@@ -81,6 +81,7 @@ void add_films(const physics::Machine& machine, std::vector<Timed>& list) {
     const physics::EffectParameter& known = physics::find_effect("draught")->parameter(key);
     Timed film;
     film.spec = {"draught", true, {{key, 0.0}}, {{"component", part.id}}};
+    if (lacks_required(machine, film.spec)) continue;
     film.sigma = known.sigma;
     film.make_term = [id = part.id, length_mm = part.length_mm, surface](auto& builder) {
       physics::Term term = builder.film_over(id, 0.0, length_mm);

@@ -30,14 +30,18 @@ void add(NetworkBuilder& builder, const EffectSpec& spec, int index) {
   });
 }
 
+/// Over all surfaces together, or over one part's: a motor with its fan on the shaft, a chuck.
 std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts) {
-  if (!facts.has_speed || machine.effect("speed_convection") != nullptr) return {};
+  if (!facts.has_speed) return {};
+  const EffectSpec everywhere{"speed_convection", true, {{"a_W_m2K", 0.0}, {"exponent", 0.7}}, {}};
+  std::vector<EffectSpec> list;
   for (const auto& component : machine.components) {
-    if (!component.prescribed && has_surface(component)) {
-      return {{"speed_convection", true, {{"a_W_m2K", 0.0}, {"exponent", 0.7}}, {}}};
-    }
+    if (component.prescribed || !has_surface(component)) continue;
+    list.push_back(everywhere);
+    list.back().words["component"] = component.id;
   }
-  return {};
+  if (list.size() > 1 && machine.effect("speed_convection") == nullptr) list.push_back(everywhere);
+  return list;
 }
 
 }  // namespace speed_convection
