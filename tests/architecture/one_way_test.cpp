@@ -1,11 +1,13 @@
 // One way to do a step and one way to write to a machine: artefacts are put into a job by Flow alone, and the audit
-// trail is written by MachineWrite alone (and by the lock of the window, which writes who locked and unlocked).
+// trail is written by MachineWrite alone (and by the lock of the window, which writes who locked and unlocked). What an
+// effect is stands in its own file alone.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -46,6 +48,23 @@ TEST(OneWay, TheTrailIsWrittenByMachineWrite) {
   const std::string pattern = R"((\.|->)audit\([^)])";
   EXPECT_EQ(found(pattern, {"core/flow/machine_write.cpp", "app/desktop/pin_dialog.cpp"}), std::vector<std::string>{});
   EXPECT_FALSE(found(pattern, {}).empty()) << "the pattern finds nothing at all";
+}
+
+/// A diagnosis knows an effect by its traits: a new effect is a new file in core/physics/effects and nothing else here.
+TEST(OneWay, ADiagnosisKnowsNoEffectByItsId) {
+  const fs::path source = ZERODRIFT_SOURCE_DIR;
+  std::string ids;
+  const std::regex of_effect(R"re(const Effect \w+_effect = \{\s*"(\w+)")re");
+  for (const auto& entry : fs::directory_iterator(source / "core/physics/effects")) {
+    std::ifstream in(entry.path());
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    if (std::smatch match; std::regex_search(text, match, of_effect)) ids += (ids.empty() ? "" : "|") + match[1].str();
+  }
+  ASSERT_GT(std::count(ids.begin(), ids.end(), '|'), 20);
+  std::vector<std::string> places = found("\"(" + ids + ")\"", {});
+  EXPECT_FALSE(places.empty()) << "the pattern finds nothing at all";
+  std::erase_if(places, [](const std::string& place) { return !place.starts_with("core/diagnosis/"); });
+  EXPECT_EQ(places, std::vector<std::string>{});
 }
 
 }  // namespace

@@ -197,21 +197,6 @@ TEST_P(Effects, SaysWhatItIs) {
 
 INSTANTIATE_TEST_SUITE_P(List, Effects, testing::ValuesIn(all_effects()), name_of_effect);
 
-/// No candidate of an effect, but what the diagnosis holds an unlisted effect against.
-TEST(Effect, FreeSpeedHeatHasExactDerivatives) {
-  RunFacts facts;
-  Setting s = setting_on(false, *find_effect("convection"), facts);
-  s.spec = free_speed_heat(s.machine.components.front());
-  expect_exact_derivatives(s);
-}
-
-TEST(Effect, SettlingByItselfHasExactDerivatives) {
-  RunFacts facts;
-  Setting s = setting_on(false, *find_effect("structure_ambient"), facts);
-  s.spec = settling_by_itself(s.machine.displacements.front().channel);
-  expect_exact_derivatives(s);
-}
-
 EffectSpec joint_at(double position_mm, double half_width_mm) {
   return {"contact_resistance",
           true,

@@ -31,16 +31,16 @@ recording::Recording at_its_zero(recording::Recording simulation, const Fit& fit
 
 }  // namespace
 
-std::vector<ChannelReport> channel_reports(const Weighed& weighed, const physics::Machine& refined) {
+std::vector<ChannelReport> channel_reports(const PosteriorSummary& summary, const physics::Machine& refined) {
   std::vector<ChannelReport> reports;
-  const recording::Recording& first = weighed.recordings.front();
+  const recording::Recording& first = summary.recordings.front();
   const auto simulated = [&](const physics::Machine& machine, const recording::Recording& run) {
     auto result = physics::simulate(machine, run);
     return result ? result->prediction : recording::Recording{};
   };
-  const recording::Recording nominal = simulated(weighed.described, first);
-  const recording::Recording explained = at_its_zero(simulated(refined, weighed.driven(first)), weighed.best);
-  const recording::Recording refitted = at_its_zero(simulated(fitted_description(weighed.base), first), weighed.base);
+  const recording::Recording nominal = simulated(summary.described, first);
+  const recording::Recording explained = at_its_zero(simulated(refined, summary.driven(first)), summary.best);
+  const recording::Recording refitted = at_its_zero(simulated(fitted_description(summary.base), first), summary.base);
   const auto rms = [&](const recording::Recording& simulation, const std::string& channel) {
     for (const auto& one : physics::compare(simulation, first)) {
       if (one.channel == channel) return one.rms;
@@ -51,8 +51,8 @@ std::vector<ChannelReport> channel_reports(const Weighed& weighed, const physics
     const recording::Channel* found = simulation.find(channel);
     return found == nullptr ? std::vector<double>(first.rows(), std::nan("")) : found->values;
   };
-  for (const std::size_t c : weighed.reported()) {
-    const inference::MeasuredSeries& series = weighed.evidence.runs().front().series[c];
+  for (const std::size_t c : summary.reported()) {
+    const inference::MeasuredSeries& series = summary.evidence.runs().front().series[c];
     ChannelReport report;
     report.channel = series.channel;
     report.temperature = series.temperature;
@@ -64,13 +64,13 @@ std::vector<ChannelReport> channel_reports(const Weighed& weighed, const physics
     report.rms_refitted = rms(refitted, series.channel);
     report.rms_explained = rms(explained, series.channel);
     report.noise = series.white;
-    const double limit = weighed.allowed(c);
-    const double before = leftover(weighed.base, c), after = leftover(weighed.best, c);
+    const double limit = summary.allowed(c);
+    const double before = leftover(summary.base, c), after = leftover(summary.best, c);
     report.excess_refitted = before / limit;
     report.excess_explained = after / limit;
     constexpr double material = 0.5;  // of what was left, that an explanation has to take
     const bool changed =
-        !weighed.best.model().hypothesis().effects.empty() && after < material * before && before > series.slow;
+        !summary.best.model().hypothesis().effects.empty() && after < material * before && before > series.slow;
     report.verdict = report.excess_explained > 1.0 ? ChannelVerdict::unexplained
                      : changed                     ? ChannelVerdict::explained
                                                    : ChannelVerdict::consistent;

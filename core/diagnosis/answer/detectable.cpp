@@ -82,7 +82,7 @@ std::vector<std::string> never_driven(const search::Posterior& posterior, const 
   std::vector<std::string> asleep;
   for (const physics::Effect* effect : physics::all_effects()) {
     const std::string id(effect->id);
-    if (physics::log_prior_of(id) < 0.0) continue;
+    if (physics::find_effect(id)->traits.log_rarity < 0.0) continue;
     // More forms of it is enough: a coolant that never ran may be there beside one that always does.
     const auto& machine = evidence.machine();
     if (effect->candidates(machine, all).size() > effect->candidates(machine, facts).size() &&
@@ -109,7 +109,7 @@ std::vector<std::string> cannot_show(const Diagnosis& answer) {
   for (const Detectable& least : answer.detectable) {
     const bool named = std::any_of(answer.effects.begin(), answer.effects.end(),
                                    [&](const auto& found) { return found.id == least.id; });
-    if (named || least.key.empty() || physics::log_prior_of(least.id) < 0.0) continue;
+    if (named || least.key.empty() || physics::find_effect(least.id)->traits.log_rarity < 0.0) continue;
     if (least.value > physics::find_effect(least.id)->parameter(least.key).high) unseen.push_back(least.id);
   }
   return unseen;

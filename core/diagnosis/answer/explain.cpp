@@ -125,8 +125,9 @@ void put_place(Sentence& s, const std::string& channel, const std::optional<doub
 
 /// In the form that was found.
 std::string name_of_form(const FoundEffect& effect) {
-  if (effect.id == "bearing_preload" && effect.parameters.count("growth_1_K") != 0) return "bearing_preload_heat";
-  if (effect.id == "bearing_preload" && effect.parameters.count("speed_share") != 0) return "bearing_preload_speed";
+  for (const physics::NamedForm& form : physics::find_effect(effect.id)->named_forms) {
+    if (effect.parameters.count(std::string(form.number)) != 0) return std::string(form.id);
+  }
   return effect.id;
 }
 
@@ -195,15 +196,13 @@ static std::string regime_of_intervals(const std::vector<std::pair<double, doubl
 std::string regime_of_effect(const FoundEffect& effect, double end_s) {
   if (!effect.intervals_s.empty()) return regime_of_intervals(effect.intervals_s, end_s);
   struct Regime {
-    std::string_view effect;
+    std::string_view by;
     const char* words;
   };
-  static constexpr Regime regimes[] = {
-      {"coolant", "while the coolant runs"},           {"cutting_heat", "while the machine cuts"},
-      {"speed_convection", "while the spindle turns"}, {"bearing_viscosity", "while the spindle turns"},
-      {"bearing_preload", "while the spindle turns"},  {"bearing_run_in", "while the spindle turns"},
-      {"speed_heat_curve", "while the spindle turns"}, {"structure_ambient", "as the room changes"},
-      {"room_sensor_fault", "as the room changes"}};
+  static constexpr Regime regimes[] = {{"coolant_on", "while the coolant runs"},
+                                       {"spindle_load_W", "while the machine cuts"},
+                                       {"spindle_rpm", "while the spindle turns"},
+                                       {"ambient_C", "as the room changes"}};
   static constexpr Regime laws[] = {{"on", "while the spindle turns"},
                                     {"n", "in step with the spindle speed"},
                                     {"n2", "with the square of the spindle speed"}};
@@ -221,10 +220,10 @@ std::string regime_of_effect(const FoundEffect& effect, double end_s) {
     return fmt::format("from {:.0f} to {:.0f} min", from_s / 60.0, number("to_s") / 60.0);
   }
   for (const Regime& law : laws) {
-    if (law.effect == word("law")) return law.words;
+    if (law.by == word("law")) return law.words;
   }
   for (const Regime& regime : regimes) {
-    if (regime.effect == effect.id && word("fluid").empty()) return regime.words;
+    if (regime.by == physics::find_effect(effect.id)->acts_with && word("fluid").empty()) return regime.words;
   }
   return "all the time";
 }

@@ -21,7 +21,7 @@ std::optional<EffectHeat> heat_of_effect(const inference::Fit& fit, std::size_t 
   const inference::JointModel& model = fit.model();
   const inference::HeldEffect& held = model.hypothesis().effects[effect];
   // A room sensor that reads wrong brings no heat, though the films believe it.
-  if (held.spec.id == "room_sensor_fault") return std::nullopt;
+  if (physics::find_effect(held.spec.id)->traits.room_reads_wrong) return std::nullopt;
   const std::size_t run = held.run < 0 ? 0 : static_cast<std::size_t>(held.run);
   const physics::Network& network = model.network(run);
   const physics::InputSet& inputs = model.inputs(run);

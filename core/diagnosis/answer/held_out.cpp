@@ -25,23 +25,23 @@ physics::Machine without_run(const Fit& fit, std::size_t run, const std::shared_
 
 }  // namespace
 
-std::vector<HeldOut> held_out(const Weighed& weighed) {
+std::vector<HeldOut> held_out(const PosteriorSummary& summary) {
   std::vector<HeldOut> list;
-  for (std::size_t r = 1; r < weighed.recordings.size(); ++r) {
-    std::vector<recording::Recording> others = weighed.recordings;
+  for (std::size_t r = 1; r < summary.recordings.size(); ++r) {
+    std::vector<recording::Recording> others = summary.recordings;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
-    const auto evidence = std::make_shared<const Evidence>(weighed.evidence.machine(), others, weighed.settings);
+    const auto evidence = std::make_shared<const Evidence>(summary.evidence.machine(), others, summary.settings);
     HeldOut out;
-    out.recording = weighed.recordings[r].name;
+    out.recording = summary.recordings[r].name;
     const auto put = [&](const physics::Machine& machine, std::map<std::string, double>& rms,
                          const recording::Recording& run) {
       const auto result = physics::simulate(machine, run);
       if (!result) return;
-      for (const auto& one : physics::compare(result->prediction, weighed.recordings[r])) rms[one.channel] = one.rms;
+      for (const auto& one : physics::compare(result->prediction, summary.recordings[r])) rms[one.channel] = one.rms;
     };
-    put(weighed.described, out.nominal, weighed.recordings[r]);
-    put(without_run(weighed.base, r, evidence), out.refitted, weighed.recordings[r]);
-    put(without_run(weighed.best, r, evidence), out.explained, weighed.driven(weighed.recordings[r]));
+    put(summary.described, out.nominal, summary.recordings[r]);
+    put(without_run(summary.base, r, evidence), out.refitted, summary.recordings[r]);
+    put(without_run(summary.best, r, evidence), out.explained, summary.driven(summary.recordings[r]));
     list.push_back(std::move(out));
   }
   return list;

@@ -44,11 +44,11 @@ std::vector<std::pair<double, double>> stretches(const std::vector<double>& time
 }
 
 /// When the best explanation misses a channel most: by means over a twenty-fourth of the recording.
-std::vector<std::pair<double, double>> off_in(const Weighed& weighed, std::size_t of) {
+std::vector<std::pair<double, double>> off_in(const PosteriorSummary& summary, std::size_t of) {
   constexpr std::size_t blocks = 24;
-  const inference::Run& run = weighed.evidence.runs().front();
+  const inference::Run& run = summary.evidence.runs().front();
   const inference::MeasuredSeries& series = run.series[of];
-  const auto& predicted = weighed.best.predicted().front()[of];
+  const auto& predicted = summary.best.predicted().front()[of];
   const double from_s = run.recording.time_s.front();
   const double block_s = (run.recording.time_s.back() - from_s) / static_cast<double>(blocks);
   std::vector<double> time_s, off(blocks, 0.0), count(blocks, 0.0);
@@ -66,37 +66,37 @@ std::vector<std::pair<double, double>> off_in(const Weighed& weighed, std::size_
 }
 
 /// What the first recording's series would show without the effects of the best explanation, all else as fitted.
-std::vector<std::vector<double>> without_effects(const Weighed& weighed) {
-  inference::Hypothesis described = weighed.best.model().hypothesis();
+std::vector<std::vector<double>> without_effects(const PosteriorSummary& summary) {
+  inference::Hypothesis described = summary.best.model().hypothesis();
   described.effects.clear();
-  const auto model = std::make_shared<inference::JointModel>(described, weighed.best.model().shared_evidence());
-  Fit fit(model, weighed.best.sizes());
-  fit.start_from(weighed.best, false);
+  const auto model = std::make_shared<inference::JointModel>(described, summary.best.model().shared_evidence());
+  Fit fit(model, summary.best.sizes());
+  fit.start_from(summary.best, false);
   return model->predict(0, fit.z(), {}, nullptr);
 }
 
 /// How far the machine as described is off in each of the reported channels, in usual discrepancies: the change that
 /// the effects make and what they leave. Where nothing is named, what is left when everything else was fitted to it.
-std::vector<double> sizes_of_mismatch(const Weighed& weighed) {
-  const std::vector<std::vector<double>> less = without_effects(weighed);
-  const bool named = !weighed.best.model().hypothesis().effects.empty();
+std::vector<double> sizes_of_mismatch(const PosteriorSummary& summary) {
+  const std::vector<std::vector<double>> less = without_effects(summary);
+  const bool named = !summary.best.model().hypothesis().effects.empty();
   std::vector<double> sizes;
-  for (const std::size_t c : weighed.reported()) {
-    const inference::MeasuredSeries& series = weighed.evidence.runs().front().series[c];
-    const std::vector<double>& shown = weighed.best.predicted().front()[c];
+  for (const std::size_t c : summary.reported()) {
+    const inference::MeasuredSeries& series = summary.evidence.runs().front().series[c];
+    const std::vector<double>& shown = summary.best.predicted().front()[c];
     double squares = 0.0;
     for (std::size_t k = 0; k < shown.size(); ++k)
       squares += std::pow(series.present[k] ? shown[k] - less[c][k] : 0, 2);
     const double change = std::sqrt(squares / std::max(1, series.samples));
-    sizes.push_back(std::hypot(change, leftover(named ? weighed.best : weighed.base, c)) / series.slow);
+    sizes.push_back(std::hypot(change, leftover(named ? summary.best : summary.base, c)) / series.slow);
   }
   return sizes;
 }
 
 }  // namespace
 
-void tell_mismatch(const Weighed& weighed, Diagnosis& answer) {
-  const std::vector<double> size = sizes_of_mismatch(weighed);
+void report_mismatch(const PosteriorSummary& summary, Diagnosis& answer) {
+  const std::vector<double> size = sizes_of_mismatch(summary);
   std::vector<const ChannelReport*> order;
   for (const ChannelReport& one : answer.channels) order.push_back(&one);
   const auto size_of = [&](const ChannelReport* one) {
@@ -107,13 +107,13 @@ void tell_mismatch(const Weighed& weighed, Diagnosis& answer) {
     if (one->excess_refitted > 1.0 || answer.mismatch.channels.empty())
       answer.mismatch.channels.push_back(one->channel);
   }
-  const std::vector<std::size_t> series = weighed.reported();
+  const std::vector<std::size_t> series = summary.reported();
   for (std::size_t i = 0; i < answer.channels.size(); ++i) {
     if (answer.channels[i].verdict == ChannelVerdict::unexplained)
-      answer.channels[i].time_s = off_in(weighed, series[i]);
+      answer.channels[i].time_s = off_in(summary, series[i]);
   }
-  if (!weighed.options.details || order.empty()) return;
-  const Fit& straight = *weighed.posterior.described_straight;
+  if (!summary.options.details || order.empty()) return;
+  const Fit& straight = *summary.posterior.described_straight;
   const std::vector<HeatHistory> histories = heat_histories(straight, 0);
   const HeatHistory* best = nullptr;
   for (const HeatHistory& one : histories) {
@@ -124,7 +124,7 @@ void tell_mismatch(const Weighed& weighed, Diagnosis& answer) {
   m.component = best->component;
   const std::vector<double>& watts = best->watts[best->best];
   m.missing_heat_W = watts_while_acting(watts);
-  m.regime = regime_of({best->time_s, watts}, weighed.evidence.runs().front().recording);
+  m.regime = regime_of({best->time_s, watts}, summary.evidence.runs().front().recording);
   m.time_s = stretches(best->time_s, watts);
   if (best->position_mm.size() > 1) {
     m.scan_position_mm = best->position_mm;
@@ -132,7 +132,7 @@ void tell_mismatch(const Weighed& weighed, Diagnosis& answer) {
     m.best_position_mm = best->position_mm[best->best];
     double from = m.best_position_mm, to = from;
     for (std::size_t i = 0; i < best->position_mm.size(); ++i) {
-      if (best->log_evidence[i] < best->best_log_evidence() - weighed.settings.decisive) continue;
+      if (best->log_evidence[i] < best->best_log_evidence() - summary.settings.decisive) continue;
       from = std::min(from, best->position_mm[i]);
       to = std::max(to, best->position_mm[i]);
     }
@@ -140,7 +140,7 @@ void tell_mismatch(const Weighed& weighed, Diagnosis& answer) {
     answer.heat = HeatMap{best->component, best->position_mm, best->time_s, best->watts};
   }
   for (ChannelReport& channel : answer.channels) {
-    const physics::Sensor* sensor = weighed.described.sensor(channel.channel);
+    const physics::Sensor* sensor = summary.described.sensor(channel.channel);
     for (const HeatHistory& one : histories) {
       if (sensor == nullptr || sensor->component != one.component) continue;
       channel.missing_heat_W = watts_while_acting(one.watts[one.best]);

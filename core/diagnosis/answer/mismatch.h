@@ -2,11 +2,11 @@
 // Where and when the description differs from the recordings: the worst channels, the heat that is missing with its
 // place and times.
 
-#include "core/diagnosis/answer/weighed.h"
+#include "core/diagnosis/answer/posterior_summary.h"
 
 namespace zerodrift::diagnosis::answer {
 
 /// After the channels' reports: sets `mismatch`, `heat`, and each channel's times and watts.
-void tell_mismatch(const Weighed& weighed, Diagnosis& answer);
+void report_mismatch(const PosteriorSummary& summary, Diagnosis& answer);
 
 }  // namespace zerodrift::diagnosis::answer

@@ -106,7 +106,7 @@ NoteCode code_of(const DescriptionError& error) {
   return NoteCode::far_from_description;
 }
 
-void tell_mistakes(const search::Posterior& posterior, const std::vector<double>& probability, Diagnosis& answer) {
+void report_mistakes(const search::Posterior& posterior, const std::vector<double>& probability, Diagnosis& answer) {
   const inference::Fit& best = *posterior.explanations.front().fit;
   const physics::Machine& described = posterior.evidence->machine();
   std::vector<DescriptionError> named;

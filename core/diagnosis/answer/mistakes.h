@@ -11,6 +11,6 @@ namespace zerodrift::diagnosis::answer {
 NoteCode code_of(const DescriptionError& error);
 /// `probability`: of each explanation. After effects and verdict; where the set-up is not as described no effect is
 /// named, and with nothing named beside a mistake the description does not explain the recording.
-void tell_mistakes(const search::Posterior& posterior, const std::vector<double>& probability, Diagnosis& answer);
+void report_mistakes(const search::Posterior& posterior, const std::vector<double>& probability, Diagnosis& answer);
 
 }  // namespace zerodrift::diagnosis::answer

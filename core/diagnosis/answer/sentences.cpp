@@ -4,6 +4,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "core/physics/effects/effect.h"
+
 namespace zerodrift::diagnosis {
 namespace {
 
@@ -190,51 +192,35 @@ constexpr std::array catalogue{
     Entry{"and", " and "},
     Entry{"or", " or "},
     Entry{"comma", ", "},
-    Entry{"convection", "convection to the room"},
-    Entry{"speed_convection", "convection that grows with speed"},
-    Entry{"radiation", "radiation to the room"},
-    Entry{"coolant", "cooling by the coolant"},
-    Entry{"bearing_viscosity", "bearing oil that thins as it warms"},
-    Entry{"bearing_preload", "a different bearing preload"},
-    Entry{"bearing_preload_heat", "bearing preload that grows with the heat"},
-    Entry{"bearing_preload_speed", "bearing preload that grows with speed"},
-    Entry{"extra_heat_source", "an extra heat source"},
-    Entry{"contact_resistance", "a joint that conducts badly"},
-    Entry{"structure_ambient", "the structure following the room"},
-    Entry{"structure_bending", "bending of the structure"},
-    Entry{"sensor_lag", "a sensor that answers late"},
-    Entry{"sensor_offset", "a sensor that reads wrong by a constant"},
-    Entry{"sensor_gain", "a sensor that reads its rise wrong"},
-    Entry{"cutting_heat", "heat of cutting at the nose"},
-    Entry{"draught", "a draught or an open door"},
-    Entry{"chiller_cycle", "a chiller that switches on its own"},
-    Entry{"bearing_run_in", "bearings that run in"},
-    Entry{"conductivity_temperature", "conductivity that changes with temperature"},
-    Entry{"room_sensor_fault", "a wrong room sensor"},
-    Entry{"bracket_slip", "a bracket that slipped"},
-    Entry{"neighbour_heat", "heat from a neighbouring part"},
-    Entry{"heater_body", "the heat source's own body"},
-    Entry{"casting_core", "a slow core behind the surface"},
-    Entry{"standing_heat", "a heat that is there at rest as well"},
-    Entry{"speed_heat_curve", "heat as a curve over speed"},
-    Entry{"structure_driver", "a displacement that follows another part"},
-    Entry{"structure_lag", "a structure that follows late"},
-    Entry{"switched_heat", "heat that something unlogged switches"},
-    Entry{"film_driver", "a film that a logged input drives"},
 };
 
-std::string_view english_of(std::string_view id) {
-  for (const Entry& entry : catalogue) {
-    if (entry.id == id) return entry.english;
+std::vector<Entry> names_of_effects() {
+  std::vector<Entry> names;
+  for (const physics::Effect* effect : physics::all_effects()) {
+    names.push_back({effect->id, effect->name});
+    for (const physics::NamedForm& form : effect->named_forms) names.push_back({form.id, form.name});
   }
-  return {};
+  return names;
+}
+
+const Entry* listed(std::string_view id) {
+  static const std::vector<Entry> names = names_of_effects();
+  for (const Entry& entry : catalogue) {
+    if (entry.id == id) return &entry;
+  }
+  for (const Entry& entry : names) {
+    if (entry.id == id) return &entry;
+  }
+  return nullptr;
+}
+
+std::string_view english_of(std::string_view id) {
+  const Entry* entry = listed(id);
+  return entry == nullptr ? std::string_view{} : entry->english;
 }
 
 bool is_listed(std::string_view id) {
-  for (const Entry& entry : catalogue) {
-    if (entry.id == id) return true;
-  }
-  return false;
+  return listed(id) != nullptr;
 }
 
 class Speaker {
@@ -315,6 +301,7 @@ std::vector<std::string> sentence_texts() {
   for (const Entry& entry : catalogue) {
     if (!entry.english.empty()) texts.emplace_back(entry.english);
   }
+  for (const Entry& entry : names_of_effects()) texts.emplace_back(entry.english);
   return texts;
 }
 

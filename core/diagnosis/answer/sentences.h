@@ -18,7 +18,7 @@ using Translate = std::function<std::string(const std::string&)>;
 
 /// The sentence in words; without `translate` in English. Empty for an unknown id.
 std::string said(const Sentence& sentence, const Translate& translate = {});
-/// "convection", "an extra heat source": the English name of an effect, or the id with blanks.
+/// "convection to the room": the English name of an effect, or the id with blanks.
 std::string plain_name(const std::string& effect_id);
 /// Every English text of the catalogue, for translators and tests.
 std::vector<std::string> sentence_texts();

@@ -81,7 +81,7 @@ std::optional<double> edge_m(const Component& lump) {
 /// A rod that carries other parts is a casting, a column with its guideways, a lantern with its flange: the section
 /// that is described is a mean, and no stretch of about half a diameter has to be like the next. Where the section
 /// changes or something touches it, the heat's way is longer or shorter by a part of a diameter.
-void let_rods_be_uneven(physics::Machine& machine) {
+void add_uneven_conduction(physics::Machine& machine) {
   constexpr double fewest = 2.0, most = 8.0, longer = 0.15;
   for (Component& part : machine.components) {
     if (part.lump || part.prescribed || !touches_lump(machine, part.id)) continue;
@@ -107,7 +107,7 @@ std::optional<double> lateness_s(const physics::Machine& machine, const Componen
   return crosses_s(1e-3 * part.outer_diameter_mm, m.conductivity_W_mK / (m.density_kg_m3 * m.heat_capacity_J_kgK));
 }
 
-void let_sensors_be_late(physics::Machine& machine) {
+void add_sensor_lags(physics::Machine& machine) {
   for (auto& sensor : machine.sensors) {
     const Component* part = machine.find(sensor.component);
     const auto late_s = part == nullptr ? std::nullopt : lateness_s(machine, *part);
@@ -120,8 +120,8 @@ void let_sensors_be_late(physics::Machine& machine) {
 }  // namespace
 
 physics::Machine with_inner_bodies(physics::Machine machine) {
-  let_sensors_be_late(machine);
-  let_rods_be_uneven(machine);
+  add_sensor_lags(machine);
+  add_uneven_conduction(machine);
   for (Component& component : machine.components) {
     if (component.lump || component.prescribed || component.inner) continue;
     const physics::Material& m = component.material;

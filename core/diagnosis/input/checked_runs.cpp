@@ -116,7 +116,7 @@ void leave_out_what_drives_nothing(const physics::Machine& machine, recording::R
 }
 
 /// A speed or a switch that was not logged is taken as it was before.
-void tell_input_gaps(const recording::Recording& one, CheckedRuns& runs) {
+void report_input_gaps(const recording::Recording& one, CheckedRuns& runs) {
   constexpr double worth_telling_percent = 2.0;
   for (const auto& channel : one.channels) {
     if (!recording::is_input(channel.kind())) continue;
@@ -164,7 +164,7 @@ std::string unknown_columns(const physics::Machine& machine, const std::set<std:
 }
 
 /// Sensors and displacements that the recording as given lacks.
-bool tell_missing_channels(const physics::Machine& machine, const recording::Recording& given, CheckedRuns& runs) {
+bool report_missing_channels(const physics::Machine& machine, const recording::Recording& given, CheckedRuns& runs) {
   bool any = false;
   const auto look_for = [&](const std::string& channel) {
     if (given.find(channel) != nullptr) return;
@@ -199,7 +199,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
     }
     ZD_CHECK(physics::check_recording(machine, sound.recording).map([](const auto&) {}));
     ZD_CHECK(check_length(sound.recording));
-    const bool one_is_missing = tell_missing_channels(machine, one, out);
+    const bool one_is_missing = report_missing_channels(machine, one, out);
     // A machine has more sensors than its description as a rule: only beside one that is missed they tell anything.
     if (const std::string unknown = unknown_columns(machine, boundaries, sound.recording);
         one_is_missing && !unknown.empty()) {
@@ -207,7 +207,7 @@ Result<CheckedRuns> checked_runs(const physics::Machine& machine, const std::vec
     }
     ZD_CHECK(check_units(machine, sound.recording));
     leave_out_what_drives_nothing(machine, sound.recording);
-    tell_input_gaps(sound.recording, out);
+    report_input_gaps(sound.recording, out);
     if (const auto unit = load_in_other_unit(machine, sound.recording)) {
       out.notes.push_back(
           {NoteCode::load_in_other_unit,

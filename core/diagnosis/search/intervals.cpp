@@ -57,7 +57,10 @@ void add_heats(const physics::Machine& machine, const physics::RunFacts& facts, 
             : std::max(5.0, 0.3 * facts.typical_heat_W);
     for (int i = 0; i < (part.lump ? 1 : places); ++i) {
       Timed heat;
-      heat.spec = {"switched_heat", true, {{"power_W", 0.0}, {"power_W_prior_sigma", watts}}, {{"component", part.id}}};
+      heat.spec = {std::string(physics::effect_of_event(physics::Event::heat).id),
+                   true,
+                   {{"power_W", 0.0}, {"power_W_prior_sigma", watts}},
+                   {{"component", part.id}}};
       const double at_mm = (i + 0.5) / places * part.length_mm;
       if (!part.lump) {
         heat.spec.numbers["position_mm"] = at_mm;
@@ -78,11 +81,11 @@ void add_films(const physics::Machine& machine, std::vector<Timed>& list) {
     if (part.prescribed) continue;
     const bool surface = !part.lump || part.area_mm2.has_value();
     const char* key = surface ? "h_W_m2K" : "conductance_W_K";
-    const physics::EffectParameter& known = physics::find_effect("draught")->parameter(key);
+    const physics::Effect& effect = physics::effect_of_event(physics::Event::film);
     Timed film;
-    film.spec = {"draught", true, {{key, 0.0}}, {{"component", part.id}}};
+    film.spec = {std::string(effect.id), true, {{key, 0.0}}, {{"component", part.id}}};
     if (lacks_required(machine, film.spec)) continue;
-    film.sigma = known.sigma;
+    film.sigma = effect.parameter(key).sigma;
     film.make_term = [id = part.id, length_mm = part.length_mm, surface](auto& builder) {
       physics::Term term = builder.film_over(id, 0.0, length_mm);
       if (!surface)
@@ -101,7 +104,7 @@ void add_sensors(const Evidence& evidence, const physics::Machine& machine, std:
     if (sensor == nullptr || evidence.samples(c) == 0) continue;
     Timed fault;
     fault.sigma = std::max(1.2, 3.0 * sensor->accuracy_C);
-    fault.spec = {"sensor_offset",
+    fault.spec = {std::string(physics::effect_of_event(physics::Event::reading).id),
                   true,
                   {{"offset_K", 0.0}, {"offset_K_prior_sigma", fault.sigma}},
                   {{"channel", series.channel}}};

@@ -43,17 +43,23 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 }  // namespace bearing_preload
 
 extern const Effect bearing_preload_effect;
-const Effect bearing_preload_effect = {"bearing_preload",
-                                       "P = P0 (1 + kT (T_bearing - T0) + kn (n / n_full)^2 + k0) in M1 = f1 P dm",
-                                       "Palmgren; thermally induced preload of spindle bearings (Stein and Tu 1994)",
-                                       "Bearings are simulated too cold - with less load than described, too hot - "
-                                       "more so the warmer or the faster they run",
-                                       "bearing_viscosity extra_heat_source",
-                                       {{"growth_1_K", 0.04, 0.0, 0.8, true},
-                                        {"speed_share", 1.0, 0.0, 20.0, true},
-                                        {"constant_share", 0.8, -0.8, 16.0, true}},
-                                       {"growth_1_K", "speed_share", "constant_share"},
-                                       bearing_preload::add,
-                                       bearing_preload::candidates};
+const Effect bearing_preload_effect = {
+    "bearing_preload",
+    "a different bearing preload",
+    "P = P0 (1 + kT (T_bearing - T0) + kn (n / n_full)^2 + k0) in M1 = f1 P dm",
+    "Palmgren; thermally induced preload of spindle bearings (Stein and Tu 1994)",
+    "Bearings are simulated too cold - with less load than described, too hot - "
+    "more so the warmer or the faster they run",
+    "bearing_viscosity extra_heat_source",
+    {{"growth_1_K", 0.04, 0.0, 0.8, true},
+     {"speed_share", 1.0, 0.0, 20.0, true},
+     {"constant_share", 0.8, -0.8, 16.0, true}},
+    {"growth_1_K", "speed_share", "constant_share"},
+    bearing_preload::add,
+    bearing_preload::candidates,
+    "spindle_rpm",
+    {},
+    {{"growth_1_K", "bearing_preload_heat", "bearing preload that grows with the heat"},
+     {"speed_share", "bearing_preload_speed", "bearing preload that grows with speed"}}};
 
 }  // namespace zerodrift::physics

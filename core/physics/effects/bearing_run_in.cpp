@@ -30,6 +30,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect bearing_run_in_effect;
 const Effect bearing_run_in_effect = {
     "bearing_run_in",
+    "bearings that run in",
     "heat times 1 + a exp(-t / tau)",
     "grease distribution in new bearings, hours to a day (maker's run-in instructions)",
     "Bearings are simulated too cold in the first hours only, whatever the temperature is later",
@@ -38,7 +39,7 @@ const Effect bearing_run_in_effect = {
     {"excess_share"},
     bearing_run_in::add,
     bearing_run_in::candidates,
-    {},
+    "spindle_rpm",
     {.log_rarity = -3.0, .once = true}};
 
 }  // namespace zerodrift::physics

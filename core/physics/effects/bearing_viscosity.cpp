@@ -25,6 +25,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect bearing_viscosity_effect;
 const Effect bearing_viscosity_effect = {
     "bearing_viscosity",
+    "bearing oil that thins as it warms",
     "nu = nu0 exp(-beta (T_bearing - T_ref)) in M0 = 1e-7 f0 (nu n)^(2/3) dm^3",
     "Palmgren; oil viscosity over temperature, beta 0.02 to 0.05 1/K near 40 C (ISO 3448, ASTM D341)",
     "Bearings are simulated too cold at first and too hot later; friction falls as the oil warms",
@@ -32,6 +33,7 @@ const Effect bearing_viscosity_effect = {
     {{"beta_1_K", 0.03, 0.0, 0.09, true}},
     {"beta_1_K"},
     bearing_viscosity::add,
-    bearing_viscosity::candidates};
+    bearing_viscosity::candidates,
+    "spindle_rpm"};
 
 }  // namespace zerodrift::physics

@@ -30,6 +30,7 @@ std::vector<EffectSpec> candidates(const Machine&, const RunFacts& facts) {
 extern const Effect bracket_slip_effect;
 const Effect bracket_slip_effect = {
     "bracket_slip",
+    "a bracket that slipped",
     "d += s for t >= t_s",
     "clamped probe holders and loose joints: single steps of micrometres",
     "One displacement jumps between two samples and stays there; no temperature moves. A gauge that was set to "

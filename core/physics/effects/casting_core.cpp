@@ -41,6 +41,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect casting_core_effect;
 const Effect casting_core_effect = {
     "casting_core",
+    "a slow core behind the surface",
     "C_core dT_core/dt = G (T - T_core)",
     "castings whose walls warm before their ribs: minutes to hours",
     "A surface starts fast and then goes on slowly, on the way up and on the way down",

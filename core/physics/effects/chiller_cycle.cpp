@@ -64,6 +64,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect chiller_cycle_effect;
 const Effect chiller_cycle_effect = {"chiller_cycle",
+                                     "a chiller that switches on its own",
                                      "q = -m + a sin(2 pi t / P) + b cos(2 pi t / P)",
                                      "two-point controlled chillers: periods of 10 to 60 min",
                                      "Temperatures saw with a period of their own that no logged input has",

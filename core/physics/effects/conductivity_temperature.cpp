@@ -49,6 +49,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect conductivity_temperature_effect;
 const Effect conductivity_temperature_effect = {
     "conductivity_temperature",
+    "conductivity that changes with temperature",
     "k = k0 (1 + b (T - T0))",
     "steels -2e-4 to -1e-3 1/K, cast iron and ceramics up to -2e-3 1/K (Touloukian)",
     "The hot parts conduct otherwise than the cold ones; gradients do not grow in proportion to the heat",

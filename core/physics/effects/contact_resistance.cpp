@@ -208,6 +208,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect contact_resistance_effect;
 const Effect contact_resistance_effect = {
     "contact_resistance",
+    "a joint that conducts badly",
     "step R q of the temperature at x",
     "metal joints in air 0.5e-4 to 5e-3 m2 K/W (Yovanovich 2005)",
     "Opposite errors on the two sides of one place: the heated side too cold, the other too hot in the simulation",

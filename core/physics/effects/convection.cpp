@@ -203,6 +203,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect convection_effect;
 const Effect convection_effect = {
     "convection",
+    "convection to the room",
     "-h P (T - T_room) over the outer surface; a lump of unknown surface: -G (T - T_room), or late: -G (T - "
     "lag(T_room))",
     "Newton's law; VDI Heat Atlas F: 5 to 25 W/(m2 K) for free, up to 100 for forced air",

@@ -147,6 +147,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect coolant_effect;
 const Effect coolant_effect = {
     "coolant",
+    "cooling by the coolant",
     "-c(t) h P (T - T_coolant) over a region",
     "forced liquid film, 50 to 1500 W/(m2 K) (VDI Heat Atlas G)",
     "The simulation is too hot from the moment the coolant runs; the error steps with coolant_on",

@@ -30,6 +30,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect cutting_heat_effect;
 const Effect cutting_heat_effect = {
     "cutting_heat",
+    "heat of cutting at the nose",
     "+eta load over the last 0.03 L",
     "share of the cutting power that enters the tool, 2 to 20 % (Trent and Wright, Metal Cutting)",
     "The nose is simulated too cold while the machine cuts",

@@ -76,6 +76,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect draught_effect;
 const Effect draught_effect = {"draught",
+                               "a draught or an open door",
                                "-h_d (1 + t (x / L - 1/2)) P (T - (T_room + dT)) for t in [t1, t2]",
                                "open door or gate: films of 5 to 40 W/(m2 K) more, air some kelvin colder",
                                "All surfaces cool together during one stretch of time that no logged input explains. "
@@ -91,6 +92,6 @@ const Effect draught_effect = {"draught",
                                draught::add,
                                draught::candidates,
                                {},
-                               {.log_rarity = -3.0, .once = true, .requires_id = "convection"}};
+                               {.log_rarity = -3.0, .once = true, .requires_id = "convection", .event = Event::film}};
 
 }  // namespace zerodrift::physics

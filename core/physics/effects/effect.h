@@ -27,6 +27,9 @@ struct EffectParameter {
   bool logarithmic = false;
 };
 
+/// What acts in stretches of time that nothing logs, and is looked for in what is left of a recording.
+enum class Event { none, heat, film, reading };
+
 /// What a search for missing effects has to know of an effect, beside its equation.
 struct EffectTraits {
   /// Natural logarithm of how much rarer it is, beforehand, than the common ones (engineering judgement: what service
@@ -39,10 +42,20 @@ struct EffectTraits {
   /// The derivative at 0 says little of the effect's usual size (a lag's stands for the moments of switching alone):
   /// the score takes the chord to this share of the recording's duration.
   double chord_share_of_run = 0.0;
+  Event event = Event::none;
+  bool room_reads_wrong = false;  // the films believe a room that is not there: it brings no heat
+};
+
+/// A form of an effect with a name of its own: described by this number.
+struct NamedForm {
+  std::string_view number;
+  std::string_view id;
+  std::string_view name;
 };
 
 struct Effect {
   std::string_view id;
+  std::string_view name;  // in words, as a part of a sentence: "convection to the room"
   std::string_view equation;
   std::string_view source;
   std::string_view fingerprint;
@@ -53,8 +66,9 @@ struct Effect {
   void (*add)(NetworkBuilder& builder, const EffectSpec& spec, int index);
   /// The forms in which the effect could be missing from this machine in this run; parameters at their start values.
   std::vector<EffectSpec> (*candidates)(const Machine& machine, const RunFacts& facts);
-  std::string_view driven_by = {};  // the input that switches it, where it acts in no other time
+  std::string_view acts_with = {};  // the recording's channel that it follows, where it acts in no other time
   EffectTraits traits = {};
+  std::vector<NamedForm> named_forms = {};
 
   const EffectParameter& parameter(std::string_view key) const;
 };
@@ -79,19 +93,8 @@ struct RunFacts {
 
 const std::vector<const Effect*>& all_effects();
 const Effect* find_effect(std::string_view id);
-/// Natural logarithm of how much rarer an effect is, beforehand, than the common ones (engineering judgement: twenty to
-/// one).
-double log_prior_of(std::string_view id);
-/// An event of one recording - a slip, an open door - that the next need not show.
-bool happens_once(std::string_view id);
-/// Heat of a lump that is free at each quarter of the speed, also to fall with it: no effect, but the rival of all
-/// laws.
-EffectSpec free_speed_heat(const Component& component);
-/// A displacement that settles by itself, whatever the room and the machine do: no effect, but the rival of those that
-/// have a start of their own in each recording.
-EffectSpec settling_by_itself(const std::string& channel);
-/// The same for one that drifts on and on, as a probe or its electronics do.
-EffectSpec drifting_by_itself(const std::string& channel);
+/// The effect that acts in stretches of time as heat, as film, as a reading.
+const Effect& effect_of_event(Event event);
 /// "convection, speed_convection, ..."
 std::string effect_ids();
 

@@ -62,6 +62,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect extra_heat_source_effect;
 const Effect extra_heat_source_effect = {
     "extra_heat_source",
+    "an extra heat source",
     "+q {1, on, n, n^2} at x",
     "seals, belts, pumps, hydraulics, neighbouring electronics: tens of watts",
     "One place is simulated too cold; the error is largest there and spreads both ways",

@@ -49,6 +49,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect film_driver_effect;
 const Effect film_driver_effect = {"film_driver",
+                                   "a film that a logged input drives",
                                    "-h (u / u_full) P (T - T_room)",
                                    "fans and blowers: films of 20 to 150 W/(m2 K) (VDI Heat Atlas G)",
                                    "The part cools faster while a logged input is on that the description does not use",

@@ -47,6 +47,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect heater_body_effect;
 const Effect heater_body_effect = {
     "heater_body",
+    "the heat source's own body",
     "C_b dT_b/dt = Q - G_b (T_b - T)",
     "power resistors, cartridge heaters: 1 to 100 J/K behind 0.05 to 5 W/K; rotors, stators: 0.1 to 10 kJ/K, 1 to 50 "
     "W/K",

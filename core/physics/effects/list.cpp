@@ -78,12 +78,11 @@ const Effect* find_effect(std::string_view id) {
   return nullptr;
 }
 
-double log_prior_of(std::string_view id) {
-  return find_effect(id)->traits.log_rarity;
-}
-
-bool happens_once(std::string_view id) {
-  return find_effect(id)->traits.once;
+const Effect& effect_of_event(Event event) {
+  for (const Effect* effect : all_effects()) {
+    if (effect->traits.event == event) return *effect;
+  }
+  throw std::logic_error("no effect for this event");
 }
 
 std::string effect_ids() {

@@ -78,6 +78,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 
 extern const Effect neighbour_heat_effect;
 const Effect neighbour_heat_effect = {"neighbour_heat",
+                                      "heat from a neighbouring part",
                                       "G (T_other - T)",
                                       "bolted or neighbouring parts, shared boards: 0.01 to 10 W/K",
                                       "A part without a source of its own warms after its neighbour does",

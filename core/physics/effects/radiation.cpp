@@ -52,6 +52,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 
 extern const Effect radiation_effect;
 const Effect radiation_effect = {"radiation",
+                                 "radiation to the room",
                                  "-eps sigma P (T^4 - T_room^4), temperatures in kelvin",
                                  "Stefan-Boltzmann; eps 0.1 (bright metal) to 0.95 (paint)",
                                  "Like convection, but the hot part loses more than in proportion; below a rise of 20 "

@@ -28,6 +28,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect room_sensor_fault_effect;
 const Effect room_sensor_fault_effect = {
     "room_sensor_fault",
+    "a wrong room sensor",
     "T_surrounding = T_room + b + d t",
     "room sensors in the sun or in exhaust air: 1 to 5 K",
     "All temperatures tend to another level than the logged room, also while the machine stands",
@@ -36,7 +37,7 @@ const Effect room_sensor_fault_effect = {
     {"offset_K", "drift_K_per_h"},
     room_sensor_fault::add,
     room_sensor_fault::candidates,
-    {},
-    {.log_rarity = -3.0}};
+    "ambient_C",
+    {.log_rarity = -3.0, .room_reads_wrong = true}};
 
 }  // namespace zerodrift::physics

@@ -17,6 +17,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect sensor_gain_effect;
 const Effect sensor_gain_effect = {"sensor_gain",
+                                   "a sensor that reads its rise wrong",
                                    "y = T0 + (1 + g) (T - T0)",
                                    "wrong characteristic, poor contact: 2 to 30 %",
                                    "One channel is off in proportion to its rise, in step with it. A sensor that "

@@ -16,6 +16,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect sensor_lag_effect;
 const Effect sensor_lag_effect = {"sensor_lag",
+                                  "a sensor that answers late",
                                   "tau dy/dt = T - y",
                                   "sensors taped on, in pockets or housings: 20 to 600 s",
                                   "One channel is late in every transient and right when the temperature stands",

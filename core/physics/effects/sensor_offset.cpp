@@ -34,6 +34,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect sensor_offset_effect;
 const Effect sensor_offset_effect = {"sensor_offset",
+                                     "a sensor that reads wrong by a constant",
                                      "y = T + b",
                                      "wiring, calibration or contact faults: beyond the stated accuracy",
                                      "One channel differs by a constant from the first sample on",
@@ -41,6 +42,8 @@ const Effect sensor_offset_effect = {"sensor_offset",
                                      {{"offset_K", 1.2, -20.0, 20.0, true}},
                                      {"offset_K"},
                                      sensor_offset::add,
-                                     sensor_offset::candidates};
+                                     sensor_offset::candidates,
+                                     {},
+                                     {.event = Event::reading}};
 
 }  // namespace zerodrift::physics

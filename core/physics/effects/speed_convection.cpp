@@ -49,6 +49,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect speed_convection_effect;
 const Effect speed_convection_effect = {
     "speed_convection",
+    "convection that grows with speed",
     "-a (n / n_full)^m P (T - T_room)",
     "rotating cylinder in air, Nu ~ Re^m with m 0.6 to 0.8 (Kays and Bjorklund 1958)",
     "The simulation is too hot while the spindle turns and right while it stands",
@@ -57,7 +58,7 @@ const Effect speed_convection_effect = {
     {"a_W_m2K"},
     speed_convection::add,
     speed_convection::candidates,
-    {},
+    "spindle_rpm",
     {.requires_id = "convection"}};
 
 }  // namespace zerodrift::physics

@@ -33,6 +33,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 
 extern const Effect standing_heat_effect;
 const Effect standing_heat_effect = {"standing_heat",
+                                     "a heat that is there at rest as well",
                                      "+q, constant",
                                      "electric cabinets, hydraulic units, lamps",
                                      "The part is warmer than its surroundings even before the machine runs",

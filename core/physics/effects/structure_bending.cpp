@@ -133,6 +133,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 extern const Effect structure_bending_effect;
 const Effect structure_bending_effect = {
     "structure_bending",
+    "bending of the structure",
     "d += g lag(u, tau) + g_room lag(T_room - T0, tau)",
     "head stock and column of machining centres: 1 to 10 um per K of difference, 5 min to 5 h",
     "Only the displacement across the axis is off; it follows a heat source or a temperature difference with a delay",

@@ -54,6 +54,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect structure_driver_effect;
 const Effect structure_driver_effect = {
     "structure_driver",
+    "a displacement that follows another part",
     "d += g lag(T_other - T_start, tau)",
     "thermal growth of parts outside the simulated chain: 1 to 12 um per K and metre of steel",
     "A displacement follows another part's temperature, heating and cooling alike",

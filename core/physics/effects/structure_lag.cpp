@@ -46,6 +46,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts&) {
 extern const Effect structure_lag_effect;
 const Effect structure_lag_effect = {
     "structure_lag",
+    "a structure that follows late",
     "tau dd/dt = d_component - d; or d += g lag(T_component - T_start, tau2) beside its own growth",
     "core of a profile or casting behind its surface, parts bolted to it: minutes to hours; 1 to 12 um per K and metre",
     "A displacement is late against the temperature of its own component; heating and cooling disagree",

@@ -44,6 +44,7 @@ std::vector<EffectSpec> candidates(const Machine& machine, const RunFacts& facts
 
 extern const Effect switched_heat_effect;
 const Effect switched_heat_effect = {"switched_heat",
+                                     "heat that something unlogged switches",
                                      "+q at x for t in [t1, t2], [t3, t4] ...",
                                      "thermostats, pumps, lamps, neighbouring machines: watts to kilowatts",
                                      "One part warms and cools in stretches of time that no logged input explains",
@@ -53,6 +54,6 @@ const Effect switched_heat_effect = {"switched_heat",
                                      switched_heat::add,
                                      switched_heat::candidates,
                                      {},
-                                     {.log_rarity = -3.0, .once = true}};
+                                     {.log_rarity = -3.0, .once = true, .event = Event::heat}};
 
 }  // namespace zerodrift::physics

@@ -1,4 +1,4 @@
-#include "core/diagnosis/answer/weighed.h"
+#include "core/diagnosis/answer/posterior_summary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,8 +79,8 @@ double leftover(const Fit& fit, std::size_t series) {
   return count == 0 ? 0.0 : std::sqrt(std::max(0.0, sum / count));
 }
 
-Weighed::Weighed(const Posterior& of, const physics::Machine& machine, const CheckedRuns& checked,
-                 const DiagnoseOptions& wanted)
+PosteriorSummary::PosteriorSummary(const Posterior& of, const physics::Machine& machine, const CheckedRuns& checked,
+                                   const DiagnoseOptions& wanted)
     : posterior(of),
       evidence(*of.evidence),
       settings(evidence.settings()),
@@ -93,7 +93,7 @@ Weighed::Weighed(const Posterior& of, const physics::Machine& machine, const Che
       named(effects_to_name()),
       best(answer()) {}
 
-double Weighed::mass_of(const Name& name) const {
+double PosteriorSummary::mass_of(const Name& name) const {
   double mass = 0.0;
   for (std::size_t i = 0; i < probability.size(); ++i) {
     if (names_of(posterior.explanations[i]).count(name) != 0) mass += probability[i];
@@ -101,33 +101,33 @@ double Weighed::mass_of(const Name& name) const {
   return mass;
 }
 
-double Weighed::gain_of(const Name& name) const {
+double PosteriorSummary::gain_of(const Name& name) const {
   for (const Explanation& one : posterior.explanations) {
     if (names_of(one).count(name) == 0) return posterior.explanations.front().log_posterior - one.log_posterior;
   }
   return settings.margin;
 }
 
-double Weighed::allowed(std::size_t series) const {
+double PosteriorSummary::allowed(std::size_t series) const {
   const bool coarse = evidence.is_coarse(series);
   const double slow = evidence.runs().front().series[series].slow;
   return std::hypot((coarse ? settings.adequate_coarse_size : settings.adequate_size) * slow,
                     (coarse ? settings.adequate_coarse_share : settings.adequate_share) * evidence.range(series));
 }
 
-double Weighed::taken(const Fit& less, std::size_t series) const {
+double PosteriorSummary::taken(const Fit& less, std::size_t series) const {
   return taken_by(best, less, series);
 }
 
-Fit Weighed::without(const std::set<Name>& names) const {
+Fit PosteriorSummary::without(const std::set<Name>& names) const {
   return reduced(best, names);
 }
 
-double Weighed::decisive() const {
+double PosteriorSummary::decisive() const {
   return 1.0 / (1.0 + std::exp(-settings.decisive));
 }
 
-std::size_t Weighed::effects_missing() const {
+std::size_t PosteriorSummary::effects_missing() const {
   std::size_t count = names_of(posterior.explanations.front()).size();
   for (; count > 0; --count) {
     double mass = 0.0;
@@ -140,7 +140,7 @@ std::size_t Weighed::effects_missing() const {
 }
 
 /// Does `less` leave more of some channel than `more`, in proportion to what the description leaves?
-bool Weighed::is_material(const Fit& more, const Fit& less) const {
+bool PosteriorSummary::is_material(const Fit& more, const Fit& less) const {
   for (std::size_t c = 0; c < evidence.series(); ++c) {
     if (evidence.samples(c) > 0 && taken_by(more, less, c) > settings.material_share * leftover(base, c)) return true;
   }
@@ -149,7 +149,7 @@ bool Weighed::is_material(const Fit& more, const Fit& less) const {
 
 /// As many as are supported, the likeliest first, each more likely than not. Those that only take details which a
 /// better form of something else would take as well are left out one after the other, the least supported first.
-std::set<Name> Weighed::effects_to_name() const {
+std::set<Name> PosteriorSummary::effects_to_name() const {
   const Fit& top = *posterior.explanations.front().fit;
   const std::set<Name> all = names_of(posterior.explanations.front());
   std::vector<Name> order;
@@ -171,18 +171,18 @@ std::set<Name> Weighed::effects_to_name() const {
   return kept;
 }
 
-Fit Weighed::answer() const {
+Fit PosteriorSummary::answer() const {
   const Explanation& top = posterior.explanations.front();
   std::set<Name> all = names_of(top), out;
   std::set_difference(all.begin(), all.end(), named.begin(), named.end(), std::inserter(out, out.end()));
   return out.empty() ? Fit(*top.fit) : reduced(*top.fit, out);
 }
 
-recording::Recording Weighed::driven(const recording::Recording& run) const {
+recording::Recording PosteriorSummary::driven(const recording::Recording& run) const {
   return set_right(run, best.model().hypothesis().errors);
 }
 
-std::vector<std::size_t> Weighed::reported() const {
+std::vector<std::size_t> PosteriorSummary::reported() const {
   std::vector<std::size_t> list;
   for (std::size_t c = 0; c < evidence.series(); ++c) {
     const bool measured = recordings.front().find(evidence.runs().front().series[c].channel) != nullptr;

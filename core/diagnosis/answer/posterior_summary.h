@@ -27,10 +27,10 @@ std::set<Name> names_of(const search::Explanation& explanation);
 /// recording fitted.
 double leftover(const inference::Fit& fit, std::size_t series);
 
-struct Weighed {
+struct PosteriorSummary {
   /// Refers to all that it is given.
-  Weighed(const search::Posterior& posterior, const physics::Machine& described, const CheckedRuns& runs,
-          const DiagnoseOptions& options);
+  PosteriorSummary(const search::Posterior& posterior, const physics::Machine& described, const CheckedRuns& runs,
+                   const DiagnoseOptions& options);
 
   double mass_of(const Name& name) const;
   /// Probability from which something is certain enough to act on.
