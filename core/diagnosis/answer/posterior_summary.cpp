@@ -127,14 +127,23 @@ double PosteriorSummary::decisive() const {
   return 1.0 / (1.0 + std::exp(-settings.decisive));
 }
 
+bool PosteriorSummary::description_is_adequate() const {
+  for (std::size_t c = 0; c < evidence.series(); ++c) {
+    if (evidence.samples(c) > 0 && leftover(base, c) > allowed(c)) return false;
+  }
+  return true;
+}
+
 std::size_t PosteriorSummary::effects_missing() const {
+  // A description that leaves more than any good one does is no alternative, however little the others are trusted.
+  const double all = description_is_adequate() ? 1.0 : 1.0 - probability[posterior.described];
   std::size_t count = names_of(posterior.explanations.front()).size();
   for (; count > 0; --count) {
     double mass = 0.0;
     for (std::size_t i = 0; i < probability.size(); ++i) {
       if (names_of(posterior.explanations[i]).size() >= count) mass += probability[i];
     }
-    if (mass >= decisive()) break;
+    if (mass >= decisive() * all) break;
   }
   return count;
 }

@@ -37,6 +37,8 @@ struct PosteriorSummary {
   double decisive() const;
   /// How many effects are missing at least: as many as are decisively more likely than fewer.
   std::size_t effects_missing() const;
+  /// Does the description, as near as it comes, leave no more of any channel than good ones do?
+  bool description_is_adequate() const;
   /// Log odds that the likeliest explanation loses without this effect: against the best one that has it not.
   double gain_of(const Name& name) const;
   /// What a good description leaves of a channel: settings.adequate_*.
