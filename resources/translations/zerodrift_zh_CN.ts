@@ -8516,6 +8516,32 @@
             <numerusform>建议 %n 个：再加上 %1，预期误差仅减小 %2 µm。</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Without %1 the condition number falls from %2 to the limit, for an error of only %3 µm more.</source>
+        <translation>去掉 %1 后，条件数从 %2 降到限值以内，误差仅增大 %3 µm。</translation>
+    </message>
+    <message>
+        <source>They are much alike: condition number %1, limit %2.</source>
+        <translation>它们非常相似：条件数 %1，限值 %2。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain, fewer than there are clusters.</source>
+        <translation>
+            <numerusform>满足限值的只剩 %n 个，少于聚类数。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain.</source>
+        <translation>
+            <numerusform>满足限值的只剩 %n 个。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain, for an error of %1 µm more.</source>
+        <translation>
+            <numerusform>满足限值的只剩 %n 个，误差增大 %1 µm。</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::Tour</name>
