@@ -36,6 +36,7 @@ durations() { # what has to be done in a certain time, one after the other; and 
   "$bin/recording_tests" --gtest_filter='Csv.AMillionColumns*'
   QT_QPA_PLATFORM=offscreen "$bin/ui_plots_test" aDayIsDrawnQuickly
   QT_QPA_PLATFORM=offscreen "$bin/app_reporting_test" thePdfHasFontsLinksAndPagesInTime
+  QT_QPA_PLATFORM=offscreen "$bin/app_rig_page_test" eachDeviceHasALamp
   /usr/bin/python3 "$root/tests/end_to_end/rollback_test.py"
   /usr/bin/python3 "$root/tests/end_to_end/consent_test.py"
   /usr/bin/python3 "$root/tests/end_to_end/commission_test.py" 1
