@@ -140,41 +140,69 @@ function(zerodrift_qt_library name)
   zerodrift_batches(${name} zerodrift_qt_pch)
 endfunction()
 
+# Tests are linked again with every change of a library below them; gold takes a fifth of the time. The programs that are
+# installed keep the default linker, which writes the property notes of -fcf-protection.
+find_program(ZERODRIFT_GOLD ld.gold)
+function(zerodrift_link_quickly target)
+  if(ZERODRIFT_GOLD AND NOT ZERODRIFT_SANITIZE AND NOT ZERODRIFT_FUZZ)
+    target_link_options(${target} PRIVATE -fuse-ld=gold)
+  endif()
+endfunction()
+
 # zerodrift_test(room [SLOW] SOURCES a_test.cpp ... DEPENDS ...): GoogleTest; ctest names are room/Suite.Test. Label
 # "unit", which ./check --quick runs; SLOW rooms (minutes of simulated machines and rendered frames) have "slow".
+# ./check runs twice as many tests as there are processors, since many wait for a device: one of a SLOW room, which
+# computes all the time, counts as two. LONGEST: those that take over 15 s are started first.
 function(zerodrift_test room)
-  cmake_parse_arguments(A "SLOW" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(A "SLOW" "TIMEOUT" "SOURCES;DEPENDS;LONGEST" ${ARGN})
   string(REPLACE "/" "_" name ${room})
   add_executable(${name}_tests ${A_SOURCES})
   target_link_libraries(${name}_tests PRIVATE zerodrift_options ${A_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
   zerodrift_batches(${name}_tests zerodrift_test_pch)
+  zerodrift_link_quickly(${name}_tests)
   target_compile_options(${name}_tests PRIVATE -O1)
   target_compile_definitions(${name}_tests PRIVATE ZERODRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     ZERODRIFT_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   if(NOT A_TIMEOUT)
-    set(A_TIMEOUT 120)
+    set(A_TIMEOUT 300)  # ends what hangs; a computer with ten busy programs takes three times as long as an idle one
   endif()
-  set(label unit)
+  set(properties LABELS unit)
   if(A_SLOW)
-    set(label slow)
+    set(properties LABELS slow PROCESSORS 2 COST 5)
   endif()
   gtest_discover_tests(${name}_tests TEST_PREFIX ${room}/ DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${A_TIMEOUT} LABELS ${label})
+    PROPERTIES TIMEOUT ${A_TIMEOUT} ${properties})
+  if(A_LONGEST)
+    list(TRANSFORM A_LONGEST REPLACE "(.+)" "set_tests_properties([==[${room}/\\1]==] PROPERTIES COST 60)")
+    list(JOIN A_LONGEST "\n" longest)
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}_longest.cmake CONTENT "${longest}\n" @ONLY)
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}_longest.cmake)
+  endif()
 endfunction()
 
-# zerodrift_qt_test(room/name SOURCES one_test.cpp DEPENDS ...): Qt Test on the offscreen platform.
+# zerodrift_qt_test(room/name [WAITS] SOURCES one_test.cpp DEPENDS ...): Qt Test on the offscreen platform. COST: about
+# the seconds it takes; those that take long start first. WAITS: for a machine most of the time.
 function(zerodrift_qt_test room)
-  cmake_parse_arguments(A "" "TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(A "WAITS" "TIMEOUT;COST" "SOURCES;DEPENDS" ${ARGN})
   string(REPLACE "/" "_" name ${room})
   add_executable(${name}_test ${A_SOURCES})
   set_target_properties(${name}_test PROPERTIES AUTOMOC ON)
+  zerodrift_link_quickly(${name}_test)
   target_link_libraries(${name}_test PRIVATE zerodrift_options Qt6::Test Qt6::Widgets ${A_DEPENDS})
   target_precompile_headers(${name}_test REUSE_FROM zerodrift_qt_pch)
   target_compile_definitions(${name}_test PRIVATE ${zerodrift_qt_definitions} ZERODRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     ZERODRIFT_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   if(NOT A_TIMEOUT)
-    set(A_TIMEOUT 60)
+    set(A_TIMEOUT 180)
   endif()
   add_test(NAME ${room} COMMAND ${name}_test)
-  set_tests_properties(${room} PROPERTIES TIMEOUT ${A_TIMEOUT} ENVIRONMENT "QT_QPA_PLATFORM=offscreen")
+  if(NOT A_COST)
+    set(A_COST 1)
+  endif()
+  set(processors 2)
+  if(A_WAITS)
+    set(processors 1)
+  endif()
+  set_tests_properties(${room} PROPERTIES TIMEOUT ${A_TIMEOUT} COST ${A_COST} PROCESSORS ${processors}
+    ENVIRONMENT "QT_QPA_PLATFORM=offscreen")
 endfunction()

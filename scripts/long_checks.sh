@@ -2,7 +2,7 @@
 # What `./check --long` does after the everyday tests: each part by name, so that one can be run alone. A part that
 # fails does not keep the next from running; at the end each stands with its outcome and its time, and the script fails
 # if one of them did.
-#   scripts/long_checks.sh [kills|disk|cable|days|tour|fuzz|asan|tsan|static ...]
+#   scripts/long_checks.sh [kills|disk|cable|days|seeds|durations|tour|fuzz|asan|tsan|static ...]
 #   ZERODRIFT_FUZZ_SECONDS=3600: how long each reader is fuzzed (a minute)
 set -euo pipefail
 source "$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/prepare.sh"
@@ -23,6 +23,23 @@ cable() { # every byte of every operation, eight faults
 }
 days() { # three days with a row each second, an hour of 200 channels
   "$bin/acquisition_tests" --gtest_filter='Endurance.*'
+}
+seeds() { # further random machines and pictures for what the everyday tests try on one or two
+  "$bin/proof_tests" --gtest_filter='ConcealedCase.Joints*'
+  "$bin/diagnosis_tests" --gtest_filter='WrongSetUp.AFewRows*:WrongColumns.ASoundMachineSeenSeldom*'
+  "$bin/vision_tests" --gtest_filter='RenderedFrames.ABallInNoise*'
+}
+durations() { # what has to be done in a certain time, one after the other; and the programs for figures are built
+  cmake --build "$build_dir" --target benches
+  "$bin/vision_tests" --gtest_filter='LyingCamera.*'
+  "$bin/controller_tests" --gtest_filter='Upload.RollbackOfAFullTableIsQuick'
+  "$bin/recording_tests" --gtest_filter='Csv.AMillionColumns*'
+  QT_QPA_PLATFORM=offscreen "$bin/ui_plots_test" aDayIsDrawnQuickly
+  QT_QPA_PLATFORM=offscreen "$bin/app_reporting_test" thePdfHasFontsLinksAndPagesInTime
+  QT_QPA_PLATFORM=offscreen "$bin/app_rig_page_test" eachDeviceHasALamp
+  /usr/bin/python3 "$root/tests/end_to_end/rollback_test.py"
+  /usr/bin/python3 "$root/tests/end_to_end/consent_test.py"
+  /usr/bin/python3 "$root/tests/end_to_end/commission_test.py" 1
 }
 fuzz() { # a minute for each reader
   "$root/tests/fuzz/run.sh" "${ZERODRIFT_FUZZ_SECONDS:-60}"
@@ -101,7 +118,7 @@ if [ "${1:-}" = --part ]; then
   "$2"
   exit
 fi
-[ $# -gt 0 ] || set -- kills disk cable days tour fuzz asan tsan static
+[ $# -gt 0 ] || set -- kills disk cable days seeds durations tour fuzz asan tsan static
 for part in "$@"; do
   declare -F "$part" >/dev/null || { echo "no part is called $part; see the head of $0" >&2; exit 2; }
 done

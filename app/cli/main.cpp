@@ -7,10 +7,12 @@
 #include <QApplication>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <stop_token>
 #include <thread>
 
@@ -44,6 +46,9 @@ std::jthread watch_signals(std::stop_source& stop) {
   return std::jthread([&stop](const std::stop_token& done) {
     constexpr auto together = std::chrono::milliseconds(500);
     Clock::time_point first;
+    std::mutex mutex;
+    std::condition_variable_any end;
+    std::unique_lock lock(mutex);
     while (!done.stop_requested()) {
       if (const int signal = signal_seen.exchange(0); signal != 0) {
         if (!stop.stop_requested()) {
@@ -55,7 +60,7 @@ std::jthread watch_signals(std::stop_source& stop) {
           std::raise(signal);
         }
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      end.wait_for(lock, done, std::chrono::milliseconds(50), [] { return false; });
     }
   });
 }

@@ -1,6 +1,7 @@
 #include "core/flow/flow.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/commissioning/job.h"
 #include "core/recording/recording.h"
@@ -18,6 +19,13 @@ bool takes(const Artefact& made, std::string_view kind) {
   return std::any_of(made.inputs.begin(), made.inputs.end(), [&](const InputRef& input) { return input.kind == kind; });
 }
 
+/// A list of further recordings that is empty again: as if there had never been one.
+bool says_nothing(const Artefact& latest) {
+  if (latest.kind != "recordings") return false;
+  const auto body = latest.document();
+  return body && body->is_object() && body->value("recordings", nlohmann::json()) == nlohmann::json::array();
+}
+
 /// What is new about a kind since the artefact was made. A step may have taken several of a kind, of which one must be
 /// the latest.
 std::optional<Reason> outdated(const Artefact& made, const std::string& kind, const Artefact& latest, bool optional) {
@@ -29,7 +37,7 @@ std::optional<Reason> outdated(const Artefact& made, const std::string& kind, co
   }
   if (used != 0) return Reason{Cause::changed, kind, {}, used, latest.id};
   // Not an input at all: the step did without it, or it came later.
-  if (optional && latest.id > made.id) return Reason{Cause::added, kind, {}, 0, latest.id};
+  if (optional && latest.id > made.id && !says_nothing(latest)) return Reason{Cause::added, kind, {}, 0, latest.id};
   return std::nullopt;
 }
 

@@ -44,6 +44,27 @@
             <numerusform>%n proposed: with %1 the error to expect would be only %2 µm less.</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain, fewer than there are clusters.</source>
+        <translation>
+            <numerusform>Within the limit only %n would remain, fewer than there are clusters.</numerusform>
+            <numerusform>Within the limit only %n would remain, fewer than there are clusters.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain.</source>
+        <translation>
+            <numerusform>Within the limit only %n would remain.</numerusform>
+            <numerusform>Within the limit only %n would remain.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain, for an error of %1 µm more.</source>
+        <translation>
+            <numerusform>Within the limit only %n would remain, for an error of %1 µm more.</numerusform>
+            <numerusform>Within the limit only %n would remain, for an error of %1 µm more.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::UploadPresenter</name>

@@ -8516,6 +8516,32 @@
             <numerusform>建议 %n 个：再加上 %1，预期误差仅减小 %2 µm。</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Without %1 the condition number falls from %2 to the limit, for an error of only %3 µm more.</source>
+        <translation>去掉 %1 后，条件数从 %2 降到限值以内，误差仅增大 %3 µm。</translation>
+    </message>
+    <message>
+        <source>They are much alike: condition number %1, limit %2.</source>
+        <translation>它们非常相似：条件数 %1，限值 %2。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain, fewer than there are clusters.</source>
+        <translation>
+            <numerusform>满足限值的只剩 %n 个，少于聚类数。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain.</source>
+        <translation>
+            <numerusform>满足限值的只剩 %n 个。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Within the limit only %n would remain, for an error of %1 µm more.</source>
+        <translation>
+            <numerusform>满足限值的只剩 %n 个，误差增大 %1 µm。</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::desktop::Tour</name>
@@ -9165,6 +9191,30 @@
         <source>Mean of both directions</source>
         <translation>双向平均值</translation>
     </message>
+    <message>
+        <source>Reads what an interferometer measured along one axis</source>
+        <translation>读取干涉仪沿一根轴测得的数据</translation>
+    </message>
+    <message>
+        <source>Keeps the table in the job; the next upload writes it with the model</source>
+        <translation>把表保存在作业中；下次上传时与模型一起写入</translation>
+    </message>
+    <message>
+        <source>Another measurement, of this axis or of another</source>
+        <translation>另一次测量，可以是此轴或其他轴</translation>
+    </message>
+    <message>
+        <source>Which column of the file is what</source>
+        <translation>文件各列的含义</translation>
+    </message>
+    <message>
+        <source>A table of one point, to try the sign on the machine</source>
+        <translation>只有一个点的表，用于在机床上检验符号</translation>
+    </message>
+    <message>
+        <source>The table as a file for a controller</source>
+        <translation>供控制器使用的表文件</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::CalibratePage</name>
@@ -9465,6 +9515,22 @@
     <message>
         <source>no reference mark</source>
         <translation>无参考标记</translation>
+    </message>
+    <message>
+        <source>Pictures of the target at rest, with which all later ones are compared</source>
+        <translation>靶标静止时的图像，之后的图像都与它比较</translation>
+    </message>
+    <message>
+        <source>Keeps scale and directions of the cameras in the job</source>
+        <translation>把相机的比例和方向保存在作业中</translation>
+    </message>
+    <message>
+        <source>Moves the axes by some millimetres at most and finds how many µm a pixel is</source>
+        <translation>各轴最多移动几毫米，求出每个像素对应多少 µm</translation>
+    </message>
+    <message>
+        <source>Takes a new template and measures all positions anew</source>
+        <translation>重新拍摄模板并重新测量所有位置</translation>
     </message>
 </context>
 <context>
@@ -9797,6 +9863,10 @@
         <source>Drawn while this computer compensates</source>
         <translation>由本计算机补偿时在此绘出</translation>
     </message>
+    <message>
+        <source>This computer sends the predicted error to the machine as an offset until it is stopped</source>
+        <translation>本计算机把预测误差作为偏置发送给机床，直到停止</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::ComponentDrawing</name>
@@ -10064,6 +10134,18 @@
     <message>
         <source>Out of date: %1 changed after this model was fitted. Fit again.</source>
         <translation>已过期：拟合此模型后%1已更改。请重新拟合。</translation>
+    </message>
+    <message>
+        <source>Finds how the errors follow the chosen sensors, and tests it on stretches it has not seen</source>
+        <translation>求出误差与所选传感器的关系，并在未用于拟合的区段上检验</translation>
+    </message>
+    <message>
+        <source>The sensors or the recordings have changed since the last fit</source>
+        <translation>上次拟合之后，传感器或记录已改变</translation>
+    </message>
+    <message>
+        <source>Goes on: the table is made of this model</source>
+        <translation>继续：由此模型生成表</translation>
     </message>
 </context>
 <context>
@@ -11258,6 +11340,22 @@
         <source>Enter its parts, heat sources and where each sensor sits; typical values are offered. Or open a machine.json. Without a drawing begin with a lump for each sensor.</source>
         <translation>请填写部件、热源以及各传感器的位置；会提供典型值。也可打开 machine.json。没有图纸时，先为每个传感器用一个集总体。</translation>
     </message>
+    <message>
+        <source>A form for parts, sizes, heat sources and sensors, drawn as they are entered</source>
+        <translation>填写部件、尺寸、热源和传感器的表单，边填边画图</translation>
+    </message>
+    <message>
+        <source>Compares the recording with the described machine and seeks effects that explain the difference</source>
+        <translation>把记录与所描述的机床比较，寻找能解释差异的效应</translation>
+    </message>
+    <message>
+        <source>A description that was made before</source>
+        <translation>以前做好的描述</translation>
+    </message>
+    <message>
+        <source>Seeks the effects anew, with the recordings and the description as they are now</source>
+        <translation>按现在的记录和描述重新寻找效应</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::PlanTimeline</name>
@@ -11575,6 +11673,18 @@
         <source>%1 (%2)</source>
         <translation>%1（%2）</translation>
     </message>
+    <message>
+        <source>Writes the pages at the left into a file of the chosen format</source>
+        <translation>把左侧各页按所选格式写入文件</translation>
+    </message>
+    <message>
+        <source>Opens the folder of what was saved last</source>
+        <translation>打开上次保存的文件所在文件夹</translation>
+    </message>
+    <message>
+        <source>The pages at the left, on a printer of this computer</source>
+        <translation>在本计算机的打印机上打印左侧各页</translation>
+    </message>
 </context>
 <context>
     <name>zerodrift::ui::RunView</name>
@@ -11890,6 +12000,14 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Correlation with the error in %1</source>
         <translation>与 %1 误差的相关性</translation>
+    </message>
+    <message>
+        <source>Goes on: the model is fitted on the sensors that are ticked</source>
+        <translation>继续：用勾选的传感器拟合模型</translation>
+    </message>
+    <message>
+        <source>Ticks the sensors with the least error to expect again</source>
+        <translation>重新勾选预期误差最小的传感器</translation>
     </message>
 </context>
 <context>
@@ -12265,6 +12383,22 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>What each term predicts of the error, actual less commanded, as in the report and in the file. The controller moves against it: the curve above is that compensation.</source>
         <translation>各项所预测的误差（实际减指令），与报告和文件中一致。控制器按相反方向移动：上方曲线即为该补偿。</translation>
+    </message>
+    <message>
+        <source>Shows what is written and asks; the table before stays in the history</source>
+        <translation>显示将写入的内容并询问；原来的表保留在历史记录中</translation>
+    </message>
+    <message>
+        <source>The table as a file for a controller</source>
+        <translation>供控制器使用的表文件</translation>
+    </message>
+    <message>
+        <source>Everything but the write: reads, compares and says what would change</source>
+        <translation>除写入外全部执行：读取、比较，并说明会改变什么</translation>
+    </message>
+    <message>
+        <source>A small offset for a moment; the camera sees whether the machine moves the right way</source>
+        <translation>短暂施加一个小偏置；相机观察机床是否朝正确方向移动</translation>
     </message>
 </context>
 <context>
@@ -12648,6 +12782,26 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Worse than with version %2: %1. Roll back, or correct it.</source>
         <translation>比版本 %2 差：%1。请回滚或修正。</translation>
+    </message>
+    <message>
+        <source>The run of the warm-up once more, with the compensation on</source>
+        <translation>打开补偿，再进行一次暖机运行</translation>
+    </message>
+    <message>
+        <source>Stops the machine; the recording goes on</source>
+        <translation>停止机床；记录继续</translation>
+    </message>
+    <message>
+        <source>Goes on with the plan where it was stopped</source>
+        <translation>从停止处继续执行计划</translation>
+    </message>
+    <message>
+        <source>A new run with what is written now</source>
+        <translation>用现在写入的内容再运行一次</translation>
+    </message>
+    <message>
+        <source>Goes on without the correction</source>
+        <translation>不做修正，继续</translation>
     </message>
 </context>
 <context>
@@ -13106,6 +13260,42 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>The run before counts; the interrupted one stays unused</source>
         <translation>以前一次运行为准；中断的运行留存但不使用</translation>
+    </message>
+    <message>
+        <source>A file of any logger: text or Excel</source>
+        <translation>任何记录仪的文件：文本或 Excel</translation>
+    </message>
+    <message>
+        <source>The machine runs by the plan; temperatures and errors are recorded</source>
+        <translation>机床按计划运行，同时记录温度和误差</translation>
+    </message>
+    <message>
+        <source>Stops the machine; the recording goes on</source>
+        <translation>停止机床；记录继续</translation>
+    </message>
+    <message>
+        <source>Goes on with the plan where it was stopped</source>
+        <translation>从停止处继续执行计划</translation>
+    </message>
+    <message>
+        <source>Goes on: the sensors are chosen from it</source>
+        <translation>继续：由此运行选择传感器</translation>
+    </message>
+    <message>
+        <source>A plan that was saved before</source>
+        <translation>以前保存的计划</translation>
+    </message>
+    <message>
+        <source>As a file, for other machines and the command line</source>
+        <translation>保存为文件，供其他机床和命令行使用</translation>
+    </message>
+    <message>
+        <source>The recording shown, for a spreadsheet</source>
+        <translation>所显示的记录，供电子表格使用</translation>
+    </message>
+    <message>
+        <source>Plans a new run; this one stays in the job</source>
+        <translation>计划新的运行；此运行保留在作业中</translation>
     </message>
 </context>
 <context>

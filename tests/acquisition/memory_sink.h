@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -29,6 +30,7 @@ class MemorySink : public RunSink {
   Status flush() override {
     ++flushes;
     std::this_thread::sleep_for(flush_takes);
+    if (in_flush) in_flush();
     if (full) return fail(ErrorCode::disk_full, {{"file", "memory"}});
     committed = times.size();
     return {};
@@ -57,6 +59,7 @@ class MemorySink : public RunSink {
   int flushes = 0;
   std::atomic<bool> full = false;  // set by the test while another thread writes
   std::chrono::milliseconds flush_takes{0};
+  std::function<void()> in_flush;  // called by the thread that writes
   std::optional<RunEnd> ended;
 };
 

@@ -15,6 +15,7 @@
 #include "app/desktop/operator_dialog.h"
 #include "core/controller/operator.h"
 #include "tests/app/test_home.h"
+#include "tests/support/amount.h"
 #include "ui/pages/machine_page.h"
 #include "ui/shell/lamp.h"
 #include "ui/shell/main_window.h"
@@ -139,7 +140,8 @@ class RigPageTest : public QObject, private zerodrift::desktop::TestHome {
     };
     for (const char* id : {"module-1", "module-2", "agent"}) {
       QTRY_VERIFY2_WITH_TIMEOUT(device(id).judgement == Judgement::ok, id, 20000);
-      QVERIFY2(device(id).roundTrip_ms > 0.0 && device(id).roundTrip_ms < 1000.0, id);
+      QVERIFY2(device(id).roundTrip_ms > 0.0 && (device(id).roundTrip_ms < 1000.0 || !zerodrift::judges_durations()),
+               id);
       QVERIFY2(device(id).age_s >= 0.0 && device(id).age_s < 10.0, id);
       QVERIFY2(device(id).rounds > 0, id);
     }

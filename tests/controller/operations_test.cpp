@@ -100,7 +100,9 @@ TEST_P(BadCableOperation, IsNamedAndEndsInTime) {
       const Status done = operation.run(machine);
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
       longest_s = std::max(longest_s, took.count());
-      ASSERT_LT(took.count(), 10.0) << operation.name << ", byte " << n;
+      if (judges_durations()) {
+        ASSERT_LT(took.count(), 10.0) << operation.name << ", byte " << n;
+      }
       ASSERT_TRUE(cable.struck()) << operation.name << ", byte " << n;
       failed += done ? 0 : 1;
       if (!done) {
@@ -146,7 +148,9 @@ TEST(BadCable, AWriteWhoseEchoDiffersIsWrittenAgain) {
   const auto start = std::chrono::steady_clock::now();
   const Status done = wired.machine->switch_compensation(false);
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  if (judges_durations()) {
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  }
   EXPECT_TRUE(wired.cable.struck());
   EXPECT_EQ(wired.device.word(76), 0);
   EXPECT_EQ(wired.device.word(17), 0);
@@ -160,7 +164,9 @@ TEST(BadCable, ACommandThatCameOverSpoiltIsGivenAgain) {
   const auto start = std::chrono::steady_clock::now();
   const Status done = wired.machine->switch_compensation(true);
   ASSERT_TRUE(done) << describe(done.error());
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  if (judges_durations()) {
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  }
   EXPECT_TRUE(wired.cable.struck());
   EXPECT_EQ(wired.device.word(17), 1);
 }

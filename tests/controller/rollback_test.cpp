@@ -6,6 +6,7 @@
 
 #include "fake_controller.h"
 #include "fixtures.h"
+#include "tests/support/own_folder.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -13,12 +14,11 @@ namespace {
 class RollbackTest : public testing::Test {
  protected:
   RollbackTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto folder = std::filesystem::path(testing::TempDir()) / (std::string("zd_rollback_") + test->name());
     std::filesystem::remove_all(folder);
     history = TableHistory(folder);
     machine = open(device.profile());
   }
+  ~RollbackTest() override { std::filesystem::remove_all(folder); }
 
   UploadRecord push(double coefficient) {
     return push_table(*machine, sample_table(coefficient), TableOrigin::upload, {}, {}, history);
@@ -43,6 +43,7 @@ class RollbackTest : public testing::Test {
     return text;
   }
 
+  const std::filesystem::path folder = own_folder("zd_rollback");
   FakeController device;
   std::unique_ptr<ModbusMachine> machine;
   TableHistory history;

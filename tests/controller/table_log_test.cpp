@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/controller/table_history.h"
 #include "core/controller/table_words.h"
+#include "tests/support/own_folder.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -39,11 +40,10 @@ ActiveTable active_of(int version, int content) {
 class TableHistoryTest : public testing::Test {
  protected:
   TableHistoryTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::path(testing::TempDir()) / (std::string("zd_tables_") + test->name());
     std::filesystem::remove_all(folder);
     history = TableHistory(folder);
   }
+  ~TableHistoryTest() override { std::filesystem::remove_all(folder); }
 
   /// Written, and it ended well.
   TableEntry written(TableEntry entry) {
@@ -66,7 +66,7 @@ class TableHistoryTest : public testing::Test {
   }
   std::filesystem::path file() const { return folder / "tables-5.jsonl"; }
 
-  std::filesystem::path folder;
+  const std::filesystem::path folder = own_folder("zd_tables");
   TableHistory history;
 };
 

@@ -296,7 +296,9 @@ TEST(Upload, RollbackOfAFullTableIsQuick) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ASSERT_TRUE(back.result) << text_of(back.result);
     RecordProperty(to_full ? "to_small_s" : "to_full_s", std::to_string(seconds));
-    EXPECT_LT(seconds, 5.0);
+    if (judges_durations()) {
+      EXPECT_LT(seconds, 5.0);
+    }
   }
   EXPECT_EQ(device.active(), written.new_words);
 }

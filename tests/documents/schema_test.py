@@ -4,7 +4,6 @@ the reader refuses is refused by its schema as well (and the other way round).
 schema_test.py SOURCE_FOLDER BIN_FOLDER
 """
 
-import concurrent.futures
 import copy
 import json
 import pathlib
@@ -16,7 +15,7 @@ import tempfile
 import jsonschema
 
 root = pathlib.Path(sys.argv[1])
-cli = pathlib.Path(sys.argv[2]) / "zerodrift-cli"
+programs = pathlib.Path(sys.argv[2])
 folder = root / "resources" / "schema"
 faults = []
 
@@ -140,20 +139,16 @@ elsewhere = {("components",), ("effect_parameters",), ("effect_parameters", "con
 elsewhere |= {("devices",)}
 
 
+readers = subprocess.Popen([programs / "document_readers"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
 def refused(name, document):
     """By the reader: the sentence names the file and the key."""
-    with tempfile.TemporaryDirectory() as scratch:
-        path = pathlib.Path(scratch) / "document.json"
-        path.write_text(json.dumps(document))
-        out = pathlib.Path(scratch) / "out"
-        command = {
-            "machine": ["simulate", "--machine", path, "--inputs", pathlib.Path(scratch) / "none.csv", "--out", out],
-            "profile": ["record", "--profile", path, "--plan", pathlib.Path(scratch) / "none.json", "--job", out],
-            "header-map": ["import", root / "examples" / "logger.csv", "--map", path, "--out", out],
-        }[name]
-        done = subprocess.run([cli, *command], capture_output=True, text=True, timeout=60)
-    fault = re.search(r'document\.json: "(.+?)" is ', done.stderr)
-    return done.stderr.strip() if done.returncode == 1 and fault else ""
+    readers.stdin.write(json.dumps({"kind": name, "document": document}) + "\n")
+    readers.stdin.flush()
+    answer = readers.stdout.readline()
+    assert answer, f"the reader of a {name} ended at {json.dumps(document)}"
+    return answer.strip() if re.search(r'document\.json: "(.+?)" is ', answer) else ""
 
 
 def changes(value, path=()):
@@ -187,11 +182,11 @@ def compare(name, document):
     if sentence := refused(name, document):
         return faults.append(f"{name}: the reader refuses the document of this test: {sentence}")
     count = 0
-    cases = [(path, value) for path, value in changes(document) if path not in elsewhere]
-    others = [changed(document, path, value) for path, value in cases]
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        answers = list(pool.map(lambda other: refused(name, other), others))
-    for (path, value), other, by_reader in zip(cases, others, answers):
+    for path, value in changes(document):
+        if path in elsewhere:
+            continue
+        other = changed(document, path, value)
+        by_reader = refused(name, other)
         by_schema = next((error.message for error in validators[name].iter_errors(other)), "")
         what = "taken away" if value is changes else json.dumps(value)
         if bool(by_reader) != bool(by_schema):
@@ -236,7 +231,7 @@ with tempfile.TemporaryDirectory() as scratch:
     for part in ("--rig", "--manual"):
         path = pathlib.Path(scratch) / f"profile{part}.json"
         machine_tool = subprocess.Popen(
-            [cli.with_name("zerodrift-machine"), "--port", "0", "--camera-port", "0", part, "--mqtt-broker", "127.0.0.1:9",
+            [programs / "zerodrift-machine", "--port", "0", "--camera-port", "0", part, "--mqtt-broker", "127.0.0.1:9",
              "--profile", path], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         machine_tool.stdout.readline()
         machine_tool.terminate()
@@ -269,5 +264,7 @@ listed = refused("machine", changed(machine, ("effects",), ["none"])).split("one
 if set(listed) != set(schemas["machine"]["properties"]["effects"]["items"]["enum"]):
     faults.append(f"the effects of the reader are {', '.join(listed)}; the schema lists others")
 
+readers.stdin.close()
+readers.wait(20)
 print("\n".join(faults))
 sys.exit(1 if faults else 0)

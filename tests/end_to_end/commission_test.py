@@ -7,7 +7,7 @@ import os
 import sys
 import time
 
-from virtual_machine import VirtualMachine, cli, run_in_folder, warm_up_plan, write_json
+from virtual_machine import VirtualMachine, cli, judges_durations, run_in_folder, warm_up_plan, write_json
 
 LARGEST_Z_BEFORE_UM = 40.0  # at least
 LARGEST_Z_AFTER_UM = 5.0    # at most
@@ -33,7 +33,7 @@ def commission(folder, seed):
     print(f"seed {seed}: {took:.0f} s, true |dZ| before {before:.1f} um, after {after:.2f} um, measured before "
           f"{result['peak_error_before_um']['Z']:.1f}, after {result['peak_error_after_um']['Z']:.2f}, "
           f"sensors {result['sensors']}, {result['verdict']}", flush=True)
-    assert took < LONGEST_S, f"took {took:.0f} s"
+    assert took < LONGEST_S or not judges_durations, f"took {took:.0f} s"
     assert before > LARGEST_Z_BEFORE_UM, before
     assert after < LARGEST_Z_AFTER_UM, after
     assert os.path.getsize(report) > 10_000

@@ -12,7 +12,7 @@ import subprocess
 import threading
 import time
 
-from virtual_machine import BIN, VirtualMachine, cli, run_in_folder, warm_up_plan, write_json
+from virtual_machine import BIN, VirtualMachine, cli, judges_durations, rows_on_disk, run_in_folder, warm_up_plan, write_json
 
 
 def words(profile, folder):
@@ -55,7 +55,7 @@ def refused(*arguments):
     started = time.time()
     code, out, err = cli(*arguments, check=False)
     assert code == 1 and "not confirmed" in err and "--yes" in err, (arguments, code, out, err)
-    assert time.time() - started < 10, "refused at the end of the work instead of at its beginning"
+    assert time.time() - started < 10 or not judges_durations, "refused at the end of the work instead of at its beginning"
 
 
 def test(folder):
@@ -86,17 +86,15 @@ def test(folder):
         # The table that was active compensates again.
         switched = 2 * [("switch compensation", "started"), ("switch compensation", "done")]
         assert trail(job) == switched, trail(job)
-        # Stopped while it measures; a busy computer comes to that later.
+        # Stopped while it measures.
         stopped = os.path.join(folder, "stopped.zdj")
-        for seconds in (12, 30, 60):
-            process = subprocess.Popen([os.path.join(BIN, "zerodrift-cli"), *run[:-1], stopped, "--yes"],
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            time.sleep(seconds)
-            process.terminate()
-            _, said = process.communicate(timeout=120)
-            assert process.returncode == 1 and "cancelled" in said and "Nothing was changed" not in said, said
-            if trail(stopped):
-                break
+        process = subprocess.Popen([os.path.join(BIN, "zerodrift-cli"), *run[:-1], stopped, "--yes"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while rows_on_disk(stopped) == 0 and process.poll() is None:
+            time.sleep(0.1)
+        process.terminate()
+        _, said = process.communicate(timeout=120)
+        assert process.returncode == 1 and "cancelled" in said and "Nothing was changed" not in said, said
         assert trail(stopped) == switched, trail(stopped)
         # Gone on with: what was measured and analysed is current, and the yes is given.
         code, shown = on_a_terminal([("Writing the table", "yes")] + 2 * [("Writing the table", "yes")], *run)
@@ -111,7 +109,7 @@ def test(folder):
         entries = len(trail(job))
         _, out, _ = cli(*run, "--yes", "--json")
         if json.loads(out)["verdict"] == "passed" and len(trail(job)) == entries:
-            assert time.time() - started < 60
+            assert time.time() - started < 60 or not judges_durations
             assert words(machine.profile, folder) == written
         another_table_meanwhile(machine, job, os.path.join(folder, "other.json"))
     elsewhere = os.path.join(folder, "elsewhere")

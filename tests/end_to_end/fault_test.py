@@ -3,14 +3,12 @@
 Usage: fault_test.py [FAULT ...]"""
 
 import bisect
-import concurrent.futures
 import csv
 import os
 import sys
 
 from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
 
-at_a_time = 3
 # What a device that is broken, now and then or for good (":always"), must be called.
 BROKEN = {"stuck-sensor": "stuck", "dead-sensor": "dead", "camera-freeze": "frozen", "camera-occluded": "occluded",
           "mark-occluded": "reference 2"}
@@ -20,10 +18,12 @@ LINK_NAMES = {"busy": "machine_busy", "late": "machine_silent", "wrong-transacti
 
 # Faults that come and go last the last 600 s (sensor) or 300 s (camera) of each 1800 s: whenever the run begins, it
 # sees one of them whole. A busy machine reads a sensor every 20 or 30 s, and a stuck one is told after some 17 readings.
-def short_plan(folder):
+# The link's faults come all the time.
+def short_plan(folder, fault):
+    duration_s = 1000 if fault in LINK_NAMES else 2500
     return write_json(os.path.join(folder, "plan.json"), {
         "name": "short", "sample_period_s": 10, "measure_period_s": 60, "measure_position_mm": {"X": 0, "Y": 0, "Z": 0},
-        "steps": [{"duration_s": 2500, "spindle_rpm": 3000, "coolant_on": True, "path": "cycle"}]})
+        "steps": [{"duration_s": duration_s, "spindle_rpm": 3000, "coolant_on": True, "path": "cycle"}]})
 
 
 def begin_of_turning_s(rows, time, speed):
@@ -72,9 +72,14 @@ def recorded_numbers_are_true(folder, job, machine):
 def fault_run(folder, fault):
     folder = os.path.join(folder, fault.replace(":", "-"))
     os.mkdir(folder)
-    plan = short_plan(folder)
+    plan = short_plan(folder, fault)
     job = os.path.join(folder, "job.zdj")
-    with VirtualMachine(folder, 120, 3, "--fault", fault) as machine:
+    # What covers the view goes after 300 machine seconds: a busy computer, too, measures within five of its own.
+    speedup = 60 if fault in ("camera-occluded", "mark-occluded") else 120
+    # Drawing and reading pictures is most of the work; where no camera is at fault, half of them do.
+    of_the_camera = fault.startswith(("camera", "mark"))
+    pictures = [] if of_the_camera else ["--camera-fps", "10"]
+    with VirtualMachine(folder, speedup, 3, "--fault", fault, *pictures) as machine:
         code, out, err = cli("machine", "check", "--profile", machine.profile, "--json", check=False, timeout=120)
         said = err
         if code == 0:
@@ -85,7 +90,8 @@ def fault_run(folder, fault):
         count, worst_um = 0, 0.0
     if os.path.exists(job) and code2 == 0:
         count, worst_um = recorded_numbers_are_true(folder, job, machine)
-    print(f"{fault}: check {code}, record {code2}, {count} errors recorded, at most {worst_um:.2f} um wrong: {err2.strip()[:200]}", flush=True)
+    print(f"{fault}: check {code}, record {code2}, {count} errors recorded, at most {worst_um:.2f} um wrong: "
+          f"{err2.strip()[:200]}", flush=True)
     assert code in (0, 1) and code2 in (0, 1), (code, code2, err, err2)
     if code2 == 1:
         assert len(err2.strip()) > 20, "a refusal without words"
@@ -99,9 +105,8 @@ def fault_run(folder, fault):
 
 def all_faults(folder):
     faults = sys.argv[1:] or list(LINK_NAMES) + list(BROKEN) + [fault + ":always" for fault in BROKEN]
-    with concurrent.futures.ThreadPoolExecutor(at_a_time) as pool:  # each is a machine of its own, and mostly waits
-        for run in [pool.submit(fault_run, folder, fault) for fault in faults]:
-            run.result()
+    for fault in faults:
+        fault_run(folder, fault)
 
 
 if __name__ == "__main__":

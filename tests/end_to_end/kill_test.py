@@ -6,24 +6,11 @@ import json
 import os
 import random
 import signal
-import sqlite3
 import subprocess
 import sys
 import time
 
-from virtual_machine import BIN, VirtualMachine, cli, run_in_folder, warm_up_plan, write_json
-
-
-def rows_on_disk(job):
-    """Rows that a reader beside the writer sees: what was committed, and so acknowledged."""
-    if not os.path.exists(job):
-        return 0
-    try:
-        with sqlite3.connect(f"file:{job}?mode=ro", uri=True, timeout=5) as database:
-            chunks = database.execute("SELECT coalesce(sum(rows), 0) FROM chunk").fetchone()[0]
-            return chunks + database.execute("SELECT count(*) FROM open_row").fetchone()[0]
-    except sqlite3.OperationalError:
-        return 0  # being made
+from virtual_machine import BIN, VirtualMachine, cli, rows_on_disk, run_in_folder, warm_up_plan, write_json
 
 
 def killed_runs(folder, count):

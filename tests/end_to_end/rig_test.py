@@ -75,8 +75,8 @@ def largest_z(machine, verified):
     return max(abs(row["dZ_um"]) for row in rows)
 
 
-def commission(folder, machine, *extra):
-    plan = write_json(os.path.join(folder, "plan.json"), warm_up_plan())
+def commission(folder, machine, hours, *extra):
+    plan = write_json(os.path.join(folder, "plan.json"), warm_up_plan(hours))
     return ["commission", "--profile", machine.profile, "--plan", plan, "--job", os.path.join(folder, "job.zdj"),
             "--report", os.path.join(folder, "report.html"), "--yes", "--json", *extra]
 
@@ -92,15 +92,15 @@ def test_rig(folder):
         _, out, _ = cli("machine", "check", "--profile", machine.profile, "--json")
         devices = {one["id"]: one["ok"] for one in json.loads(out)["devices"]}
         assert devices == {"module-1": True, "module-2": True, "amplifier": True, "agent": True}, devices
-        _, out, _ = cli(*commission(folder, machine))
+        _, out, _ = cli(*commission(folder, machine, 4.0))
         judged("rig", machine, json.loads(out))
 
 
 def test_manual(folder):
     with VirtualMachine(folder, 240, 6, "--manual") as machine:
-        refused = cli(*commission(folder, machine), check=False)
+        refused = cli(*commission(folder, machine, 2.0), check=False)
         assert refused[0] == 1 and "--operator" in refused[2], refused
-        command = [os.path.join(BIN, "zerodrift-cli"), *commission(folder, machine, "--operator", "-")]
+        command = [os.path.join(BIN, "zerodrift-cli"), *commission(folder, machine, 2.0, "--operator", "-")]
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    text=True)
         said = []

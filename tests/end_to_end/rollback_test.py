@@ -8,7 +8,7 @@ import json
 import os
 import time
 
-from virtual_machine import VirtualMachine, cli, run_in_folder, write_json
+from virtual_machine import VirtualMachine, cli, judges_durations, run_in_folder, write_json
 
 
 def table(name, size_um, points):
@@ -66,7 +66,7 @@ def test(folder):
             print(f"{what}: {seconds:.2f} s in all, ramp included; {len(record['new_words'])} registers")
             back = words(machine.profile, folder)
             assert back == wanted or (not wanted and len(back) <= 2), "the table before is not what is active"
-            assert seconds < 5.0, f"{seconds:.2f} s"
+            assert seconds < 5.0 or not judges_durations, f"{seconds:.2f} s"
         code, _, _ = cli("rollback", "--profile", machine.profile, "--yes", check=False)
         assert code == 1, "nothing is left to go back to"
         chain = [(0, "found", None), (1, "upload", None), (2, "upload", None), (3, "rollback", 1), (4, "rollback", 0)]
@@ -74,7 +74,8 @@ def test(folder):
         # Any version at once, forward as well as back.
         seconds, record, _ = rolled_back(machine.profile, "--to", "2")
         print(f"none -> full: {seconds:.2f} s in all; {record['steps']}")
-        assert words(machine.profile, folder) == second and record["rolled_back_to"] == 2 and seconds < 5.0
+        assert words(machine.profile, folder) == second and record["rolled_back_to"] == 2
+        assert seconds < 5.0 or not judges_durations, f"{seconds:.2f} s"
         assert listed(machine.profile) == chain + [(5, "rollback", 2)]
         code, _, err = cli("rollback", "--profile", machine.profile, "--to", "77", "--yes", check=False)
         assert code == 1 and "77" in err, err

@@ -131,6 +131,18 @@ TEST_F(RecordingsTest, ChangedListMakesTheFitStaleAndComesBack) {
   EXPECT_EQ(training_runs(*job, run_at(1.0))->size(), 2u);
 }
 
+// The first further recording is added and taken back: the fit that knew none is what it was.
+TEST_F(RecordingsTest, AListThatIsEmptyAgainLeavesTheFitAsItWas) {
+  take_warmup();
+  fitted();
+  ASSERT_TRUE(add(run_at(0.5), "second.csv", RecordingRole::training));
+  EXPECT_EQ(status_of(*job, "sensors").state, StepState::stale);
+  EXPECT_EQ(status_of(*job, "fit").state, StepState::stale);
+  ASSERT_TRUE(job->put(with_recordings({})));
+  EXPECT_EQ(status_of(*job, "sensors").state, StepState::current);
+  EXPECT_EQ(status_of(*job, "fit").state, StepState::current);
+}
+
 TEST_F(RecordingsTest, OfOneFileHaveNamesOfTheirOwn) {
   take_warmup();
   ASSERT_TRUE(add(run_at(0.5), "run.csv", RecordingRole::training));

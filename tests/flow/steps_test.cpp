@@ -17,6 +17,7 @@
 #include "core/flow/steps/verify_compare.h"
 #include "core/flow/steps/verify_step.h"
 #include "core/flow/steps/warmup_step.h"
+#include "core/report/limits.h"
 
 namespace zerodrift::flow {
 namespace {
@@ -59,6 +60,21 @@ recording::Recording warm_up() {
   return run;
 }
 
+/// A proposal holds the limit of the condition number, or it says what a set within the limit does without.
+void expect_limit_held_or_told(const json& body) {
+  const json& told = body.at("choice").at("condition");
+  const double condition = body.at("condition_number").at("chosen");
+  if (told.is_null() || told.at("held")) {
+    EXPECT_LE(condition, report::limits::condition_number) << told;
+  } else {
+    EXPECT_GT(condition, report::limits::condition_number);
+    EXPECT_TRUE(body.at("choice").at("one_cycle") || told.at("fewer_than_clusters") ||
+                told.at("cost_um").get<double>() > report::limits::lost_against_all_um)
+        << told;
+  }
+  EXPECT_TRUE(told.is_null() || !told.at("left").empty());
+}
+
 class StepsTest : public testing::Test {
  protected:
   StepsTest() {
@@ -82,7 +98,9 @@ class StepsTest : public testing::Test {
   json chosen_with(const SensorsOptions& options) {
     const auto made = choose_sensors(*job, options, {});
     EXPECT_TRUE(made) << describe(made.error());
-    return made ? json::parse(made->body) : json();
+    const json body = made ? json::parse(made->body) : json();
+    if (made && options.chosen.empty()) expect_limit_held_or_told(body);
+    return body;
   }
   static bool has(const json& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
@@ -227,7 +245,9 @@ TEST_F(StepsTest, WhereTheCurveIsFlatFewerSensorsAreProposed) {
   EXPECT_LE(choice["flat"]["cost_um"].get<double>(), 0.05);
   EXPECT_GE(body["chosen"].size(), 3U);
   for (const auto& set : choice["sets"]) {
-    const auto size = body["chosen"].size() + choice["flat"]["left"].size();
+    const json& condition = choice["condition"];
+    const auto for_condition = condition.is_object() && condition["held"] ? condition["left"].size() : 0;
+    const auto size = body["chosen"].size() + choice["flat"]["left"].size() + for_condition;
     EXPECT_TRUE(!set["chosen"] || set["sensors"].size() == size) << set;
   }
   SensorsOptions hand = options;
@@ -235,6 +255,27 @@ TEST_F(StepsTest, WhereTheCurveIsFlatFewerSensorsAreProposed) {
   const json by_hand = chosen_with(hand);
   EXPECT_EQ(by_hand["chosen"].size(), 4U);
   EXPECT_TRUE(by_hand["choice"]["flat"]["left"].empty());
+}
+
+/// A real choice among twenty sensors: the condition number of the best set is far beyond the limit.
+TEST(SensorsOfTheSample, HoldTheLimitOfTheConditionNumberOrSayWhatItCosts) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "zerodrift-sample-XXXXXX").string();
+  const std::filesystem::path folder = mkdtemp(pattern.data());
+  const auto file = folder / "sample.zdj";
+  std::filesystem::copy_file(ZERODRIFT_SOURCE_DIR "/resources/samples/sample.zdj", file);
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  {
+    const auto job = Job::open(file);
+    ASSERT_TRUE(job) << describe(job.error());
+    const auto made = choose_sensors(*job, {}, {});
+    ASSERT_TRUE(made) << describe(made.error());
+    const json body = json::parse(made->body);
+    const json& told = body["choice"]["condition"];
+    ASSERT_TRUE(told.is_object());
+    EXPECT_GT(told["without"].get<double>(), report::limits::condition_number);
+    expect_limit_held_or_told(body);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(StepsTest, ASensorThatTheRunNamedIsLeftOutWithTheReason) {

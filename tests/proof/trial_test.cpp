@@ -15,6 +15,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/json.h"
+#include "tests/support/amount.h"
 
 namespace zerodrift::proof {
 
@@ -133,7 +134,7 @@ TEST(ConcealedCase, AJointIsFoundWhereItStandsBesideTheMachineAsDescribed) {
 
 /// Whatever joint one recording shows well it places as well.
 TEST(ConcealedCase, JointsAreFoundWhereTheyStandFromOneRecording) {
-  for (const int index : {0, 1, 2, 3}) {
+  for (int index = 0; index < amount(1, 4); ++index) {
     const ConcealedCase one = draw_case(211036817, index, "contact_resistance", false, StrengthRule::shown);
     const fs::path folder = fs::path(testing::TempDir()) / ("zd_joints_" + std::to_string(::getpid()));
     ASSERT_TRUE(write_case_files(one, folder));

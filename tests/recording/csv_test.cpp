@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "tests/support/amount.h"
+
 namespace zerodrift::recording {
 
 TEST(Csv, ReadsGapsBomAndSeparators) {
@@ -112,7 +114,9 @@ TEST(Csv, AMillionColumnsAreReadOrRefusedInTime) {
   ASSERT_TRUE(wide.has_value());
   EXPECT_EQ(wide->channels.size(), 1'000'000U);
   EXPECT_EQ(parse_recording(header + "\n0,1\n", "a.csv").error().code, ErrorCode::csv_cell_count);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  if (judges_durations()) {
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  }
 }
 
 TEST(Csv, HostileNamesStayTextAndReadBack) {

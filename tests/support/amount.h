@@ -10,6 +10,12 @@ inline int amount(int everyday, int at_length) {
   return value != nullptr && *value != '\0' && *value != '0' ? at_length : everyday;
 }
 
+/// Durations of the wall clock are judged in `./check --long` alone, which does one thing at a time: a computer that is
+/// busy is late, and that is no fault of the program.
+inline bool judges_durations() {
+  return amount(0, 1) == 1;
+}
+
 /// Built with a sanitizer, whose checks and kept memory are no figures of the program's time and memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool instrumented = true;

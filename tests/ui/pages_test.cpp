@@ -59,8 +59,9 @@ class PagesTest : public QObject {
   void whatIsGreenIsWithinTheLimitShown();
   void sensorsFiguresAreWholeInTheSmallestWindow();
   void everyPageSurvivesNewLanguageAndNothing();
-  void plotsFollowTheTheme_data();
-  void plotsFollowTheTheme();
+  void everyActionIsExplained();
+  void plotsOfAnOpenPageFollowTheTheme();
+  void plotsOfAPageOpenedLaterFollowTheTheme();
 };
 
 template <class P>
@@ -605,50 +606,96 @@ void PagesTest::everyPageSurvivesNewLanguageAndNothing() {
   MachinePage().setState({});
 }
 
-void PagesTest::plotsFollowTheTheme_data() {
-  QTest::addColumn<bool>("hidden");
-  QTest::newRow("open page") << false;
-  QTest::newRow("page opened later") << true;
+/// What a button does, or why it is off, is in its tooltip; "Go on" says it all.
+void PagesTest::everyActionIsExplained() {
+  MainWindow window;
+  samples::fillWindow(window);
+  for (const auto& scene : samples::scenes()) {
+    samples::play(window, scene);
+    auto actions = window.currentPage()->secondaryActions();
+    actions.append(window.currentPage()->primaryAction());
+    for (const PageAction& action : actions) {
+      if (action.text.isEmpty() || action.text == "Go on" || scene.page == "machine") continue;
+      const QString& said = action.enabled ? action.tip : action.reason;
+      QVERIFY2(!said.isEmpty(), qPrintable(scene.page + " " + scene.name + ": " + action.text));
+    }
+  }
 }
 
-/// A page that stays open, and one that is opened again, has no light plot in the dark window.
-void PagesTest::plotsFollowTheTheme() {
-  QFETCH(const bool, hidden);
+/// All plots of the current page, in each of its views, have the ground of this theme.
+static void expectGround(MainWindow& window, ThemeMode mode) {
+  const auto expectAll = [&](int view) {
+    for (auto* plot : window.currentPage()->findChildren<PlotWidget*>()) {
+      if (!plot->isVisible()) continue;
+      const QColor corner = plot->grab().toImage().pixelColor(plot->width() - 3, 3);
+      const QString where = QStringLiteral("%1 view %2 %3 %4")
+                                .arg(window.currentPage()->id())
+                                .arg(view)
+                                .arg(plot->metaObject()->className(), corner.name());
+      QVERIFY2(mode == ThemeMode::dark ? corner.lightness() < 90 : corner.lightness() > 165, qPrintable(where));
+    }
+  };
+  expectAll(0);
+  for (auto* views : window.currentPage()->findChildren<QStackedWidget*>()) {
+    for (int i = 0; views->isVisible() && i < views->count(); ++i) {
+      views->setCurrentIndex(i);
+      QTest::qWait(5);
+      expectAll(i);
+    }
+  }
+}
+
+/// One filled scene of each page.
+static QVector<samples::Scene> filledPages() {
+  QVector<samples::Scene> pages;
+  for (const auto& scene : samples::scenes()) {
+    if (scene.name != "empty" && (pages.isEmpty() || pages.last().page != scene.page)) pages.append(scene);
+  }
+  return pages;
+}
+
+/// A window takes most of a second to change its theme: every second page sees it become dark, the others light.
+void PagesTest::plotsOfAnOpenPageFollowTheTheme() {
   Theme theme(*qApp);
   MainWindow window;
   samples::fillWindow(window);
   window.show();
-  QString last;
-  for (const auto& scene : samples::scenes()) {
-    if (scene.page == last || scene.name == "empty") continue;  // one filled scene a page
-    last = scene.page;
-    theme.setMode(ThemeMode::light);
+  ThemeMode mode = ThemeMode::light;
+  theme.setMode(mode);
+  for (const auto& scene : filledPages()) {
     samples::play(window, scene);
     QTest::qWait(60);
-    const QString page = window.currentPage()->id();
-    if (hidden) window.setCurrentPage(page == "machine" ? "fit" : "machine");
-    theme.setMode(ThemeMode::dark);
-    if (hidden) window.setCurrentPage(page);
+    mode = mode == ThemeMode::light ? ThemeMode::dark : ThemeMode::light;
+    theme.setMode(mode);
     QTest::qWait(90);
-    const auto allDark = [&](int view) {
-      for (auto* plot : window.currentPage()->findChildren<PlotWidget*>()) {
-        if (!plot->isVisible()) continue;
-        const QColor corner = plot->grab().toImage().pixelColor(plot->width() - 3, 3);
-        const QString where =
-            QStringLiteral("%1 view %2 %3 %4").arg(page).arg(view).arg(plot->metaObject()->className(), corner.name());
-        QVERIFY2(corner.lightness() < 90, qPrintable(where));
-      }
-    };
-    allDark(0);
-    for (auto* views : window.currentPage()->findChildren<QStackedWidget*>()) {
-      for (int i = 0; views->isVisible() && i < views->count(); ++i) {
-        views->setCurrentIndex(i);
-        QTest::qWait(5);
-        allDark(i);
-      }
-    }
+    expectGround(window, mode);
+    if (QTest::currentTestFailed()) return;
   }
   theme.setMode(ThemeMode::light);
+}
+
+void PagesTest::plotsOfAPageOpenedLaterFollowTheTheme() {
+  Theme theme(*qApp);
+  MainWindow window;
+  samples::fillWindow(window);
+  window.show();
+  theme.setMode(ThemeMode::light);
+  for (const auto& scene : filledPages()) {
+    samples::play(window, scene);
+    QTest::qWait(60);
+  }
+  // Two changes, so that the page that is open at the first is not open at the second.
+  for (const auto& [open, mode] : {std::pair{"machine", ThemeMode::dark}, std::pair{"fit", ThemeMode::light}}) {
+    window.setCurrentPage(open);
+    theme.setMode(mode);
+    for (const auto& scene : filledPages()) {
+      if (scene.page == open) continue;
+      window.setCurrentPage(scene.page);
+      QTest::qWait(90);
+      expectGround(window, mode);
+      if (QTest::currentTestFailed()) return;
+    }
+  }
 }
 
 QTEST_MAIN(PagesTest)

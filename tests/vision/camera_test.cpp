@@ -7,6 +7,7 @@
 
 #include "core/vision/camera_error_source.h"
 #include "core/vision/image_codec.h"
+#include "tests/support/own_folder.h"
 #include "tests/vision/speckle.h"
 
 namespace zerodrift::vision {
@@ -23,7 +24,7 @@ const Region region{240, 160, 160, 160};
 class Sequence {
  public:
   Sequence(const std::string& name, const std::vector<std::pair<double, double>>& shifts_px, bool other_target = false)
-      : m_folder(fs::temp_directory_path() / ("zerodrift_camera_test_" + name)) {
+      : m_folder(own_folder("zerodrift_camera_test_" + name)) {
     fs::remove_all(m_folder);
     fs::create_directories(m_folder);
     for (std::size_t k = 0; k < shifts_px.size(); ++k) {

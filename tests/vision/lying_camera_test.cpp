@@ -171,12 +171,17 @@ TEST(LyingCamera, FrozenSilentAndGoneAreNamedWithinSeconds) {
     std::printf("%s camera: %s after %.1f s\n", name, std::string(name_of(code)).c_str(), seconds);
     EXPECT_TRUE(std::find(codes.begin(), codes.end(), code) != codes.end()) << name;
     EXPECT_GT(seconds, 0.0) << name;
-    EXPECT_LT(seconds, 6.0) << name;
+    if (judges_durations()) {
+      EXPECT_LT(seconds, 6.0) << name;
+    }
     device.lie(Lie::none);  // it comes back by itself
     const auto from = Steady::now();
     const Standstill standstill;
     const auto again = camera.fresh_frame(from, 40s);
-    EXPECT_LT(std::chrono::duration<double>(Steady::now() - from).count() - standstill.seconds(), 12.0) << name;
+    const double back_s = std::chrono::duration<double>(Steady::now() - from).count() - standstill.seconds();
+    if (judges_durations()) {
+      EXPECT_LT(back_s, 12.0) << name;
+    }
     EXPECT_TRUE(again) << name << ": " << describe(again.error());
   }
 }
@@ -248,7 +253,9 @@ TEST(LyingCamera, HostileAnswersAreNoPictureAndNoHarm) {
         EXPECT_EQ(image.pixels.size(), std::size_t(image.width) * std::size_t(image.height));
       }
     }
-    EXPECT_LT(Steady::now() - from, 5s) << "answer " << i;
+    if (judges_durations()) {
+      EXPECT_LT(Steady::now() - from, 5s) << "answer " << i;
+    }
   }
   std::printf("%zu hostile answers\n", answers.size());
 }

@@ -16,6 +16,7 @@
 #include "core/vision/one_direction.h"
 #include "core/vision/region_finder.h"
 #include "core/vision/target_file.h"
+#include "tests/support/own_folder.h"
 #include "tests/vision/speckle.h"
 
 namespace zerodrift::vision {
@@ -31,8 +32,7 @@ const Region file_region{240, 160, 160, 160};
 class MeasureFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    m_folder = fs::temp_directory_path() / fmt::format("zerodrift_measure_files_{}",
-                                                       ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    m_folder = own_folder("zerodrift_measure_files");
     fs::remove_all(m_folder);
     fs::create_directories(m_folder / "frames");
     put("template.png", {});

@@ -9,6 +9,7 @@
 #include "core/vision/error_view.h"
 #include "core/vision/image_codec.h"
 #include "core/vision/measure_files.h"
+#include "tests/support/own_folder.h"
 #include "tests/vision/speckle.h"
 
 namespace zerodrift::vision {
@@ -121,7 +122,7 @@ TEST(ReferenceMarks, WithNoneNothingIsMeasured) {
 }
 
 TEST(ReferenceMarks, AFolderIsMeasuredWithWhatEachFrameShows) {
-  const fs::path folder = fs::temp_directory_path() / "zerodrift_reference_folder_test";
+  const fs::path folder = own_folder("zerodrift_reference_folder_test");
   fs::remove_all(folder);
   fs::create_directories(folder);
   ASSERT_TRUE(write_png(folder / "a.png", marked_scene(1.5, turned, 40)));
@@ -141,7 +142,7 @@ TEST(ReferenceMarks, AFolderIsMeasuredWithWhatEachFrameShows) {
 }
 
 TEST(ReferenceMarks, ARunSaysWhichOneIsNotSeen) {
-  const fs::path folder = fs::temp_directory_path() / "zerodrift_reference_marks_test";
+  const fs::path folder = own_folder("zerodrift_reference_marks_test");
   fs::remove_all(folder);
   fs::create_directories(folder / "whole");
   fs::create_directories(folder / "covered");

@@ -170,17 +170,23 @@ QString AxisPage::sentence() const {
 }
 
 PageAction AxisPage::primary() const {
-  if (m_state.axis.isEmpty()) return {"primary", tr("Open laser file"), true, {}};
+  if (m_state.axis.isEmpty())
+    return {"primary", tr("Open laser file"), true, {}, tr("Reads what an interferometer measured along one axis")};
   return {"primary", tr("Use for upload"), m_state.monotonic && !segments().isEmpty(),
-          tr("The table is not monotonic: the axis would move backwards somewhere.")};
+          tr("The table is not monotonic: the axis would move backwards somewhere."),
+          tr("Keeps the table in the job; the next upload writes it with the model")};
 }
 
 QVector<PageAction> AxisPage::secondary() const {
   if (m_state.axis.isEmpty()) return {};
-  QVector<PageAction> actions = {{"open", tr("Open laser file")}};
-  if (m_state.columnsAsked) actions.append({"columns", tr("Columns")});
-  if (!m_state.formatConfirm.isEmpty()) actions.append({"onePoint", tr("Export one point")});
-  actions.append({"export", tr("Export")});
+  QVector<PageAction> actions = {
+      {"open", tr("Open laser file"), true, {}, tr("Another measurement, of this axis or of another")}};
+  if (m_state.columnsAsked)
+    actions.append({"columns", tr("Columns"), true, {}, tr("Which column of the file is what")});
+  if (!m_state.formatConfirm.isEmpty())
+    actions.append(
+        {"onePoint", tr("Export one point"), true, {}, tr("A table of one point, to try the sign on the machine")});
+  actions.append({"export", tr("Export"), true, {}, tr("The table as a file for a controller")});
   return actions;
 }
 

@@ -212,18 +212,24 @@ QString CalibratePage::sentence() const {
 PageAction CalibratePage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Measure positions"), false, m_state.blocked};
   if (!m_state.templateTaken) {
-    return {"primary", tr("Take the template"), true, {}};
+    return {"primary",
+            tr("Take the template"),
+            true,
+            {},
+            tr("Pictures of the target at rest, with which all later ones are compared")};
   }
   if (m_state.solved && !m_state.accepted) {
     const bool good = m_state.rms_um <= 1.25 * m_state.rmsLimit_um;
     return {"primary", tr("Accept"), good,
-            tr("The residual is above the limit. Measure again, slower or with better light.")};
+            tr("The residual is above the limit. Measure again, slower or with better light."),
+            tr("Keeps scale and directions of the cameras in the job")};
   }
   if (m_state.accepted) return {"primary", tr("Go on"), true, {}};
   const bool moving = m_state.running && !m_state.waiting;
   if (!moving && !m_state.offline.isEmpty()) return {"primary", tr("Measure positions"), false, m_state.offline};
   return {"primary", tr("Measure positions"), m_clear->isChecked() && !moving,
-          moving ? tr("The positions are being measured.") : tr("Confirm first that the axes may move.")};
+          moving ? tr("The positions are being measured.") : tr("Confirm first that the axes may move."),
+          tr("Moves the axes by some millimetres at most and finds how many µm a pixel is")};
 }
 
 QVector<PageAction> CalibratePage::secondary() const {
@@ -233,7 +239,8 @@ QVector<PageAction> CalibratePage::secondary() const {
   return {{"repeat", tr("Measure again"), m_clear->isChecked() && !m_state.running && m_state.offline.isEmpty(),
            !m_state.offline.isEmpty() ? m_state.offline
            : m_state.running          ? tr("The positions are being measured.")
-                                      : tr("Confirm first that the axes may move.")}};
+                                      : tr("Confirm first that the axes may move."),
+           tr("Takes a new template and measures all positions anew")}};
 }
 
 QVector<Figure> CalibratePage::figures() const {

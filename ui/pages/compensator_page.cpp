@@ -121,7 +121,8 @@ PageAction CompensatorPage::primary() const {
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start compensating"), false, m_state.blocked};
   switch (m_state.phase) {
     case CompensatorPhase::ready:
-      return {"primary", tr("Start compensating"), m_state.notNow.isEmpty(), m_state.notNow};
+      return {"primary", tr("Start compensating"), m_state.notNow.isEmpty(), m_state.notNow,
+              tr("This computer sends the predicted error to the machine as an offset until it is stopped")};
     case CompensatorPhase::running:
       return {"primary", tr("Stop"), true, {}, tr("The offset runs to 0 at the machine's rate.")};
     case CompensatorPhase::stopping:

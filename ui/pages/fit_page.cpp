@@ -107,13 +107,15 @@ PageAction FitPage::primary() const {
   const bool ready = m_state.blocked.isEmpty();
   switch (m_state.standing) {
     case FitStanding::none:
-      return {"primary", tr("Fit the model"), ready, m_state.blocked};
+      return {"primary", tr("Fit the model"), ready, m_state.blocked,
+              tr("Finds how the errors follow the chosen sensors, and tests it on stretches it has not seen")};
     case FitStanding::stale:
-      return {"primary", tr("Fit again"), ready, m_state.blocked};
+      return {"primary", tr("Fit again"), ready, m_state.blocked,
+              tr("The sensors or the recordings have changed since the last fit")};
     case FitStanding::current:
       break;
   }
-  return {"primary", tr("Use this model"), ready, m_state.blocked};
+  return {"primary", tr("Use this model"), ready, m_state.blocked, tr("Goes on: the table is made of this model")};
 }
 
 QVector<PageAction> FitPage::secondary() const {

@@ -176,9 +176,15 @@ QString PhysicsPage::sentence() const {
 }
 
 PageAction PhysicsPage::primary() const {
-  if (m_state.undescribed) return {"primary", tr("Describe the machine")};
+  if (m_state.undescribed)
+    return {"primary",
+            tr("Describe the machine"),
+            true,
+            {},
+            tr("A form for parts, sizes, heat sources and sensors, drawn as they are entered")};
   if (m_state.verdict == PhysicsVerdict::none || !m_state.blocked.isEmpty()) {
-    return {"primary", tr("Find what is missing"), m_state.blocked.isEmpty(), m_state.blocked};
+    return {"primary", tr("Find what is missing"), m_state.blocked.isEmpty(), m_state.blocked,
+            tr("Compares the recording with the described machine and seeks effects that explain the difference")};
   }
   return {"primary", tr("Go on"), true, {}};
 }
@@ -190,7 +196,8 @@ QVector<PageAction> PhysicsPage::secondary() const {
                             true,
                             {},
                             tr("A start without a drawing: each sensor is a body of its own, its sizes are found")};
-  if (m_state.undescribed) return {{"load", tr("Open machine.json")}, lumps};
+  if (m_state.undescribed)
+    return {{"load", tr("Open machine.json"), true, {}, tr("A description that was made before")}, lumps};
   const TrialStage stage = m_state.trial.stage;
   const bool running = stage == TrialStage::sealed || stage == TrialStage::searching;
   QVector<PageAction> actions;
@@ -214,7 +221,13 @@ QVector<PageAction> PhysicsPage::secondary() const {
        true,
        {},
        tr("Simulated is %1. It is changed here, or a machine.json takes its place").arg(m_state.description)});
-  if (m_state.verdict != PhysicsVerdict::none) actions.append({"find", tr("Search again")});
+  if (m_state.verdict != PhysicsVerdict::none) {
+    actions.append({"find",
+                    tr("Search again"),
+                    true,
+                    {},
+                    tr("Seeks the effects anew, with the recordings and the description as they are now")});
+  }
   return actions;
 }
 

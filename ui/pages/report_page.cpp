@@ -135,18 +135,20 @@ QString ReportPage::sentence() const {
 }
 
 PageAction ReportPage::primary() const {
-  return {"primary", tr("Save report"), m_state.blocked.isEmpty(), m_state.blocked};
+  return {"primary", tr("Save report"), m_state.blocked.isEmpty(), m_state.blocked,
+          tr("Writes the pages at the left into a file of the chosen format")};
 }
 
 QVector<PageAction> ReportPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
   QVector<PageAction> actions;
   if (!m_state.savedTo.isEmpty()) {
-    actions = {{"open", tr("Open"), true, {}, tr("Opens what was saved last")}, {"folder", tr("Show in folder")}};
+    actions = {{"open", tr("Open"), true, {}, tr("Opens what was saved last")},
+               {"folder", tr("Show in folder"), true, {}, tr("Opens the folder of what was saved last")}};
   }
   return actions +
          QVector<PageAction>{
-             {"print", tr("Print")},
+             {"print", tr("Print"), true, {}, tr("The pages at the left, on a printer of this computer")},
              {"bundle",
               tr("Technical bundle"),
               true,

@@ -149,12 +149,13 @@ PageAction SensorsPage::primary() const {
   return {"primary", tr("Use these sensors"), m_state.blocked.isEmpty() && keptCount() > 0 && !m_state.pricing,
           !m_state.blocked.isEmpty() ? m_state.blocked
           : m_state.pricing          ? tr("The figures of the last change are being computed.")
-                                     : tr("Keep at least one sensor.")};
+                                     : tr("Keep at least one sensor."),
+          tr("Goes on: the model is fitted on the sensors that are ticked")};
 }
 
 QVector<PageAction> SensorsPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
-  return {{"suggest", tr("Proposed choice")}};
+  return {{"suggest", tr("Proposed choice"), true, {}, tr("Ticks the sensors with the least error to expect again")}};
 }
 
 QVector<Figure> SensorsPage::figures() const {

@@ -151,14 +151,18 @@ PageAction UploadPage::primary() const {
   if (m_state.sign.judgement == Judgement::bad) {
     return {"primary", text, false, tr("The camera saw the test move in the wrong direction.")};
   }
-  return {"primary", text, true, {}};
+  return {"primary", text, true, {}, tr("Shows what is written and asks; the table before stays in the history")};
 }
 
 QVector<PageAction> UploadPage::secondary() const {
   if (!m_state.blocked.isEmpty()) return {};
   const QString wait = m_state.writing ? tr("The table is being written.") : m_state.offline;
   const bool free = wait.isEmpty();
-  return {{"export", tr("Export")}, {"dryRun", tr("Dry run"), free, wait}, {"sign", tr("Check sign"), free, wait}};
+  return {
+      {"export", tr("Export"), true, {}, tr("The table as a file for a controller")},
+      {"dryRun", tr("Dry run"), free, wait, tr("Everything but the write: reads, compares and says what would change")},
+      {"sign", tr("Check sign"), free, wait,
+       tr("A small offset for a moment; the camera sees whether the machine moves the right way")}};
 }
 
 QVector<Figure> UploadPage::figures() const {

@@ -200,12 +200,12 @@ PageAction VerifyPage::primary() const {
                              : !m_state.notHeld.isEmpty() ? m_state.notHeld
                                                           : m_state.switchedOff;
       return {"primary", m_state.phase == VerifyPhase::ready ? tr("Start verification") : tr("Resume"),
-              reason.isEmpty(), reason};
+              reason.isEmpty(), reason, tr("The run of the warm-up once more, with the compensation on")};
     }
     case VerifyPhase::running:
-      return {"primary", tr("Pause"), true, {}};
+      return {"primary", tr("Pause"), true, {}, tr("Stops the machine; the recording goes on")};
     case VerifyPhase::paused:
-      return {"primary", tr("Resume"), true, {}};
+      return {"primary", tr("Resume"), true, {}, tr("Goes on with the plan where it was stopped")};
     case VerifyPhase::finished:
       if (!m_state.notHeld.isEmpty()) {
         return {"primary",
@@ -221,7 +221,9 @@ PageAction VerifyPage::primary() const {
                 {},
                 tr("Opens the history in Upload with that version chosen; it asks before it writes.")};
       }
-      if (correctionNeeded()) return {"primary", tr("Apply correction"), true, {}};
+      if (correctionNeeded()) {
+        return {"primary", tr("Apply correction"), true, {}, tr("Writes the corrected table. Asks first.")};
+      }
       if (furtherRunNeeded()) {
         return {"primary",
                 tr("Plan a further run"),
@@ -229,7 +231,9 @@ PageAction VerifyPage::primary() const {
                 {},
                 tr("Opens Warm-up with a new run to plan; the model is fitted anew with what it shows.")};
       }
-      if (verifyAgainNeeded()) return {"primary", tr("Verify again"), true, {}};
+      if (verifyAgainNeeded()) {
+        return {"primary", tr("Verify again"), true, {}, tr("A new run with what is written now")};
+      }
       return {"primary", tr("Go on"), true, {}};
   }
   return {};
@@ -257,12 +261,13 @@ QVector<PageAction> VerifyPage::secondary() const {
       break;
   }
   QVector<PageAction> actions;
-  if (!verifyAgainNeeded() || !m_state.notHeld.isEmpty()) actions.append({"again", tr("Verify again")});
+  if (!verifyAgainNeeded() || !m_state.notHeld.isEmpty())
+    actions.append({"again", tr("Verify again"), true, {}, tr("A new run with what is written now")});
   if (fallenShort() && !correctionNeeded()) {
     actions.append({"goOn", tr("Leave as it is"), true, {}, tr("Goes on with what is left above the limit")});
   }
   if (correctionNeeded()) {
-    actions.append({"skip", tr("Leave as it is")});
+    actions.append({"skip", tr("Leave as it is"), true, {}, tr("Goes on without the correction")});
   } else if (m_state.correctionProposed) {
     actions.append({"correct", tr("Apply correction"), true, {}, tr("Writes the corrected table. Asks first.")});
   }

@@ -173,7 +173,8 @@ QString WarmupPage::sentence() const {
 }
 
 PageAction WarmupPage::primary() const {
-  if (m_state.filesOnly && m_state.phase == RunPhase::planning) return {"primary", tr("Import a recording")};
+  if (m_state.filesOnly && m_state.phase == RunPhase::planning)
+    return {"primary", tr("Import a recording"), true, {}, tr("A file of any logger: text or Excel")};
   if (!m_state.blocked.isEmpty()) return {"primary", tr("Start"), false, m_state.blocked};
   const QString locked = tr("The compensation is ON. Measuring for the model is locked until it is switched off.");
   const bool starts = m_state.phase == RunPhase::planning || m_state.phase == RunPhase::interrupted;
@@ -186,14 +187,16 @@ PageAction WarmupPage::primary() const {
   switch (m_state.phase) {
     case RunPhase::planning:
       if (m_state.plan.isEmpty()) return {"primary", tr("Start"), false, tr("The plan has no steps yet.")};
-      return {"primary", tr("Start"), !m_state.compensationOn, locked};
+      return {"primary", tr("Start"), !m_state.compensationOn, locked,
+              tr("The machine runs by the plan; temperatures and errors are recorded")};
     case RunPhase::running:
-      return {"primary", tr("Pause"), true, {}};
+      return {"primary", tr("Pause"), true, {}, tr("Stops the machine; the recording goes on")};
     case RunPhase::paused:
     case RunPhase::interrupted:
-      return {"primary", tr("Resume"), !m_state.compensationOn, locked};
+      return {"primary", tr("Resume"), !m_state.compensationOn, locked,
+              tr("Goes on with the plan where it was stopped")};
     case RunPhase::finished:
-      return {"primary", tr("Use this run"), true, {}};
+      return {"primary", tr("Use this run"), true, {}, tr("Goes on: the sensors are chosen from it")};
   }
   return {};
 }
@@ -208,7 +211,9 @@ QVector<PageAction> WarmupPage::secondary() const {
   switch (m_state.phase) {
     case RunPhase::planning:
       if (m_state.filesOnly) return {};
-      return {import, {"load", tr("Load plan")}, {"save", tr("Save plan")}};
+      return {import,
+              {"load", tr("Load plan"), true, {}, tr("A plan that was saved before")},
+              {"save", tr("Save plan"), true, {}, tr("As a file, for other machines and the command line")}};
     case RunPhase::running:
     case RunPhase::paused:
       return {{"note", tr("Add note"), true, {}, tr("Writes a remark at this moment of the run")}, abort, finish};
@@ -223,8 +228,10 @@ QVector<PageAction> WarmupPage::secondary() const {
       if (m_state.filesOnly)
         return {
             {"import", tr("Import another"), true, {}, tr("A further run of this machine, or one in place of this")},
-            {"export", tr("Save as CSV")}};
-      return {import, {"again", tr("New run")}, {"export", tr("Save as CSV")}};
+            {"export", tr("Save as CSV"), true, {}, tr("The recording shown, for a spreadsheet")}};
+      return {import,
+              {"again", tr("New run"), true, {}, tr("Plans a new run; this one stays in the job")},
+              {"export", tr("Save as CSV"), true, {}, tr("The recording shown, for a spreadsheet")}};
   }
   return {};
 }

@@ -204,17 +204,48 @@ QString SensorsPresenter::proposalInWords(const json& body) const {
   if (body.value("chosen_by", "") == "hand") return {};
   const json choice = body.value("choice", json::object());
   const auto count = static_cast<int>(body.value("chosen", json::array()).size());
+  const QString about = conditionInWords(choice.value("condition", json()), count, choice.value("one_cycle", false));
   if (choice.value("one_cycle", false)) {
-    return tr("%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.",
-              nullptr, count);
+    return ui::sentencesText(
+        {tr("%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.",
+            nullptr, count),
+         about});
   }
   const json flat = choice.value("flat", json::object());
   QStringList left;
   for (const auto& sensor : flat.value("left", json::array())) left << bench().tagOf(sensor.get<std::string>());
-  if (left.isEmpty()) return {};
-  return tr("%n proposed: with %1 the error to expect would be only %2 µm less.", nullptr, count)
-      .arg(ui::listText(left))
-      .arg(std::max(0.0, flat.value("cost_um", 0.0)), 0, 'f', 2);
+  if (left.isEmpty()) return about;
+  return ui::sentencesText({tr("%n proposed: with %1 the error to expect would be only %2 µm less.", nullptr, count)
+                                .arg(ui::listText(left))
+                                .arg(std::max(0.0, flat.value("cost_um", 0.0)), 0, 'f', 2),
+                            about});
+}
+
+/// How the proposal holds the limit of the condition number, or why it does not; "" where nothing is to be said.
+QString SensorsPresenter::conditionInWords(const json& condition, int proposed, bool oneCycle) const {
+  if (!condition.is_object()) return {};
+  QStringList left;
+  for (const auto& sensor : condition.value("left", json::array())) left << bench().tagOf(sensor.get<std::string>());
+  const double without = condition.value("without", 0.0);
+  const double cost_um = std::max(0.0, condition.value("cost_um", 0.0));
+  if (condition.value("held", false)) {
+    return tr("Without %1 the condition number falls from %2 to the limit, for an error of only %3 µm more.")
+        .arg(ui::listText(left))
+        .arg(without, 0, 'f', 0)
+        .arg(cost_um, 0, 'f', 2);
+  }
+  const int remaining = proposed - static_cast<int>(left.size());
+  const QString alike = tr("They are much alike: condition number %1, limit %2.")
+                            .arg(without, 0, 'f', 0)
+                            .arg(report::limits::condition_number, 0, 'f', 0);
+  if (oneCycle) return ui::sentencesText({alike, tr("Within the limit only %n would remain.", nullptr, remaining)});
+  if (condition.value("fewer_than_clusters", false)) {
+    return ui::sentencesText(
+        {alike, tr("Within the limit only %n would remain, fewer than there are clusters.", nullptr, remaining)});
+  }
+  return ui::sentencesText(
+      {alike, tr("Within the limit only %n would remain, for an error of %1 µm more.", nullptr, remaining)
+                  .arg(cost_um, 0, 'f', 2)});
 }
 
 void SensorsPresenter::fillSeries(ui::SensorsState& state) const {

@@ -33,6 +33,7 @@ class SensorsPresenter : public Presenter {
   std::vector<std::string> errorsOf(const nlohmann::json& body) const;
   void fill(ui::SensorsState& state, const nlohmann::json& body) const;
   QString proposalInWords(const nlohmann::json& body) const;
+  QString conditionInWords(const nlohmann::json& condition, int proposed, bool oneCycle) const;
   void fillSeries(ui::SensorsState& state) const;
 
   ui::SensorsPage* m_page;

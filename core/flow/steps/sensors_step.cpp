@@ -16,6 +16,7 @@
 #include "core/analysis/training.h"
 #include "core/flow/steps/inputs.h"
 #include "core/flow/steps/recordings_step.h"
+#include "core/report/limits.h"
 
 namespace zerodrift::flow {
 
@@ -64,6 +65,43 @@ Result<Thinned> thinned(const analysis::TrainingSet& training, const analysis::S
     out.kept.erase(out.kept.begin() + static_cast<std::ptrdiff_t>(least));
     out.cost_um = least_um - whole.expected_um;
   }
+  return out;
+}
+
+/// The largest set within limits::condition_number that is found by taking out, one after the other, the sensor without
+/// which the fit is conditioned best.
+struct WellConditioned {
+  Names kept;
+  Names left;
+  double cost_um = 0.0;  // in error to expect, against the set it is of
+};
+
+Result<WellConditioned> well_conditioned(const analysis::TrainingSet& training, const Names& whole,
+                                         const TaskContext& context) {
+  WellConditioned out{whole, {}, 0.0};
+  ZD_TRY(double condition, analysis::fitted_condition(training, out.kept));
+  while (out.kept.size() > 1 && condition > report::limits::condition_number) {
+    std::size_t least = 0;
+    condition = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < out.kept.size(); ++i) {
+      if (context.cancelled()) return fail(ErrorCode::cancelled);
+      Names tried = out.kept;
+      tried.erase(tried.begin() + static_cast<std::ptrdiff_t>(i));
+      ZD_TRY(const double now, analysis::fitted_condition(training, tried));
+      if (now >= condition) continue;
+      condition = now;
+      least = i;
+    }
+    out.left.push_back(out.kept[least]);
+    out.kept.erase(out.kept.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  const auto expected_um = [&](const Names& sensors) {
+    return analysis::evaluate(training, analysis::make_recipe(judged_by, sensors, training), 0.9, context)
+        .map([](const auto& judged) { return judged.expected_um; });
+  };
+  ZD_TRY(const double before_um, expected_um(whole));
+  ZD_TRY(const double after_um, expected_um(out.kept));
+  out.cost_um = after_um - before_um;
   return out;
 }
 
@@ -174,11 +212,25 @@ Result<commissioning::NewArtefact> choose_sensors(const commissioning::Job& job,
   if (options.chosen.empty() && !choice.one_cycle) {
     ZD_TRY(proposed, thinned(training, best, choice_options.few, context));
   }
+  json condition = nullptr;
+  ZD_TRY(const double proposed_condition, analysis::fitted_condition(training, proposed.kept));
+  if (options.chosen.empty() && proposed_condition > report::limits::condition_number) {
+    ZD_TRY(const auto tame, well_conditioned(training, proposed.kept, context));
+    const bool too_few = tame.kept.size() < choice_options.few;  // each cluster of bodies may keep one
+    const bool held = !choice.one_cycle && !too_few && tame.cost_um <= report::limits::lost_against_all_um;
+    condition = {{"without", proposed_condition},
+                 {"held", held},
+                 {"fewer_than_clusters", too_few},
+                 {"left", tame.left},
+                 {"cost_um", tame.cost_um}};
+    if (held) proposed.kept = tame.kept;
+  }
   const auto& chosen = options.chosen.empty() ? proposed.kept : options.chosen;
   for (const auto& one : chosen) ZD_CHECK(run.require(one).map([](auto) {}));
   body["choice"] = analysis::to_json(choice);
   body["choice"]["one_cycle"] = choice.one_cycle;
   body["choice"]["flat"] = {{"left", proposed.left}, {"cost_um", proposed.cost_um}};
+  body["choice"]["condition"] = condition;
   ZD_TRY(body["price"], price_of(training, chosen, context));
   ZD_TRY(body["budget"], budget_of(training, context));
   ZD_TRY(body["condition_number"]["chosen"], analysis::fitted_condition(training, chosen));
