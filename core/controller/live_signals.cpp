@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/controller/devices/device.h"
+#include "core/controller/devices/mtconnect_device.h"
 #include "core/controller/modbus_machine.h"
 
 namespace zerodrift::controller {
@@ -89,6 +90,9 @@ Result<DeviceTest> test_device(const DeviceProfile& device, std::vector<std::str
         signals.push_back(entry.count == 1 ? name : fmt::format("{}[{}]", name, i));
       }
     }
+  }
+  if (device.kind == DeviceKind::mtconnect) {
+    ZD_TRY(signals, agent_samples(device));
   }
   ZD_TRY(const auto opened, open_device(device, signals));
   DeviceTest test;

@@ -39,7 +39,7 @@ struct DeviceTest {
   std::vector<std::pair<std::string, double>> values;  // of each signal of its map or those that were named
   std::vector<std::string> remarks;
 };
-/// Of a Modbus device all values of its map that are numbers of measured quantities; else of `signals`.
+/// Of a Modbus device the values of its map, of an agent its samples; of a broker `signals`.
 Result<DeviceTest> test_device(const DeviceProfile& device, std::vector<std::string> signals,
                                const std::stop_token& stop);
 

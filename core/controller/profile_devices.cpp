@@ -76,15 +76,17 @@ DeviceProfile read_device(JsonObject& o, const std::string& kind) {
 }
 
 /// One array of five values, or a source for each probe that there is; the others have none.
-template <class One>
-std::vector<SignalSource> read_probes(JsonObject& o, const One& one) {
+template <class Check, class One>
+std::vector<SignalSource> read_probes(JsonObject& o, const Check& check, const One& one) {
   JsonObject* entry = o.object_if("probes");
   if (entry == nullptr) return {};
   std::vector<SignalSource> probes;
   if (entry->has("device") || entry->has("signal")) {
-    const auto array = one(o, "probes");
-    for (std::size_t i = 1; array && i <= probe_names.size(); ++i) {
-      probes.push_back({array->device, fmt::format("{}[{}]", array->signal, i)});
+    const SignalSource array = read_source(*entry);
+    if (array.device.empty()) return {};  // the control's
+    check(o, "probes", array, "probes");
+    for (std::size_t i = 1; i <= probe_names.size(); ++i) {
+      probes.push_back({array.device, fmt::format("{}[{}]", array.signal, i)});
     }
     return probes;
   }
@@ -184,7 +186,7 @@ void read_signals(JsonObject& o, Profile& profile) {
       if (const auto source = one(*positions, axis)) sources.positions[axis] = *source;
     }
   }
-  sources.probes = read_probes(o, one);
+  sources.probes = read_probes(o, check, one);
   std::set<std::string> channels;
   for (std::size_t i = 0; i < profile.sensors.size(); ++i) {
     const SensorProfile& sensor = profile.sensors[i];

@@ -202,6 +202,16 @@ TEST(ProfileDraft, WhatNamesADeviceFollowsItsNewIdAndGoesWithIt) {
   EXPECT_TRUE(rest->sources.probes.empty());
 }
 
+TEST(ProfileDraft, NoKeyOfEitherFormOfProbesIsUnknown) {
+  auto draft = ProfileDraft::open(example);
+  ASSERT_TRUE(draft);
+  std::vector<std::string> warnings;
+  ASSERT_TRUE(profile_from_json(draft->document(), example, &warnings));
+  draft->assign("probes.X2", "", "");
+  ASSERT_TRUE(profile_from_json(draft->document(), example, &warnings));
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+}
+
 TEST(ProfileDraft, OneProbeOfAnArrayIsReadElsewhereAndTheOthersStay) {
   auto draft = ProfileDraft::open(example);
   ASSERT_TRUE(draft);
