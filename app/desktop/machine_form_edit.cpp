@@ -6,6 +6,7 @@
 
 #include "app/desktop/machine_form.h"
 #include "app/desktop/machine_typical.h"
+#include "core/base/json_path.h"
 
 namespace zerodrift::desktop {
 
@@ -32,18 +33,6 @@ bool is_text_key(const std::string& key) {
     if (key == word || key.ends_with(std::string(".") + word)) return true;
   }
   return false;
-}
-
-json::json_pointer pointer_of(std::string path) {
-  std::string pointer;
-  for (const char c : path) {
-    if (c == '[' || c == '.') {
-      pointer += '/';
-    } else if (c != ']') {
-      pointer += c;
-    }
-  }
-  return json::json_pointer(pointer.empty() ? "" : "/" + pointer);
 }
 
 json& array_at(json& object, const char* key) {
@@ -199,8 +188,7 @@ json start_description(const FormChannels& channels) {
 
 json* form_node(json& machine, const std::string& path) {
   if (path == "machine") return &machine;
-  const auto pointer = pointer_of(path);
-  return machine.contains(pointer) ? &machine[pointer] : nullptr;
+  return node_at(machine, path);
 }
 
 void form_edit(json& machine, const std::string& path, const std::string& key, const std::string& value) {
@@ -220,7 +208,7 @@ void form_edit(json& machine, const std::string& path, const std::string& key, c
     (*object)[key] = entered_yes(value);
     return;
   }
-  const auto pointer = pointer_of(key);
+  const auto pointer = pointer_of_path(key);
   json* holder = object;
   if (key.find('.') != std::string::npos) {
     json& inner = (*object)[pointer.parent_pointer()];
@@ -297,7 +285,7 @@ std::string form_add(json& machine, const std::string& kind, const std::string& 
 }
 
 void form_remove(json& machine, const std::string& path) {
-  const auto pointer = pointer_of(path);
+  const auto pointer = pointer_of_path(path);
   if (path == "machine" || !machine.contains(pointer)) return;
   const json removed = machine[pointer];
   machine[pointer.parent_pointer()].erase(static_cast<std::size_t>(std::stoul(pointer.back())));

@@ -8,7 +8,11 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 90> devices = {{
+constexpr std::array<const char*, 94> devices = {{
+    QT_TRANSLATE_NOOP("core", "a name or an IP address"),
+    QT_TRANSLATE_NOOP("core", "a serial port such as /dev/ttyUSB0"),
+    QT_TRANSLATE_NOOP("core", "an address of the camera"),
+    QT_TRANSLATE_NOOP("core", "a register of the device's map"),
     QT_TRANSLATE_NOOP("core", "the kind of device %1"),
     QT_TRANSLATE_NOOP("core", "a control"),
     QT_TRANSLATE_NOOP("core", "a device to read"),

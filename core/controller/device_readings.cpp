@@ -183,7 +183,9 @@ void DeviceReadings::put_into(acquisition::MachineSample& sample) const {
   if (!m_sources.probes.empty()) {
     sample.probes_um.emplace();
     sample.probes_at = Seconds(std::numeric_limits<double>::max());
+    sample.probes_um->fill(nan_value);
     for (std::size_t i = 0; i < sample.probes_um->size(); ++i) {
+      if (m_sources.probes[i].device.empty()) continue;  // a nest need not have all five
       const Reading reading = latest(m_sources.probes[i]);
       (*sample.probes_um)[i] = reading.value;
       sample.probes_at = std::min(sample.probes_at, reading.at);

@@ -53,8 +53,8 @@ std::vector<std::array<int, 4>> read_marks(JsonObject& o, const char* key) {
 
 CameraProfile read_camera(JsonObject& o) {
   CameraProfile camera;
-  camera.id = o.text("id");
-  camera.url = o.text("url");
+  camera.id = filled(o, "id");
+  camera.url = filled(o, "url", "an address of the camera");
   const auto axes = o.texts_or_empty("axes");
   if (axes.size() != 2) o.reject("axes", fmt::format("{} axes", axes.size()), "two axes, right and up in the image");
   camera.axes = {axes[0], axes[1]};
@@ -75,7 +75,7 @@ CameraProfile read_camera(JsonObject& o) {
 
 SensorProfile read_sensor(JsonObject& o) {
   SensorProfile sensor;
-  sensor.channel = o.text("channel");
+  sensor.channel = filled(o, "channel");
   sensor.label = o.text_or("label", sensor.channel);
   sensor.place = o.text_or("place", "");
   sensor.position_mm = o.number_if("position_mm");

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 namespace zerodrift::controller {
 namespace {
 
-constexpr int probe_count = 5;
 constexpr NumberRange period_range{0.01, 3600.0, false, "a time from 0.01 to 3600 s"};
 constexpr double stale_periods = 3.0;  // of polling: one answer that is missed is no loss
 constexpr double least_stale_s = 10.0;
@@ -18,10 +19,10 @@ ControllerSettings read_modbus(JsonObject& o, bool tcp) {
   ControllerSettings c;
   c.kind = tcp ? LinkKind::tcp : LinkKind::rtu;
   if (tcp) {
-    c.host = o.text("host");
+    c.host = filled(o, "host", "a name or an IP address");
     c.port = o.integer_or("port", 502, 1, 65535);
   } else {
-    c.device = o.text("device");
+    c.device = filled(o, "device", "a serial port such as /dev/ttyUSB0");
     c.baud = o.integer_or("baud", c.baud, 300, 4000000);
     const std::string parity = o.has("parity") ? o.word("parity", {"N", "E", "O", "none", "even", "odd"}) : "E";
     c.parity = static_cast<char>(std::toupper(static_cast<unsigned char>(parity[0])));
@@ -49,19 +50,19 @@ void read_control(JsonObject& o, const std::string& kind, Profile& profile) {
 
 DeviceProfile read_device(JsonObject& o, const std::string& kind) {
   DeviceProfile device;
-  device.id = o.text("id");
+  device.id = filled(o, "id");
   device.poll_period_s = o.number_or("poll_period_s", device.poll_period_s, period_range);
   device.stale_after_s =
       o.number_or("stale_after_s", std::max(least_stale_s, stale_periods * device.poll_period_s), period_range);
   if (kind == "mqtt") {
     device.kind = DeviceKind::mqtt;
-    device.host = o.text("host");
+    device.host = filled(o, "host", "a name or an IP address");
     device.tls = o.flag_or("tls", false);
     device.port = o.integer_or("port", device.tls ? 8883 : device.port, 1, 65535);
     device.ca_file = o.text_or("ca_file", "");
   } else if (kind == "mtconnect") {
     device.kind = DeviceKind::mtconnect;
-    device.url = o.text("url");
+    device.url = filled(o, "url", "an address such as http://host:5000/");
   } else {
     // A module has no map that could be guessed.
     if (!o.has("register_map") && !o.has("register_map_document")) o.missing("register_map", "a map of its registers");
@@ -74,6 +75,26 @@ DeviceProfile read_device(JsonObject& o, const std::string& kind) {
   return device;
 }
 
+/// One array of five values, or a source for each probe that there is; the others have none.
+template <class Check, class One>
+std::vector<SignalSource> read_probes(JsonObject& o, const Check& check, const One& one) {
+  JsonObject* entry = o.object_if("probes");
+  if (entry == nullptr) return {};
+  std::vector<SignalSource> probes;
+  if (entry->has("device") || entry->has("signal")) {
+    const SignalSource array = read_source(*entry);
+    if (array.device.empty()) return {};  // the control's
+    check(o, "probes", array, "probes");
+    for (std::size_t i = 1; i <= probe_names.size(); ++i) {
+      probes.push_back({array.device, fmt::format("{}[{}]", array.signal, i)});
+    }
+    return probes;
+  }
+  for (const char* name : probe_names) probes.push_back(one(*entry, name).value_or(SignalSource{}));
+  const bool none = std::all_of(probes.begin(), probes.end(), [](const auto& probe) { return probe.device.empty(); });
+  return none ? std::vector<SignalSource>() : probes;
+}
+
 /// Two that answer at one address are one device, or none.
 std::string address_of(const ControllerSettings& c) {
   return c.kind == LinkKind::tcp ? fmt::format("{}:{}, unit {}", c.host, c.port, c.unit)
@@ -81,6 +102,13 @@ std::string address_of(const ControllerSettings& c) {
 }
 
 }  // namespace
+
+std::string filled(JsonObject& o, std::string_view key, const char* expected) {
+  if (!o.has(key)) o.missing(key, expected);
+  std::string text = o.text(key);
+  if (text.empty()) o.missing(key, expected);
+  return text;
+}
 
 void read_devices(JsonObject& o, Profile& profile) {
   const std::vector<std::string> kinds = {"modbus-tcp", "modbus-rtu", "mqtt", "mtconnect", "manual"};
@@ -90,11 +118,11 @@ void read_devices(JsonObject& o, Profile& profile) {
     JsonObject& controller = o.object("controller");
     read_control(controller, controller.word("kind", {"modbus-tcp", "modbus-rtu", "manual"}), profile);
   }
-  std::set<std::string> ids;
+  std::map<std::string, std::size_t> places;  // of the ids
   for (JsonObject& entry : o.objects_or_empty("devices")) {
-    const std::string id = entry.text("id");
+    const std::string id = filled(entry, "id");
     const std::string kind = entry.word("kind", kinds);
-    if (!ids.insert(id).second) entry.reject("id", id, "a name that no other device has");
+    if (!places.emplace(id, places.size()).second) entry.reject("id", id, "a name that no other device has");
     if (kind != "manual" && id != control) {
       profile.devices.push_back(read_device(entry, kind));
       continue;
@@ -105,7 +133,7 @@ void read_devices(JsonObject& o, Profile& profile) {
     read_control(entry, kind, profile);
     has_control = true;
   }
-  if (!control.empty() && !ids.contains(control)) o.reject("control", control, "the id of one of the devices");
+  if (!control.empty() && !places.contains(control)) o.reject("control", control, "the id of one of the devices");
   if (!has_control) {
     o.missing("controller", "the control: modbus-tcp, modbus-rtu or manual, here or among the devices");
   }
@@ -115,7 +143,7 @@ void read_devices(JsonObject& o, Profile& profile) {
     if (device.kind != DeviceKind::modbus) continue;
     const std::string address = address_of(device.modbus);
     if (!taken.emplace(address, device.id).second) {
-      o.reject("devices", fmt::format("{} at {}", device.id, address),
+      o.reject(fmt::format("devices[{}].unit", places.at(device.id)), fmt::format("{} at {}", device.id, address),
                "an address that is not that of " + taken[address]);
     }
   }
@@ -131,20 +159,20 @@ SignalSource read_source(JsonObject& o) {
 
 void read_signals(JsonObject& o, Profile& profile) {
   std::map<std::string, std::string> used;  // device and signal -> for what
-  const auto check = [&](const std::string& key, const SignalSource& source, const std::string& what) {
+  const auto check = [&](JsonObject& at, const std::string& key, const SignalSource& source, const std::string& what) {
     if (source.device.empty()) return;
     if (find_device(profile, source.device) == nullptr) {
-      o.reject(key + ".device", source.device, "the id of one of the devices that are read");
+      at.reject(key + ".device", source.device, "the id of one of the devices that are read");
     }
-    const auto [at, is_new] = used.emplace(source.device + " " + source.signal, what);
-    if (!is_new) o.reject(key + ".signal", source.signal, "a signal that is not " + at->second + " already");
+    const auto [other, is_new] = used.emplace(source.device + " " + source.signal, what);
+    if (!is_new) at.reject(key + ".signal", source.signal, "a signal that is not " + other->second + " already");
   };
   const auto one = [&](JsonObject& parent, const std::string& key) -> std::optional<SignalSource> {
     JsonObject* entry = parent.object_if(key);
     if (entry == nullptr) return std::nullopt;
     const SignalSource source = read_source(*entry);
     if (source.device.empty()) return std::nullopt;  // the control's, as without the entry
-    check(key, source, key);
+    check(parent, key, source, key);
     return source;
   };
   SignalSources& sources = profile.sources;
@@ -158,16 +186,12 @@ void read_signals(JsonObject& o, Profile& profile) {
       if (const auto source = one(*positions, axis)) sources.positions[axis] = *source;
     }
   }
-  if (const auto probes = one(o, "probes")) {
-    for (int i = 1; i <= probe_count; ++i) {
-      sources.probes.push_back({probes->device, fmt::format("{}[{}]", probes->signal, i)});
-    }
-  }
+  sources.probes = read_probes(o, check, one);
   std::set<std::string> channels;
   for (std::size_t i = 0; i < profile.sensors.size(); ++i) {
     const SensorProfile& sensor = profile.sensors[i];
     const std::string key = fmt::format("sensors[{}]", i);
-    check(key, sensor.source, sensor.channel);
+    check(o, key, sensor.source, sensor.channel);
     if (!channels.insert(sensor.channel).second) {
       o.reject(key + ".channel", sensor.channel, "a channel that no other sensor has");
     }

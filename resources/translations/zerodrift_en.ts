@@ -29,6 +29,16 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::desktop::RigEditor</name>
+    <message numerus="yes">
+        <source>%n sensor(s) added; see Signals.</source>
+        <translation>
+            <numerusform>%n sensor added; see Signals.</numerusform>
+            <numerusform>%n sensors added; see Signals.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::desktop::SensorsPresenter</name>
     <message numerus="yes">
         <source>%n proposed: one speed does not tell which of them matter at another. A run at a second speed does.</source>
@@ -147,6 +157,16 @@
         <translation>
             <numerusform>with %n adopted</numerusform>
             <numerusform>with %n adopted</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::RigSetup</name>
+    <message numerus="yes">
+        <source>%n assigned</source>
+        <translation>
+            <numerusform>%n assigned</numerusform>
+            <numerusform>%n assigned</numerusform>
         </translation>
     </message>
 </context>

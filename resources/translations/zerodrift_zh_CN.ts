@@ -445,6 +445,361 @@
     </message>
 </context>
 <context>
+    <name>RigWords</name>
+    <message>
+        <source>yes</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>类型</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>地址</translation>
+    </message>
+    <message>
+        <source>192.168.1.20, or a name</source>
+        <translation>192.168.1.20 或主机名</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>端口</translation>
+    </message>
+    <message>
+        <source>Serial port</source>
+        <translation>串口</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>波特率</translation>
+    </message>
+    <message>
+        <source>baud</source>
+        <translation>baud</translation>
+    </message>
+    <message>
+        <source>Parity</source>
+        <translation>校验</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+    <message>
+        <source>even</source>
+        <translation>偶</translation>
+    </message>
+    <message>
+        <source>odd</source>
+        <translation>奇</translation>
+    </message>
+    <message>
+        <source>Stop bits</source>
+        <translation>停止位</translation>
+    </message>
+    <message>
+        <source>Unit number</source>
+        <translation>单元号</translation>
+    </message>
+    <message>
+        <source>Register map</source>
+        <translation>寄存器表</translation>
+    </message>
+    <message>
+        <source>A map of this program, or a path to one beside the profile</source>
+        <translation>本程序自带的寄存器表，或配置文件旁的文件路径</translation>
+    </message>
+    <message>
+        <source>its own, in the profile</source>
+        <translation>自有，保存在配置文件中</translation>
+    </message>
+    <message>
+        <source>Registers that were changed here are a part of the profile. Another map replaces them.</source>
+        <translation>在此修改的寄存器保存在配置文件中；选择其他寄存器表会取代它们。</translation>
+    </message>
+    <message>
+        <source>Of register %1</source>
+        <translation>寄存器 %1</translation>
+    </message>
+    <message>
+        <source>First register</source>
+        <translation>首寄存器</translation>
+    </message>
+    <message>
+        <source>Function</source>
+        <translation>功能</translation>
+    </message>
+    <message>
+        <source>Type</source>
+        <translation>数据类型</translation>
+    </message>
+    <message>
+        <source>Values</source>
+        <translation>个数</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>Time-out</source>
+        <translation>超时</translation>
+    </message>
+    <message>
+        <source>Read every</source>
+        <translation>读取周期</translation>
+    </message>
+    <message>
+        <source>Missing after</source>
+        <translation>失效时间</translation>
+    </message>
+    <message>
+        <source>Age from which a value that was not renewed is missing</source>
+        <translation>数值超过此时间未更新即视为缺失</translation>
+    </message>
+    <message>
+        <source>Control</source>
+        <translation>控制器</translation>
+    </message>
+    <message>
+        <source>Serial number</source>
+        <translation>序列号</translation>
+    </message>
+    <message>
+        <source>of the machine</source>
+        <translation>机床的序列号</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Broker</source>
+        <translation>代理服务器</translation>
+    </message>
+    <message>
+        <source>1883, or 8883 with TLS</source>
+        <translation>1883，使用 TLS 时为 8883</translation>
+    </message>
+    <message>
+        <source>TLS</source>
+        <translation>TLS</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>否</translation>
+    </message>
+    <message>
+        <source>Authority</source>
+        <translation>证书颁发机构</translation>
+    </message>
+    <message>
+        <source>the system&apos;s</source>
+        <translation>系统自带</translation>
+    </message>
+    <message>
+        <source>Login file</source>
+        <translation>登录文件</translation>
+    </message>
+    <message>
+        <source>Beside the profile, with user and password; only its owner may read it</source>
+        <translation>位于配置文件旁，包含用户名和密码；仅其所有者可读</translation>
+    </message>
+    <message>
+        <source>three periods of the slowest sensor</source>
+        <translation>最慢传感器周期的三倍</translation>
+    </message>
+    <message>
+        <source>Axes</source>
+        <translation>轴</translation>
+    </message>
+    <message>
+        <source>Machine axes that are seen to the right and up; the calibration finds scale and rotation</source>
+        <translation>图像中向右和向上的机床轴；比例和旋转由标定确定</translation>
+    </message>
+    <message>
+        <source>Target region</source>
+        <translation>目标区域</translation>
+    </message>
+    <message>
+        <source>x, y, width, height; or draw it in the preview</source>
+        <translation>x、y、宽、高；或在预览中绘制</translation>
+    </message>
+    <message>
+        <source>set in the camera itself</source>
+        <translation>在相机中设置</translation>
+    </message>
+    <message>
+        <source>as the camera is set</source>
+        <translation>按相机当前设置</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>曝光</translation>
+    </message>
+    <message>
+        <source>Gain</source>
+        <translation>增益</translation>
+    </message>
+    <message>
+        <source>Expected scale</source>
+        <translation>预期比例</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>未知</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>机床</translation>
+    </message>
+    <message>
+        <source>Measuring position %1</source>
+        <translation>测量位置 %1</translation>
+    </message>
+    <message>
+        <source>Errors by</source>
+        <translation>误差来源</translation>
+    </message>
+    <message>
+        <source>cameras</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>displacement probes</source>
+        <translation>位移传感器</translation>
+    </message>
+    <message>
+        <source>Calibration span</source>
+        <translation>标定范围</translation>
+    </message>
+    <message>
+        <source>Devices</source>
+        <translation>设备</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>%1 since reading began</source>
+        <translation>自开始读取以来变化 %1</translation>
+    </message>
+    <message>
+        <source>Too bright: %1 % of the pixels are saturated.</source>
+        <translation>过亮：%1 % 的像素已饱和。</translation>
+    </message>
+    <message>
+        <source>Too dark: 99 % of the pixels are below %2 of 255.</source>
+        <translation>过暗：99 % 的像素低于 %2（满值 255）。</translation>
+    </message>
+    <message>
+        <source>Exposure is right: up to %2 of 255.</source>
+        <translation>曝光合适：最高 %2（满值 255）。</translation>
+    </message>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>no value</source>
+        <translation>无数值</translation>
+    </message>
+    <message>
+        <source>Modbus TCP</source>
+        <translation>Modbus TCP</translation>
+    </message>
+    <message>
+        <source>Modbus RTU, serial line</source>
+        <translation>Modbus RTU（串行线路）</translation>
+    </message>
+    <message>
+        <source>MQTT broker</source>
+        <translation>MQTT 代理服务器</translation>
+    </message>
+    <message>
+        <source>MTConnect agent</source>
+        <translation>MTConnect 代理</translation>
+    </message>
+    <message>
+        <source>By hand, no link</source>
+        <translation>手动，无通信连接</translation>
+    </message>
+    <message>
+        <source>8 × PT100, hundredths of a degree</source>
+        <translation>8 路 PT100，分辨率 0.01 °C</translation>
+    </message>
+    <message>
+        <source>8 × PT100, tenths of a degree</source>
+        <translation>8 路 PT100，分辨率 0.1 °C</translation>
+    </message>
+    <message>
+        <source>8 × DS18B20</source>
+        <translation>8 路 DS18B20</translation>
+    </message>
+    <message>
+        <source>Probe amplifier, 5 channels</source>
+        <translation>位移传感器放大器，5 通道</translation>
+    </message>
+    <message>
+        <source>Probe amplifier, 4 channels</source>
+        <translation>位移传感器放大器，4 通道</translation>
+    </message>
+    <message>
+        <source>Room temperature</source>
+        <translation>室温</translation>
+    </message>
+    <message>
+        <source>Spindle speed</source>
+        <translation>主轴转速</translation>
+    </message>
+    <message>
+        <source>Spindle load</source>
+        <translation>主轴负载</translation>
+    </message>
+    <message>
+        <source>Coolant</source>
+        <translation>冷却液</translation>
+    </message>
+    <message>
+        <source>Compensation switch</source>
+        <translation>补偿开关</translation>
+    </message>
+    <message>
+        <source>Position %1</source>
+        <translation>位置 %1</translation>
+    </message>
+    <message>
+        <source>Probe %1</source>
+        <translation>位移传感器 %1</translation>
+    </message>
+    <message>
+        <source>plausible</source>
+        <translation>可信</translation>
+    </message>
+    <message>
+        <source>never changes</source>
+        <translation>始终不变</translation>
+    </message>
+    <message>
+        <source>out of range</source>
+        <translation>超出范围</translation>
+    </message>
+    <message>
+        <source>the control</source>
+        <translation>控制器</translation>
+    </message>
+    <message>
+        <source>needed before a run, here or in its plan</source>
+        <translation>运行前必须给出，在此处或运行计划中</translation>
+    </message>
+</context>
+<context>
     <name>TableExport</name>
     <message>
         <source>Zerodrift table (*.json)</source>
@@ -6022,6 +6377,22 @@
         <source>2 x 2 pixels or more</source>
         <translation>2 x 2 像素或更多</translation>
     </message>
+    <message>
+        <source>a register of the device&apos;s map</source>
+        <translation>设备寄存器表中的寄存器</translation>
+    </message>
+    <message>
+        <source>a name or an IP address</source>
+        <translation>主机名或 IP 地址</translation>
+    </message>
+    <message>
+        <source>a serial port such as /dev/ttyUSB0</source>
+        <translation>串口，例如 /dev/ttyUSB0</translation>
+    </message>
+    <message>
+        <source>an address of the camera</source>
+        <translation>相机地址</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -8039,86 +8410,6 @@
     </message>
 </context>
 <context>
-    <name>zerodrift::desktop::PhysicsPresenter</name>
-    <message>
-        <source>Looking for what the simulation lacks</source>
-        <translation>正在查找仿真缺少的内容</translation>
-    </message>
-    <message>
-        <source>No sensor region could be found: the machine description has no rod whose deformation was simulated.</source>
-        <translation>未能找到传感器区域：机床描述中没有可仿真变形的杆件。</translation>
-    </message>
-    <message>
-        <source>A sensor between %1 and %2 mm from the fixed end of the %3 follows the deformation best</source>
-        <translation>距%3固定端 %1 至 %2 mm 处的传感器与变形的相关性最好</translation>
-    </message>
-    <message>
-        <source> (r = %1</source>
-        <translation>（r = %1</translation>
-    </message>
-    <message>
-        <source>, %1 µm left by a straight line</source>
-        <translation>，用直线拟合后剩余 %1 µm</translation>
-    </message>
-    <message>
-        <source>Blind trial</source>
-        <translation>盲测</translation>
-    </message>
-    <message>
-        <source>Blind trial: sealed %1</source>
-        <translation>盲测：已封存 %1</translation>
-    </message>
-    <message>
-        <source>Searching what is hidden</source>
-        <translation>正在查找隐藏的效应</translation>
-    </message>
-    <message>
-        <source>, %1 %</source>
-        <translation>，%1 %</translation>
-    </message>
-    <message>
-        <source>Blind trial: hidden %1, answered %2, seal %3</source>
-        <translation>盲测：隐藏 %1，答案 %2，封条%3</translation>
-    </message>
-    <message>
-        <source>whole</source>
-        <translation>完好</translation>
-    </message>
-    <message>
-        <source>broken</source>
-        <translation>已破坏</translation>
-    </message>
-    <message>
-        <source>Record a warm-up run first: it is what the simulation is compared with.</source>
-        <translation>请先记录一次暖机运行：仿真将与之比较。</translation>
-    </message>
-    <message>
-        <source>%1.</source>
-        <comment>a whole sentence</comment>
-        <translation>%1。</translation>
-    </message>
-    <message>
-        <source>What the simulation lacks was not searched.</source>
-        <translation>未能查找仿真所缺的内容。</translation>
-    </message>
-    <message>
-        <source>Open a machine description</source>
-        <translation>打开机床描述</translation>
-    </message>
-    <message>
-        <source>Machine descriptions (*.json)</source>
-        <translation>机床描述 (*.json)</translation>
-    </message>
-    <message>
-        <source>A lump for each sensor</source>
-        <translation>每个传感器一个集总体</translation>
-    </message>
-    <message>
-        <source>a lump for each sensor</source>
-        <translation>每个传感器一个集总体</translation>
-    </message>
-</context>
-<context>
     <name>zerodrift::desktop::OperatorDialog</name>
     <message>
         <source>At the control</source>
@@ -8198,6 +8489,86 @@
     <message>
         <source>Type the check value that the control shows for its table</source>
         <translation>输入控制器为其补偿表显示的校验值</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::PhysicsPresenter</name>
+    <message>
+        <source>Looking for what the simulation lacks</source>
+        <translation>正在查找仿真缺少的内容</translation>
+    </message>
+    <message>
+        <source>No sensor region could be found: the machine description has no rod whose deformation was simulated.</source>
+        <translation>未能找到传感器区域：机床描述中没有可仿真变形的杆件。</translation>
+    </message>
+    <message>
+        <source>A sensor between %1 and %2 mm from the fixed end of the %3 follows the deformation best</source>
+        <translation>距%3固定端 %1 至 %2 mm 处的传感器与变形的相关性最好</translation>
+    </message>
+    <message>
+        <source> (r = %1</source>
+        <translation>（r = %1</translation>
+    </message>
+    <message>
+        <source>, %1 µm left by a straight line</source>
+        <translation>，用直线拟合后剩余 %1 µm</translation>
+    </message>
+    <message>
+        <source>Blind trial</source>
+        <translation>盲测</translation>
+    </message>
+    <message>
+        <source>Blind trial: sealed %1</source>
+        <translation>盲测：已封存 %1</translation>
+    </message>
+    <message>
+        <source>Searching what is hidden</source>
+        <translation>正在查找隐藏的效应</translation>
+    </message>
+    <message>
+        <source>, %1 %</source>
+        <translation>，%1 %</translation>
+    </message>
+    <message>
+        <source>Blind trial: hidden %1, answered %2, seal %3</source>
+        <translation>盲测：隐藏 %1，答案 %2，封条%3</translation>
+    </message>
+    <message>
+        <source>whole</source>
+        <translation>完好</translation>
+    </message>
+    <message>
+        <source>broken</source>
+        <translation>已破坏</translation>
+    </message>
+    <message>
+        <source>Record a warm-up run first: it is what the simulation is compared with.</source>
+        <translation>请先记录一次暖机运行：仿真将与之比较。</translation>
+    </message>
+    <message>
+        <source>%1.</source>
+        <comment>a whole sentence</comment>
+        <translation>%1。</translation>
+    </message>
+    <message>
+        <source>What the simulation lacks was not searched.</source>
+        <translation>未能查找仿真所缺的内容。</translation>
+    </message>
+    <message>
+        <source>Open a machine description</source>
+        <translation>打开机床描述</translation>
+    </message>
+    <message>
+        <source>Machine descriptions (*.json)</source>
+        <translation>机床描述 (*.json)</translation>
+    </message>
+    <message>
+        <source>A lump for each sensor</source>
+        <translation>每个传感器一个集总体</translation>
+    </message>
+    <message>
+        <source>a lump for each sensor</source>
+        <translation>每个传感器一个集总体</translation>
     </message>
 </context>
 <context>
@@ -8362,6 +8733,107 @@
     <message>
         <source>Head of the report</source>
         <translation>报告抬头</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::desktop::RigEditor</name>
+    <message numerus="yes">
+        <source>%n sensor(s) added; see Signals.</source>
+        <translation>
+            <numerusform>已添加 %n 个传感器；见“信号”。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Expected: %1</source>
+        <translation>应为：%1</translation>
+    </message>
+    <message>
+        <source>%1, %2: something must be entered.</source>
+        <translation>%1，%2：必须填写。</translation>
+    </message>
+    <message>
+        <source>%1, %2: this value cannot be.</source>
+        <translation>%1，%2：此数值无效。</translation>
+    </message>
+    <message>
+        <source>Signals</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>Save profile</source>
+        <translation>保存配置文件</translation>
+    </message>
+    <message>
+        <source>Profiles (*.json)</source>
+        <translation>配置文件 (*.json)</translation>
+    </message>
+    <message>
+        <source>Open profile</source>
+        <translation>打开配置文件</translation>
+    </message>
+    <message>
+        <source>Enter the camera&apos;s address first.</source>
+        <translation>请先输入相机地址。</translation>
+    </message>
+    <message>
+        <source>Waiting for a picture</source>
+        <translation>等待图像</translation>
+    </message>
+    <message>
+        <source>%1 × %2 px, %3 pictures a second</source>
+        <translation>%1 × %2 像素，每秒 %3 幅</translation>
+    </message>
+    <message>
+        <source>Draw the target&apos;s region into the picture.</source>
+        <translation>请在图像中绘制目标区域。</translation>
+    </message>
+    <message>
+        <source>Ended; nothing was found so far.</source>
+        <translation>已结束；未找到任何设备。</translation>
+    </message>
+    <message>
+        <source>Nothing was found.</source>
+        <translation>未找到任何设备。</translation>
+    </message>
+    <message>
+        <source>Choose what to enter.</source>
+        <translation>请选择要填入的项。</translation>
+    </message>
+    <message>
+        <source>Looking for serial ports</source>
+        <translation>正在查找串口</translation>
+    </message>
+    <message>
+        <source>Asking the units 1 to 247</source>
+        <translation>正在询问单元 1 至 247</translation>
+    </message>
+    <message>
+        <source>Unit %1</source>
+        <translation>单元 %1</translation>
+    </message>
+    <message>
+        <source>Looking into the local network</source>
+        <translation>正在搜索本地网络</translation>
+    </message>
+    <message>
+        <source>port %1</source>
+        <translation>端口 %1</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>正在查找相机</translation>
+    </message>
+    <message>
+        <source>serial number %1, %2</source>
+        <translation>序列号 %1，%2</translation>
+    </message>
+    <message>
+        <source>Testing %1</source>
+        <translation>正在测试 %1</translation>
+    </message>
+    <message>
+        <source>Answers in %1.</source>
+        <translation>应答时间 %1。</translation>
     </message>
 </context>
 <context>
@@ -9690,6 +10162,53 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::ui::CompanyDialog</name>
+    <message>
+        <source>Your company in the report</source>
+        <translation>报告中的贵公司信息</translation>
+    </message>
+    <message>
+        <source>Logo and address stand at the head of every report from this computer.</source>
+        <translation>徽标和地址显示在本计算机生成的每份报告的抬头。</translation>
+    </message>
+    <message>
+        <source>Choose a picture</source>
+        <translation>选择图片</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Name and address</source>
+        <translation>名称和地址</translation>
+    </message>
+    <message>
+        <source>Logo</source>
+        <translation>徽标</translation>
+    </message>
+    <message>
+        <source>Use</source>
+        <translation>使用</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>%1 is no picture that can be read: choose a PNG, JPEG or SVG file.</source>
+        <translation>%1 不是可读取的图片：请选择 PNG、JPEG 或 SVG 文件。</translation>
+    </message>
+    <message>
+        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
+        <translation>图片 (*.png *.jpg *.jpeg *.svg)</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>无</translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::CompensatorPage</name>
     <message>
         <source>%1 predicted</source>
@@ -10333,6 +10852,21 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::ui::ItemForm</name>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>撤消</translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::LegendRow</name>
     <message>
         <source>Curves: %1</source>
@@ -10390,18 +10924,6 @@
     <message>
         <source>Enter what a drawing and the data sheets say. What is not known may stay empty where it says so.</source>
         <translation>请填写图纸和数据手册中的值。注明可空的项目，未知时可留空。</translation>
-    </message>
-    <message>
-        <source>Add</source>
-        <translation>添加</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>移除</translation>
-    </message>
-    <message>
-        <source>Undo</source>
-        <translation>撤销</translation>
     </message>
     <message>
         <source>Open machine.json</source>
@@ -10754,6 +11276,42 @@
     <message>
         <source>%1 of %2</source>
         <translation>%1 / %2</translation>
+    </message>
+    <message>
+        <source>Add devices and cameras, test each, and say which signal is which; then save.</source>
+        <translation>添加设备和相机，逐一测试，指定各信号的来源，然后保存。</translation>
+    </message>
+    <message>
+        <source>Save and use</source>
+        <translation>保存并使用</translation>
+    </message>
+    <message>
+        <source>First mend what is named above.</source>
+        <translation>请先改正上面指出的问题。</translation>
+    </message>
+    <message>
+        <source>Saves the profile and uses it in this job</source>
+        <translation>保存配置文件并用于本作业</translation>
+    </message>
+    <message>
+        <source>Open profile</source>
+        <translation>打开配置文件</translation>
+    </message>
+    <message>
+        <source>Save as</source>
+        <translation>另存为</translation>
+    </message>
+    <message>
+        <source>Back to the machine</source>
+        <translation>返回机床</translation>
+    </message>
+    <message>
+        <source>Set up</source>
+        <translation>设置</translation>
+    </message>
+    <message>
+        <source>Devices, cameras and signals of this profile, or of a new one</source>
+        <translation>此配置文件或新配置文件的设备、相机和信号</translation>
     </message>
 </context>
 <context>
@@ -11687,6 +12245,135 @@
     </message>
 </context>
 <context>
+    <name>zerodrift::ui::RigSetup</name>
+    <message>
+        <source>not saved yet</source>
+        <translation>尚未保存</translation>
+    </message>
+    <message>
+        <source>%1, changed</source>
+        <translation>%1，已修改</translation>
+    </message>
+    <message>
+        <source>Found</source>
+        <translation>已找到</translation>
+    </message>
+    <message>
+        <source>Detail</source>
+        <translation>详情</translation>
+    </message>
+    <message>
+        <source>Warm one sensor with your hand: the right row must rise.</source>
+        <translation>用手加热一个传感器：对应行的数值必须上升。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n assigned</source>
+        <translation>
+            <numerusform>已指定 %n 个</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Rig</source>
+        <translation>测量装置</translation>
+    </message>
+    <message>
+        <source>Devices and cameras</source>
+        <translation>设备和相机</translation>
+    </message>
+    <message>
+        <source>Signals</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>撤消</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>重做</translation>
+    </message>
+    <message>
+        <source>Find ports</source>
+        <translation>查找串口</translation>
+    </message>
+    <message>
+        <source>Find units</source>
+        <translation>查找单元</translation>
+    </message>
+    <message>
+        <source>Find in the network</source>
+        <translation>在网络中查找</translation>
+    </message>
+    <message>
+        <source>Find cameras</source>
+        <translation>查找相机</translation>
+    </message>
+    <message>
+        <source>Serial ports of this computer</source>
+        <translation>本计算机的串口</translation>
+    </message>
+    <message>
+        <source>Asks each unit number from 1 to 247 on this port. It takes up to a minute.</source>
+        <translation>在此串口上逐一询问单元号 1 至 247，最多需要一分钟。</translation>
+    </message>
+    <message>
+        <source>Tries the ports 502 and 5000 at the addresses of this computer&apos;s own networks</source>
+        <translation>在本计算机所在网络的各地址上尝试端口 502 和 5000</translation>
+    </message>
+    <message>
+        <source>GigE Vision, USB3 Vision and devices of this computer</source>
+        <translation>GigE Vision、USB3 Vision 及本计算机的设备</translation>
+    </message>
+    <message>
+        <source>Test</source>
+        <translation>测试</translation>
+    </message>
+    <message>
+        <source>Connects and reads once</source>
+        <translation>连接并读取一次</translation>
+    </message>
+    <message>
+        <source>Add its sensors</source>
+        <translation>添加其传感器</translation>
+    </message>
+    <message>
+        <source>A temperature sensor for each channel that none reads yet</source>
+        <translation>为每个尚未使用的通道添加一个温度传感器</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>预览</translation>
+    </message>
+    <message>
+        <source>No picture yet</source>
+        <translation>尚无图像</translation>
+    </message>
+    <message>
+        <source>Brightness of the pixels</source>
+        <translation>像素亮度</translation>
+    </message>
+    <message>
+        <source>Dark at the left, bright at the right; the last bar is saturated pixels</source>
+        <translation>左暗右亮；最后一条为饱和像素</translation>
+    </message>
+    <message>
+        <source>Add sensor</source>
+        <translation>添加传感器</translation>
+    </message>
+    <message>
+        <source>Remove sensor</source>
+        <translation>移除传感器</translation>
+    </message>
+    <message>
+        <source>Read live</source>
+        <translation>实时读取</translation>
+    </message>
+    <message>
+        <source>Connects to the devices and reads once a second</source>
+        <translation>连接设备，每秒读取一次</translation>
+    </message>
+</context>
+<context>
     <name>zerodrift::ui::RunView</name>
     <message>
         <source>Temperatures</source>
@@ -12031,6 +12718,53 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Not checked yet. Before the table is written each axis is moved by a few micrometres, watched by the camera: a wrong sign or axis stops everything.</source>
         <translation>尚未检查。写入补偿表之前，每轴移动几微米并由相机观测：符号或轴有误时立即停止。</translation>
+    </message>
+</context>
+<context>
+    <name>zerodrift::ui::SignalTable</name>
+    <message>
+        <source>Quantity</source>
+        <translation>量</translation>
+    </message>
+    <message>
+        <source>Label</source>
+        <translation>标签</translation>
+    </message>
+    <message>
+        <source>Device</source>
+        <translation>设备</translation>
+    </message>
+    <message>
+        <source>Register, topic or item</source>
+        <translation>寄存器、主题或数据项</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>单位</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>比例</translation>
+    </message>
+    <message>
+        <source>Value now</source>
+        <translation>当前值</translation>
+    </message>
+    <message>
+        <source>Plausible?</source>
+        <translation>是否可信</translation>
+    </message>
+    <message>
+        <source>Factor from the register to the value. It holds for all values of this register in this device.</source>
+        <translation>寄存器到数值的系数，对此设备该寄存器的所有数值有效。</translation>
+    </message>
+    <message>
+        <source>Signals</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>to be mended</source>
+        <translation>待改正</translation>
     </message>
 </context>
 <context>
@@ -13296,53 +14030,6 @@ The sum of absolute values does not have this fault.</source>
     <message>
         <source>Plans a new run; this one stays in the job</source>
         <translation>计划新的运行；此运行保留在作业中</translation>
-    </message>
-</context>
-<context>
-    <name>zerodrift::ui::CompanyDialog</name>
-    <message>
-        <source>Your company in the report</source>
-        <translation>报告中的贵公司信息</translation>
-    </message>
-    <message>
-        <source>Logo and address stand at the head of every report from this computer.</source>
-        <translation>徽标和地址显示在本计算机生成的每份报告的抬头。</translation>
-    </message>
-    <message>
-        <source>Choose a picture</source>
-        <translation>选择图片</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>移除</translation>
-    </message>
-    <message>
-        <source>Name and address</source>
-        <translation>名称和地址</translation>
-    </message>
-    <message>
-        <source>Logo</source>
-        <translation>徽标</translation>
-    </message>
-    <message>
-        <source>Use</source>
-        <translation>使用</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>取消</translation>
-    </message>
-    <message>
-        <source>%1 is no picture that can be read: choose a PNG, JPEG or SVG file.</source>
-        <translation>%1 不是可读取的图片：请选择 PNG、JPEG 或 SVG 文件。</translation>
-    </message>
-    <message>
-        <source>Pictures (*.png *.jpg *.jpeg *.svg)</source>
-        <translation>图片 (*.png *.jpg *.jpeg *.svg)</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation>无</translation>
     </message>
 </context>
 </TS>

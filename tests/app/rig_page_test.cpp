@@ -176,7 +176,7 @@ class RigPageTest : public QObject, private zerodrift::desktop::TestHome {
     QVERIFY(page->state().manual);
     QCOMPARE(page->state().address, QStringLiteral("Manual control"));
     QVERIFY(page->state().registers.isEmpty());
-    QVERIFY(!page->findChild<zerodrift::ui::ToggleSegment*>()->isVisible());
+    QVERIFY(!page->findChild<zerodrift::ui::ToggleSegment*>(QStringLiteral("machineView"))->isVisible());
     const auto lamp = [&application](const char* name) {
       return application.window().findChild<zerodrift::ui::Lamp*>(QLatin1String(name))->accessibleName();
     };

@@ -116,6 +116,10 @@ rig = {
     "positions": {"X": {"device": "agent", "signal": "Xact"}},
     "probes": {"device": "amplifier", "signal": "probe_um"},
     "sensors": [{"channel": "T1_C", "device": "module", "signal": "temperature_C[1]"}, {"channel": "T2_C"}]}
+# Probes one by one.
+probes = {"format": "zerodrift-profile/1", "controller": {"kind": "manual"},
+          "devices": [{"id": "agent", "kind": "mtconnect", "url": "http://127.0.0.1:9/"}],
+          "probes": {"X1": {"device": "agent", "signal": "P1"}, "Z": {"device": "agent", "signal": "P3"}}}
 # The control is one of the devices.
 own_control = {"format": "zerodrift-profile/1", "control": "plc",
                "devices": [{"id": "plc", "kind": "modbus-tcp", "host": "127.0.0.1", "port": 9, "unit": 1},
@@ -257,7 +261,7 @@ for key in sorted(keys_of(schemas["profile"])):
         faults.append(f"docs/profile.md and docs/reference/devices.md do not explain the key {key}")
 
 compare("machine", machine)
-for profile in (tcp, rtu, rig, own_control, manual, manual_device):
+for profile in (tcp, rtu, rig, own_control, probes, manual, manual_device):
     compare("profile", profile)
 compare("header-map", header_map)
 listed = refused("machine", changed(machine, ("effects",), ["none"])).split("one of ")[1].split(". ")[0].split(", ")

@@ -185,7 +185,7 @@ void PagesTest::manualControlHasNoRegisters() {
   QVERIFY(registers->isVisible());
   samples::fillMachine(&page, "manual");
   QVERIFY(!registers->isVisible());
-  QVERIFY(!page.findChild<ToggleSegment*>()->isVisible());
+  QVERIFY(!page.findChild<ToggleSegment*>("machineView")->isVisible());
   QVERIFY(page.findChild<MachineDrawing*>()->isVisible());
   // No link, so no round trip and no other clock: its devices instead.
   const auto cards = page.findChildren<FigureCard*>();
@@ -200,7 +200,7 @@ void PagesTest::manualControlHasNoRegisters() {
   QVERIFY(page.sentence().contains("no link"));
   QVERIFY(!page.findChild<DataTable*>("devices")->isVisible());
   samples::fillMachine(&page, "registers");
-  QVERIFY(page.findChild<ToggleSegment*>()->isVisible());
+  QVERIFY(page.findChild<ToggleSegment*>("machineView")->isVisible());
 }
 
 void PagesTest::warmthIsJudgedByItsChange() {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/pages/machine_start.h"
+#include "ui/pages/rig_setup.h"
 #include "ui/widgets/card.h"
 #include "ui/widgets/channel_table.h"
 #include "ui/widgets/data_table.h"
@@ -54,6 +55,8 @@ MachinePage::MachinePage(QWidget* parent) : Page("machine", parent) {
   m_machine = makeMachine();
   m_views->addWidget(m_start);
   m_views->addWidget(m_machine);
+  m_setup = new RigSetup(this);
+  m_views->addWidget(m_setup);
   content()->addWidget(m_views, 1);
   refresh();
 }
@@ -66,6 +69,7 @@ QWidget* MachinePage::makeMachine() {
   m_profile->setMinimumWidth(150);
   m_profile->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   m_view = new ToggleSegment(m_drawingCard);
+  m_view->setObjectName("machineView");
   m_drawingCard->tools()->addWidget(m_profile);
   m_drawingCard->tools()->addWidget(m_view);
   m_drawing = new MachineDrawing(m_drawingCard);
@@ -169,6 +173,7 @@ QString MachinePage::title() const {
 
 QString MachinePage::sentence() const {
   if (!m_state.jobOpen) return tr("Start a job for this machine, or go on with one.");
+  if (m_state.settingUp) return tr("Add devices and cameras, test each, and say which signal is which; then save.");
   if (startsVirtual()) return tr("The machine of this job is a virtual one: start it, or connect to another.");
   if (!m_state.connected && m_state.manual) {
     return tr("This control has no link: connect to the devices, and answer what is asked about the control.");
@@ -225,6 +230,10 @@ PageAction MachinePage::startAction(const QString& id) const {
 
 PageAction MachinePage::primary() const {
   if (!m_state.jobOpen) return {"primary", {}, false, {}};
+  if (m_state.settingUp) {
+    return {"primary", tr("Save and use"), m_state.setupValid, tr("First mend what is named above."),
+            tr("Saves the profile and uses it in this job")};
+  }
   if (startsVirtual()) {
     return {"primary",
             tr("Start the virtual machine"),
@@ -249,7 +258,15 @@ PageAction MachinePage::primary() const {
 
 QVector<PageAction> MachinePage::secondary() const {
   if (!m_state.jobOpen) return {{"import", tr("Import profile")}};
-  QVector<PageAction> actions = {{"job", tr("Other job")}, {"import", tr("Import profile")}};
+  if (m_state.settingUp) {
+    return {{"setup-open", tr("Open profile")},
+            {"setup-save-as", tr("Save as"), m_state.setupValid, tr("First mend what is named above.")},
+            {"setup-leave", tr("Back to the machine")}};
+  }
+  QVector<PageAction> actions = {
+      {"job", tr("Other job")},
+      {"import", tr("Import profile")},
+      {"setup", tr("Set up"), true, {}, tr("Devices, cameras and signals of this profile, or of a new one")}};
   if (m_state.connected) {
     actions.append({"test", tr("Test again")});
     actions.append({"disconnect", tr("Disconnect")});
@@ -261,7 +278,7 @@ QVector<PageAction> MachinePage::secondary() const {
 }
 
 QVector<Figure> MachinePage::figures() const {
-  if (!m_state.jobOpen) return {};
+  if (!m_state.jobOpen || m_state.settingUp) return {};
   const auto alive = std::count_if(m_state.sensors.begin(), m_state.sensors.end(),
                                    [](const SensorHealth& s) { return s.judgement == Judgement::ok; });
   Figure sensors = figureOf(tr("Sensors alive"), m_state.known() ? static_cast<double>(alive) : NAN, 0,
@@ -328,7 +345,9 @@ void MachinePage::render() {
   setFigures(figures());
   // The start page is as high as its list; the machine's need not be.
   m_start->setSizePolicy(QSizePolicy::Preferred, m_state.jobOpen ? QSizePolicy::Ignored : QSizePolicy::Preferred);
-  m_views->setCurrentWidget(m_state.jobOpen ? m_machine : m_start);
+  m_setup->setSizePolicy(QSizePolicy::Preferred, m_state.settingUp ? QSizePolicy::Preferred : QSizePolicy::Ignored);
+  QWidget* shown = !m_state.jobOpen ? static_cast<QWidget*>(m_start) : m_state.settingUp ? m_setup : m_machine;
+  m_views->setCurrentWidget(shown);
   m_start->setState(m_state.recent, m_state.sampleAvailable);
   renderMachine();
   renderParts();

@@ -21,6 +21,7 @@ class Card;
 class ChannelTable;
 class DataTable;
 class MachineDrawing;
+class RigSetup;
 class ToggleSegment;
 
 struct SensorHealth {
@@ -74,6 +75,8 @@ struct MachineState {
   bool connected = false;
   bool connecting = false;
   bool manual = false;          // the control has no link: a person does what is asked
+  bool settingUp = false;       // the profile is set up
+  bool setupValid = false;      // and can be saved
   bool virtualOffered = false;  // the job's machine is a virtual one, which can be started here
   bool compensationOn = false;
   int writtenVersion = 0;  // of the table that this job has put into the machine; 0: none yet
@@ -109,6 +112,8 @@ class MachinePage : public Page {
   void setState(const MachineState& state);
   const MachineState& state() const { return m_state; }
   void selectSensor(const QString& id);
+  /// Shown while the profile is set up.
+  RigSetup* rigSetup() const { return m_setup; }
   /// 0 drawing, 1 registers.
   void showView(int index);
 
@@ -120,7 +125,8 @@ class MachinePage : public Page {
   QString sentence() const override;
   /// Connect, then Start commissioning.
   PageAction primary() const override;
-  /// "job" (another job), "import", "test", "disconnect".
+  /// "job" (another job), "import", "setup", "test", "disconnect"; while a profile is set up "setup-open",
+  /// "setup-save-as", "setup-leave".
   QVector<PageAction> secondary() const override;
 
  Q_SIGNALS:
@@ -158,6 +164,7 @@ class MachinePage : public Page {
   MachineState m_state;
   QStackedWidget* m_views;
   MachineStart* m_start;
+  RigSetup* m_setup;
   QWidget* m_machine;
   Card* m_drawingCard;
   Card* m_sensorCard;

@@ -11,6 +11,7 @@
 #include "app/desktop/demo_machine.h"
 #include "app/desktop/map_editor.h"
 #include "app/desktop/presenter.h"
+#include "app/desktop/rig_editor.h"
 
 namespace zerodrift::ui {
 class MachinePage;
@@ -25,7 +26,12 @@ class MachinePresenter : public Presenter {
  public:
   MachinePresenter(Workbench& bench, ui::MachinePage* page, DemoMachine& demo);
   void refresh() override;
-  void forget() override {}  // what it shows is the machine's, or read from the job each time
+  void themeChanged() override { m_rig->refresh(); }
+  /// What else it shows is the machine's, or read from the job each time.
+  void forget() override { m_rig->forget(); }
+  void undo() override {
+    if (m_rig->open()) m_rig->undo();
+  }
   void tour(std::function<void(bool good)> done) override;
 
   /// The virtual machine beside the application, with a new job in the user's folder. One that runs is not started
@@ -41,6 +47,9 @@ class MachinePresenter : public Presenter {
   void chooseNewJob();
   void chooseJob();
 
+  /// Looks from which a slope is told.
+  static constexpr std::size_t course_least = 20;
+
  Q_SIGNALS:
   /// To be done when nothing runs any more; what runs is ended if a person agrees.
   void endWorkWanted(const QString& question, const QString& deed, const std::function<void()>& then);
@@ -49,6 +58,7 @@ class MachinePresenter : public Presenter {
 
  private:
   void importProfile();
+  void setUp(const QString& action);
   /// Says why something was refused.
   void unlessBusy(const Status& done);
   /// Connects to the virtual machine that was started.
@@ -75,6 +85,7 @@ class MachinePresenter : public Presenter {
   DemoMachine& m_demo;
   bool m_connecting = false;
   MapEditor* m_map;
+  RigEditor* m_rig;
   // The last readings of each sensor, for its noise.
   std::deque<std::vector<double>> m_readings;
   // And over minutes of the machine's time, for what still changes.

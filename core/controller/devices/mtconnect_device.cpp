@@ -120,6 +120,7 @@ class MtConnectDevice : public Device {
                   const std::optional<Credentials>& credentials, const std::string& authority);
 
   Result<std::vector<Reading>> read() override;
+  Result<std::vector<std::string>> samples();
   std::vector<std::string> remarks() const override { return m_remarks.texts(); }
 
  private:
@@ -138,6 +139,7 @@ class MtConnectDevice : public Device {
   }
   Result<std::string> get(const std::string& request, Seconds& middle);
   Error no_answer(const std::string& request, httplib::Error error, bool late) const;
+  static std::vector<DataItem> items_in(Answer& answer);
   Result<std::unique_ptr<Answer>> ask(const std::string& request, std::string_view kind);
   Status learn_items();
   Result<Item> item_of(const std::string& signal, const std::vector<DataItem>& all) const;
@@ -260,16 +262,32 @@ Result<std::unique_ptr<MtConnectDevice::Answer>> MtConnectDevice::ask(const std:
   return answer;
 }
 
-Status MtConnectDevice::learn_items() {
-  ZD_TRY(const auto answer, ask("probe", "MTConnectDevices"));
+std::vector<DataItem> MtConnectDevice::items_in(Answer& answer) {
   std::vector<DataItem> all;
-  for_each_element(answer->document, [&](const pugi::xml_node& node) {
+  for_each_element(answer.document, [&](const pugi::xml_node& node) {
     if (local_name(node) != "DataItem") return;
     // What the agent gives is in `units`; it has converted from nativeUnits.
     const std::string_view units = node.attribute("units").value();
     all.push_back({node.attribute("id").value(), node.attribute("name").value(), node.attribute("category").value(),
                    std::string(units.empty() ? node.attribute("nativeUnits").value() : units)});
   });
+  return all;
+}
+
+Result<std::vector<std::string>> MtConnectDevice::samples() {
+  ZD_TRY(const auto answer, ask("probe", "MTConnectDevices"));
+  std::vector<std::string> ids;
+  for (const DataItem& item : items_in(*answer)) {
+    const bool known = item.unit.empty() ||
+                       std::ranges::find(unit_rules, std::string_view(item.unit), &UnitRule::unit) != unit_rules.end();
+    if (item.category == "SAMPLE" && known) ids.push_back(item.id);
+  }
+  return ids;
+}
+
+Status MtConnectDevice::learn_items() {
+  ZD_TRY(const auto answer, ask("probe", "MTConnectDevices"));
+  const std::vector<DataItem> all = items_in(*answer);
   std::vector<Item> items;
   for (const std::string& signal : m_signals) {
     ZD_TRY(Item item, item_of(signal, all));
@@ -346,9 +364,8 @@ std::vector<Reading> MtConnectDevice::readings_of(Answer& answer) {
   return readings;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Device>> open_mtconnect(const DeviceProfile& profile, const std::vector<std::string>& signals) {
+Result<std::unique_ptr<MtConnectDevice>> device_of(const DeviceProfile& profile,
+                                                   const std::vector<std::string>& signals) {
   ZD_TRY(AgentAddress address, agent_address(profile));
   ZD_TRY(const auto credentials, read_credentials(profile));
   std::string authority;
@@ -358,6 +375,18 @@ Result<std::unique_ptr<Device>> open_mtconnect(const DeviceProfile& profile, con
     authority = path.string();
   }
   return std::make_unique<MtConnectDevice>(profile, std::move(address), signals, credentials, authority);
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> agent_samples(const DeviceProfile& profile) {
+  ZD_TRY(const auto device, device_of(profile, {}));
+  return device->samples();
+}
+
+Result<std::unique_ptr<Device>> open_mtconnect(const DeviceProfile& profile, const std::vector<std::string>& signals) {
+  ZD_TRY(std::unique_ptr<Device> device, device_of(profile, signals));
+  return device;
 }
 
 }  // namespace zerodrift::controller

@@ -18,6 +18,8 @@
 
 namespace zerodrift::controller {
 
+/// Ids of the agent's samples whose unit is known or not stated: what a profile can name. Asks /probe once.
+Result<std::vector<std::string>> agent_samples(const DeviceProfile& profile);
 Result<std::unique_ptr<Device>> open_mtconnect(const DeviceProfile& profile, const std::vector<std::string>& names);
 
 }  // namespace zerodrift::controller

@@ -161,6 +161,13 @@ TEST(MtConnectDevice, ConvertsTheUnitsOfItsDataItems) {
               testing::ElementsAre("table: the agent states no unit, and its values are taken as they are"));
 }
 
+TEST(MtConnectDevice, ItsSamplesOfKnownUnitsAreWhatAProfileCanName) {
+  Agent agent;
+  const auto samples = agent_samples(agent.profile());
+  ASSERT_TRUE(samples) << describe(samples.error());
+  EXPECT_THAT(*samples, testing::ElementsAre("c1", "f1", "s1", "x1", "y1", "w1", "k1", "p1"));
+}
+
 TEST(MtConnectDevice, AValueThatDoesNotChangeStaysCurrent) {
   Agent agent;
   agent.set_current(Agent::xml(current_document("1", sample("c1", "20"))));

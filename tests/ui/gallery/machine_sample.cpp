@@ -2,6 +2,7 @@
 
 #include "tests/ui/gallery/page_samples.h"
 #include "ui/pages/machine_page.h"
+#include "ui/pages/rig_setup.h"
 
 namespace zerodrift::ui::samples {
 
@@ -33,6 +34,54 @@ static const Place places[] = {
     {"Bed", "bed", -1},
     {"Coolant tank", "coolant", -1},
 };
+
+/// A module that was tested, and what is read from two of them.
+static RigSetupState rigSample() {
+  RigSetupState rig;
+  FormItem module{"devices[0]", "module-1", 1, false, true};
+  module.fields = {{"id", "Name", {}, "module-1"},
+                   {"device", "Serial port", {}, "/dev/serial/by-id/usb-Adapter_A17-if00-port0"},
+                   {"baud", "Speed", "baud", "9600"},
+                   {"parity", "Parity", {}, "N", {"N  (none)", "E  (even)", "O  (odd)"}, true},
+                   {"unit", "Unit number", {}, "300", {}, false, "1", {}, "Expected: a whole number from 0 to 255"}};
+  FormItem devices;
+  devices.title = "Devices";
+  devices.heading = true;
+  rig.form.items = {{"machine", "Machine"},
+                    {"controller", "Control", 1},
+                    devices,
+                    module,
+                    {"devices[1]", "module-2", 1, false, true}};
+  rig.form.current = "devices[0]";
+  rig.form.offers = {{"modbus-rtu", "Modbus RTU, serial line"}};
+  rig.form.canUndo = true;
+  rig.file = "/jobs/profile.json";
+  rig.changed = true;
+  rig.sentence = "module-1, Unit number: this value cannot be.";
+  rig.remedy = "Expected: a whole number from 0 to 255";
+  rig.searches = {"ports", "units"};
+  rig.canTest = true;
+  rig.canAddSensors = true;
+  rig.result = "Answers in 11.8 ms.";
+  rig.resultJudgement = Judgement::ok;
+  for (int i = 1; i <= 8; ++i) rig.found.append({QStringLiteral("temperature_C[%1]").arg(i), "20.31"});
+  for (int i = 0; i < 20; ++i) {
+    SignalLine line;
+    line.name = QStringLiteral("T%1_C").arg(i + 1);
+    line.label = places[i].label;
+    line.sensor = true;
+    line.device = i < 8 ? "module-1" : "module-2";
+    line.signal = QStringLiteral("temperature_C[%1]").arg(i % 8 + 1);
+    line.unit = "°C";
+    line.scale = "0.01";
+    line.value = i == 5 ? "850.00" : "20.31";
+    line.judgement = i == 5 ? Judgement::bad : i == 2 ? Judgement::warn : Judgement::ok;
+    line.state = i == 5 ? "out of range" : i == 2 ? "never changes" : "plausible";
+    rig.lines.append(line);
+  }
+  rig.live = true;
+  return rig;
+}
 
 void fillMachine(Page* page, const QString& scene) {
   auto* machine = qobject_cast<MachinePage*>(page);
@@ -109,6 +158,11 @@ void fillMachine(Page* page, const QString& scene) {
     s.address = "Manual control";
     s.registers.clear();
     s.mapNotes.clear();
+  }
+  s.settingUp = scene == "setup" || scene == "signals";
+  if (s.settingUp) {
+    machine->rigSetup()->setState(rigSample());
+    machine->rigSetup()->showView(scene == "signals" ? 1 : 0);
   }
   machine->setState(s);
   machine->selectSensor("T1_C");

@@ -30,25 +30,17 @@ void addPages(MainWindow& window) {
 }
 
 QVector<Scene> scenes() {
-  return {{"machine", "start"},        {"machine", "filled"},
-          {"machine", "registers"},    {"machine", "kept"},
-          {"machine", "devices"},      {"machine", "manual"},
-          {"machine", "log"},          {"calibrate", "empty"},
-          {"calibrate", "running"},    {"calibrate", "solved"},
-          {"warmup", "plan"},          {"warmup", "running"},
-          {"warmup", "banner"},        {"warmup", "trouble"},
-          {"compensator", "empty"},    {"compensator", "running"},
-          {"sensors", "clusters"},     {"sensors", "leftout"},
-          {"fit", "prediction"},       {"physics", "before"},
-          {"physics", "where"},        {"physics", "channels"},
-          {"physics", "unexplained"},  {"physics", "trial"},
-          {"upload", "ready"},         {"upload", "writing"},
-          {"upload", "history"},       {"upload", "away"},
-          {"verify", "running"},       {"verify", "correction"},
-          {"verify", "worse"},         {"report", "preview"},
-          {"axis_errors", "empty"},    {"axis_errors", "measurement"},
-          {"axis_errors", "segments"}, {"verify", "help"},
-          {"verify", "run"},           {"verify", "again"}};
+  return {
+      {"machine", "start"},        {"machine", "filled"},      {"machine", "registers"}, {"machine", "kept"},
+      {"machine", "devices"},      {"machine", "manual"},      {"machine", "setup"},     {"machine", "signals"},
+      {"machine", "log"},          {"calibrate", "empty"},     {"calibrate", "running"}, {"calibrate", "solved"},
+      {"warmup", "plan"},          {"warmup", "running"},      {"warmup", "banner"},     {"warmup", "trouble"},
+      {"compensator", "empty"},    {"compensator", "running"}, {"sensors", "clusters"},  {"sensors", "leftout"},
+      {"fit", "prediction"},       {"physics", "before"},      {"physics", "where"},     {"physics", "channels"},
+      {"physics", "unexplained"},  {"physics", "trial"},       {"upload", "ready"},      {"upload", "writing"},
+      {"upload", "history"},       {"upload", "away"},         {"verify", "running"},    {"verify", "correction"},
+      {"verify", "worse"},         {"report", "preview"},      {"axis_errors", "empty"}, {"axis_errors", "measurement"},
+      {"axis_errors", "segments"}, {"verify", "help"},         {"verify", "run"},        {"verify", "again"}};
 }
 
 // The rail as it would stand with everything before this page done.
