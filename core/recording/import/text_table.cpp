@@ -459,7 +459,7 @@ Result<SourceTable> find_table(SourceCells source, const TableOptions& options) 
   }
   if (table.names.empty()) table.names.resize(shape->width);
   ZD_CHECK(collect_body(table, header, *shape));
-  if (table.rows.empty()) return fail(ErrorCode::csv_empty, {{"file", table.form.file}});
+  if (table.rows.empty()) return fail(no_rows(table.cells, table.form.file));
   table.units.resize(table.names.size());
   const auto units = header.units ? header.units : labelled_units(table.cells, table.block_end, *shape);
   for (std::size_t column = 0; units && column < table.units.size(); ++column) {
