@@ -5,9 +5,9 @@
 
 #include <chrono>
 #include <cstdio>
-#include <iostream>
 #include <thread>
 
+#include "app/cli/typed.h"
 #include "core/base/file.h"
 
 namespace zerodrift::cli {
@@ -16,18 +16,18 @@ namespace {
 constexpr std::size_t pin_file_limit_bytes = 4096;
 constexpr std::chrono::seconds wrong_pin_pause{2};  // a program that guesses gets no further
 
-std::string typed(const std::string& question) {
-  std::fprintf(stderr, "%s", question.c_str());
+/// Empty where nothing is typed.
+Result<std::string> typed_unseen(const std::string& question) {
   termios before{};
   const bool terminal = ::tcgetattr(STDIN_FILENO, &before) == 0;
   termios silent = before;
   silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
   if (terminal) ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
-  std::string pin;
-  std::getline(std::cin, pin);
+  auto pin = typed_line(question);
   if (terminal) ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
   std::fprintf(stderr, "\n");
-  return pin;
+  if (!pin) return fail(std::move(pin).error());
+  return pin->value_or("");
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ Result<std::string> pin_from(const std::string& file, const std::string& questio
     ZD_TRY(const std::string text, read_file(file, pin_file_limit_bytes));
     return text.substr(0, text.find_first_of("\r\n"));
   }
-  if (::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0) return typed(question);
+  if (::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0) return typed_unseen(question);
   return fail(ErrorCode::access_locked, {{"operation", operation}});
 }
 

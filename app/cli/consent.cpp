@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <iostream>
 
+#include "app/cli/typed.h"
 #include "core/flow/steps/upload_step.h"
 
 namespace zerodrift::cli {
@@ -13,9 +13,8 @@ namespace {
 
 bool answered_yes(const flow::WriteQuestion& question) {
   if (question.table != nullptr) std::fprintf(stderr, "\n%s\n", text_of(question.table->record).c_str());
-  std::fprintf(stderr, "\n%s, %s? Type yes: ", question.operation.c_str(), question.machine.c_str());
-  std::string answer;
-  return std::getline(std::cin, answer) && answer == "yes";
+  const auto answer = typed_line(fmt::format("\n{}, {}? Type yes: ", question.operation, question.machine));
+  return answer && *answer == "yes";
 }
 
 }  // namespace

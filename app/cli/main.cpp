@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "app/cli/command.h"
+#include "app/cli/typed.h"
 #include "app/text/error_text.h"
 #include "core/base/file.h"
 #include "core/base/json.h"
@@ -55,6 +56,7 @@ std::jthread watch_signals(std::stop_source& stop) {
           first = Clock::now();
           stop.request_stop();
           zerodrift::end_waiting_reads();
+          zerodrift::cli::end_typing();
         } else if (Clock::now() - first > together) {
           std::signal(signal, SIG_DFL);
           std::raise(signal);

@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/typed.h"
+#include "app/text/error_text.h"
+#include "app/text/operator_text.h"
 #include "core/base/json.h"
 
 namespace zerodrift::cli {
@@ -18,34 +20,11 @@ using controller::OperatorAnswer;
 using controller::OperatorRequest;
 using nlohmann::json;
 
-std::string motion_text(const OperatorRequest& request) {
-  return fmt::format("spindle {:.0f} rpm, coolant {}", request.spindle_rpm, request.coolant_on ? "on" : "off");
-}
+constexpr int most_tries = 10;  // then the other end does not speak this language
 
-/// What the person is to do.
+/// What the person is to do. A program reads the figures, so they are those of the C locale.
 std::string text_of(const OperatorRequest& request) {
-  switch (request.act) {
-    case OperatorAct::state:
-      return "Is the compensation switched on at the control?";
-    case OperatorAct::command:
-      return fmt::format("Set {}, {}", motion_text(request),
-                         request.path_cycle ? "and start the warm-up path" : "no warm-up path");
-    case OperatorAct::move: {
-      std::string target;
-      for (const auto& [axis, position_mm] : request.target_mm) target += fmt::format(" {} {:.3f}", axis, position_mm);
-      return fmt::format("Stop the path and move to{} mm ({})", target, motion_text(request));
-    }
-    case OperatorAct::switch_compensation:
-      return request.compensation_on ? "Switch the compensation on" : "Switch the compensation off";
-    case OperatorAct::offset:
-      return fmt::format("Enter a test offset of X {:g}, Y {:g}, Z {:g} um", request.offset_um[0], request.offset_um[1],
-                         request.offset_um[2]);
-    case OperatorAct::load_table:
-      return fmt::format("Load the table {} into the control", request.file);
-    case OperatorAct::check_table:
-      return "Read off the check value of the table that is active";
-  }
-  return "";
+  return operatorText(request, QLocale::c()).toStdString();
 }
 
 json to_json(const OperatorRequest& request, int number) {
@@ -87,16 +66,26 @@ class JsonOperator : public controller::Operator {
  public:
   Result<OperatorAnswer> ask(const OperatorRequest& request) override {
     const std::lock_guard lock(m_mutex);
-    std::printf("%s\n", json_text(to_json(request, ++m_number)).c_str());
-    std::fflush(stdout);
-    std::string line;
-    if (!std::getline(std::cin, line)) return fail(ErrorCode::operator_gone);
-    ZD_TRY(const json answer, parse_json(line, "the operator's answer"));
+    json line = to_json(request, ++m_number);
+    for (int tries = 1;; ++tries) {
+      std::printf("%s\n", json_text(line).c_str());
+      std::fflush(stdout);
+      ZD_TRY(const auto typed, typed_line());
+      if (!typed) return fail(ErrorCode::operator_gone);
+      auto answer = answer_in(*typed, request);
+      // Asked again where the answer cannot be understood; a no is an answer.
+      if (answer || answer.error().code == ErrorCode::operator_declined || tries == most_tries) return answer;
+      line["error"] = lineOf(answer.error()).toStdString();
+    }
+  }
+
+ private:
+  Result<OperatorAnswer> answer_in(const std::string& typed, const OperatorRequest& request) const {
+    ZD_TRY(const json answer, parse_json(typed, "the operator's answer"));
     return from_json<OperatorAnswer>(answer, "the operator's answer", nullptr,
                                      [&](JsonObject& o) { return answer_of(o, request); });
   }
 
- private:
   OperatorAnswer answer_of(JsonObject& o, const OperatorRequest& request) const {
     if (o.integer("request", 1, 1'000'000'000) != m_number) {
       o.reject("request", std::to_string(o.integer("request", 1, 1'000'000'000)), std::to_string(m_number));
@@ -123,11 +112,13 @@ class TerminalOperator : public controller::Operator {
     OperatorAnswer answer;
     const std::string text = text_of(request);
     if (request.act == OperatorAct::state) {
-      ZD_TRY(const std::string word, line_for(text + " Type on or off: "));
-      if (word != "on" && word != "off") return fail(declined(request, "neither on nor off: " + word));
+      std::string word;
+      while (word != "on" && word != "off") {
+        ZD_TRY(word, line_for(text + " Type on or off: "));
+      }
       answer.compensation_on = word == "on";
     } else if (asks_for_check(request)) {
-      ZD_TRY(answer.check, line_for(text + ", then type the check value that the control shows: "));
+      ZD_TRY(answer.check, line_for(text + ": "));
     } else {
       ZD_TRY(const std::string reason, line_for(text + ", then press Enter (or type why it cannot be done): "));
       if (!reason.empty()) return fail(declined(request, reason));
@@ -137,10 +128,9 @@ class TerminalOperator : public controller::Operator {
 
  private:
   static Result<std::string> line_for(const std::string& question) {
-    std::fprintf(stderr, "\r%s", question.c_str());
-    std::string line;
-    if (!std::getline(std::cin, line)) return fail(ErrorCode::operator_gone);
-    return line;
+    ZD_TRY(const auto line, typed_line("\r" + question));
+    if (!line) return fail(ErrorCode::operator_gone);
+    return *line;
   }
 
   std::mutex m_mutex;

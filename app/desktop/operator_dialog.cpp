@@ -8,6 +8,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "app/text/operator_text.h"
+
 namespace zerodrift::desktop {
 namespace {
 
@@ -59,7 +61,7 @@ void OperatorDialog::update() {
   const auto request = m_questions->open();
   if (!request) return hide();
   setWindowTitle(tr("At the control"));
-  m_text->setText(requestText(*request));
+  m_text->setText(operatorText(*request));
   const bool state = request->act == OperatorAct::state;
   m_typed->setVisible(takes_check(request->act));
   m_typed->clear();

@@ -45,7 +45,4 @@ class OperatorQuestions : public QObject, public std::enable_shared_from_this<Op
   std::optional<bool> m_compensation_on;
 };
 
-/// What the person is to do, in one sentence.
-QString requestText(const controller::OperatorRequest& request);
-
 }  // namespace zerodrift::desktop

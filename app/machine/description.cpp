@@ -215,6 +215,7 @@ json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden)
                   {"sensors", sensors},
                   {"limits", {{"max_um", 200}, {"max_um_per_s", 2}}},
                   {"machine", description_for_cameras(hidden)}};
+  if (endpoints.serial != 0) profile["controller"]["serial"] = endpoints.serial;
   if (endpoints.rig) split_into_parts(profile, *endpoints.rig, endpoints.speedup);
   return profile;
 }

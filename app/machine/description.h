@@ -28,6 +28,7 @@ struct Endpoints {
   int port = 1502;
   int camera_port = 8090;
   int speedup = 1;
+  std::uint32_t serial = 0;  // 0: not written
   std::optional<RigEndpoints> rig = std::nullopt;
 };
 nlohmann::json connection_profile(const Endpoints& endpoints, const HiddenEffects& hidden);

@@ -21,6 +21,7 @@ class LiveMachine {
   controller::RegisterReply read(int address, int count);
   std::optional<controller::ModbusException> write(int address, std::span<const std::uint16_t> words);
   CameraScene scene(View view);
+  std::uint32_t serial() const { return m_bank.serial(); }
   /// What the function makes of the machine as it is now; nothing moves meanwhile.
   template <class Function>
   auto with(Function function) {

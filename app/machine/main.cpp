@@ -184,7 +184,7 @@ Status serve(const Options& options, const HiddenEffects& hidden, const sigset_t
   machine.set_sensor_fault(sensor_fault(faults));
   CameraServer cameras(camera_settings(options), [&](View view) { return machine.scene(view); });
   ZD_TRY(const int camera_port, cameras.start(options.camera_port));
-  Endpoints endpoints{options.host, 0, camera_port, options.speedup};
+  Endpoints endpoints{options.host, 0, camera_port, options.speedup, machine.serial()};
   std::unique_ptr<controller::ModbusServer> control;
   if (!options.manual) {
     ZD_TRY(control, controller::ModbusServer::start(control_options(options, machine, reply_faults)));

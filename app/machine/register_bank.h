@@ -22,6 +22,7 @@ class RegisterBank {
   RegisterBank(Machine& machine, std::uint32_t serial, int time_factor,
                RegisterScope scope = RegisterScope::whole_machine);
 
+  std::uint32_t serial() const { return m_serial; }
   void set_time_factor(int time_factor) { m_time_factor = time_factor; }
   controller::RegisterReply read(int address, int count) const;
   std::optional<controller::ModbusException> write(int address, std::span<const std::uint16_t> words);

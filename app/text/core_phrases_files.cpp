@@ -8,7 +8,15 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 73> files = {{
+constexpr std::array<const char*, 81> files = {{
+    QT_TRANSLATE_NOOP("core", "a number alone, and its unit in the heading or in a row of units"),
+    QT_TRANSLATE_NOOP("core", "there is no folder %1"),
+    QT_TRANSLATE_NOOP("core", "%1 is no folder"),
+    QT_TRANSLATE_NOOP("core", "nothing may be written into the folder %1"),
+    QT_TRANSLATE_NOOP("core", "a factor (%1) in the heading"),
+    QT_TRANSLATE_NOOP("core", "a heading without one, or \"scale\" in a column map"),
+    QT_TRANSLATE_NOOP("core", "kelvin, by their size (%1 at the start)"),
+    QT_TRANSLATE_NOOP("core", "degrees Fahrenheit, by their size (%1 at the start)"),
     QT_TRANSLATE_NOOP("core", "the PIN could not be hashed"),
     QT_TRANSLATE_NOOP("core", "%1 hexadecimal digits"),
     QT_TRANSLATE_NOOP("core", "no random numbers"),

@@ -8,7 +8,24 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 348> machines = {{
+constexpr std::array<const char*, 365> machines = {{
+    QT_TRANSLATE_NOOP("core", "one order"),
+    QT_TRANSLATE_NOOP("core", "one column of an order"),
+    QT_TRANSLATE_NOOP("core", "another Zerodrift program, process %1, works on this controller"),
+    QT_TRANSLATE_NOOP("core", "another Zerodrift program works on this controller"),
+    QT_TRANSLATE_NOOP("core", "end it or wait for it"),
+    QT_TRANSLATE_NOOP("core", "a write from here"),
+    QT_TRANSLATE_NOOP("core", "the profile's machine"),
+    QT_TRANSLATE_NOOP("core", "serial %1, which is connected"),
+    QT_TRANSLATE_NOOP("core", "make the table anew with this machine's profile"),
+    QT_TRANSLATE_NOOP("core", "an axis of the table"),
+    QT_TRANSLATE_NOOP("core", "one of the machine's (%1)"),
+    QT_TRANSLATE_NOOP("core", "the table's limit of axis %1"),
+    QT_TRANSLATE_NOOP("core", "the table's rate of axis %1"),
+    QT_TRANSLATE_NOOP("core", "the table does not say for which machine it was made"),
+    QT_TRANSLATE_NOOP("core", "the error of axis %1 at %2 mm in the axis table"),
+    QT_TRANSLATE_NOOP("core", "no answer within %1 ms"),
+    QT_TRANSLATE_NOOP("core", "Switching the compensation"),
     QT_TRANSLATE_NOOP("core", "finite numbers, positions in order"),
     QT_TRANSLATE_NOOP("core", "a whole number after P"),
     QT_TRANSLATE_NOOP("core", "no table"),

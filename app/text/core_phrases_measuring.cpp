@@ -8,7 +8,9 @@
 namespace zerodrift {
 namespace {
 
-constexpr std::array<const char*, 279> measuring = {{
+constexpr std::array<const char*, 281> measuring = {{
+    QT_TRANSLATE_NOOP("core", "correct table"),
+    QT_TRANSLATE_NOOP("core", "every %1 s instead of %2 s"),
     QT_TRANSLATE_NOOP("core", "an empty cell"),
     QT_TRANSLATE_NOOP("core", "where the machine stood, in mm"),
     QT_TRANSLATE_NOOP("core", "the point whose displacement is measured"),

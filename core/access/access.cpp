@@ -11,6 +11,7 @@
 
 #include "core/base/file.h"
 #include "core/base/json.h"
+#include "core/base/write_failure.h"
 
 namespace zerodrift::access {
 namespace {
@@ -153,7 +154,7 @@ Status Access::write() const {
   if (m_pin) document["pin"] = to_json(*m_pin);
   ZD_CHECK(write_file(m_file, json_text(document, 2) + "\n"));
   fs::permissions(m_file, mode, error);
-  if (error) return fail(ErrorCode::file_not_writable, {{"file", m_file.string()}, {"detail", error.message()}});
+  if (error) return fail(write_failure(m_file, error.value()));
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include "core/acquisition/happening.h"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -45,7 +46,10 @@ std::string Tally::particulars_of(const std::map<std::string, std::string>& cont
   for (const char* key : {"sensor", "reason", "view"}) {
     if (const auto at = context.find(key); at != context.end()) return at->second;
   }
-  return {};
+  const auto period = context.find("period_s");
+  const auto every = context.find("every_s");
+  if (period == context.end() || every == context.end()) return {};
+  return fmt::format("every {} s instead of {} s", every->second, period->second);
 }
 
 std::vector<Happening> Tally::all() const {

@@ -28,7 +28,7 @@ std::vector<Happening> happenings_from_json(const nlohmann::json& value);
 class Tally {
  public:
   void add(const std::string& name, const std::string& what);
-  /// Which one an error is about: the sensor, the reason, the camera; may be empty.
+  /// Which one an error is about: the sensor, the reason, the camera, or from what to what it changed; may be empty.
   static std::string particulars_of(const std::map<std::string, std::string>& context);
   std::vector<Happening> all() const;
 

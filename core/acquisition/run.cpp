@@ -13,15 +13,9 @@ namespace {
 
 constexpr double shortest_wait_s = 1e-6;
 constexpr double slice_s = 0.1;  // wall; how soon a request is seen
-// A sample a little before its time, by jitter of the clocks, counts as the one that was due.
-constexpr double early_share = 0.1;
 constexpr double longest_sink_failure_s = 600.0;
 
 }  // namespace
-
-double next_multiple(double time_s, double period_s) {
-  return (std::floor(time_s / period_s + early_share) + 1.0) * period_s;
-}
 
 Run::Run(MachineIo& machine, ErrorSource& errors, Clock& clock, RunSink& sink, const RecorderOptions& options,
          RunControl& control, const TaskContext& context)
@@ -164,7 +158,7 @@ Status Run::keep(const MachineSample& sample, const ErrorSample* error, bool exp
   if (time_s <= m_last_row_s) return {};
   // The row of a measurement lies in its middle; the periods up to its end have passed with it and are not lost.
   const double since_s = std::max(m_last_row_s, m_measured_to_s);
-  const auto periods = std::llround((time_s - since_s) / m_start.plan.sample_period_s) - 1;
+  const auto periods = samples_between(since_s, time_s, m_start.plan.sample_period_s);
   if (expected_late && !m_link_was_lost) m_measured_to_s = m_next_sample_s - m_start.plan.sample_period_s;
   if (m_link_was_lost) {
     ++m_summary.gaps;
@@ -220,7 +214,7 @@ void Run::event(std::string kind, std::string text, std::string details) {
 std::int64_t Run::missing_now() const {
   if (!m_link_was_lost || m_last_row_s < 0.0) return 0;
   const double since_s = std::max(m_last_row_s, m_measured_to_s);
-  return std::max(0LL, std::llround((time_now_s() - since_s) / m_start.plan.sample_period_s) - 1);
+  return samples_between(since_s, time_now_s(), m_start.plan.sample_period_s);
 }
 
 void Run::publish(RunPhase phase, const std::vector<double>* row, const ErrorSample* measured) {

@@ -5,6 +5,7 @@
 #include "core/acquisition/recorder.h"
 #include "core/acquisition/run_log.h"
 #include "core/acquisition/run_row.h"
+#include "core/acquisition/sample_grid.h"
 #include "core/acquisition/sensor_watch.h"
 
 namespace zerodrift::acquisition {
@@ -122,8 +123,6 @@ class Run {
   bool m_link_was_lost = false;
 };
 
-/// The next time that is a multiple of the period; one that is all but reached has passed.
-double next_multiple(double time_s, double period_s);
 /// {"code": ..., "context": {...}} for a problem's event.
 std::string details_of(const Error& error);
 

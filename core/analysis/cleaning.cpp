@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/recording/unit_suspicion.h"
+
 namespace zerodrift::analysis {
 namespace {
 
@@ -22,12 +24,6 @@ std::vector<double> present(const std::vector<double>& values) {
     if (std::isfinite(v)) out.push_back(v);
   }
   return out;
-}
-
-double start_value(const std::vector<double>& values) {
-  std::vector<double> first = present(values);
-  if (first.size() > 9) first.resize(9);
-  return median_of(std::move(first));
 }
 
 struct Stretch {
@@ -280,33 +276,9 @@ void hold_gaps(std::vector<double>& values) {
 
 void suspect_units(const std::vector<std::string>& channels, const std::vector<std::vector<double>>& values,
                    std::vector<Finding>& findings) {
-  const auto suspect = [&](std::size_t c, FindingKind kind, double start) {
-    findings.push_back({kind, FindingAction::noted, channels[c], fmt::format("starts at {:.4g}", start)});
-  };
-  std::vector<std::size_t> there;  // in what may be Celsius
-  std::vector<double> starts;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    const std::vector<double> samples = present(values[c]);
-    const double start = start_value(values[c]);
-    if (!std::isfinite(start)) continue;
-    if (*std::min_element(samples.begin(), samples.end()) > 200.0 && start < 400.0) {
-      suspect(c, FindingKind::kelvin, start);
-    } else {
-      there.push_back(c);
-      starts.push_back(start);
-    }
-  }
-  if (starts.empty()) return;
-  const double coldest = *std::min_element(starts.begin(), starts.end());
-  const double middle = median_of(starts);
-  const bool all = coldest > 50.0 && coldest < 120.0;
-  // One sensor alone: only when the rest starts uniform and in Celsius it would fall among them.
-  const auto uniform =
-      std::count_if(starts.begin(), starts.end(), [&](double s) { return std::abs(s - middle) < 3.0; });
-  const bool one_may_differ = starts.size() >= 3 && 5 * uniform >= 3 * std::ssize(starts);
-  for (std::size_t i = 0; i < there.size(); ++i) {
-    const bool falls_among = starts[i] - middle > 20.0 && std::abs((starts[i] - 32.0) / 1.8 - middle) < 1.5;
-    if (all || (one_may_differ && falls_among)) suspect(there[i], FindingKind::fahrenheit, starts[i]);
+  for (const auto& one : recording::suspected_units(values)) {
+    findings.push_back({one.kelvin ? FindingKind::kelvin : FindingKind::fahrenheit, FindingAction::noted,
+                        channels[one.channel], fmt::format("starts at {:.4g}", one.start_C)});
   }
 }
 

@@ -10,13 +10,10 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/base/write_failure.h"
+
 namespace zerodrift {
 namespace {
-
-tl::unexpected<Error> write_failure(const std::filesystem::path& path, int error_number) {
-  if (error_number == ENOSPC || error_number == EDQUOT) return fail(ErrorCode::disk_full, {{"file", path.string()}});
-  return fail(ErrorCode::file_not_writable, {{"file", path.string()}, {"detail", std::strerror(error_number)}});
-}
 
 /// Writes everything and flushes it to the disk; 0 or errno.
 int write_all(int descriptor, std::string_view bytes) {
@@ -35,10 +32,10 @@ int write_all(int descriptor, std::string_view bytes) {
 
 Status write_in_place(const std::filesystem::path& path, std::string_view bytes) {
   const int descriptor = ::open(path.c_str(), O_WRONLY);
-  if (descriptor < 0) return write_failure(path, errno);
+  if (descriptor < 0) return fail(write_failure(path, errno));
   const int error_number = write_all(descriptor, bytes);
   ::close(descriptor);
-  if (error_number != 0) return write_failure(path, error_number);
+  if (error_number != 0) return fail(write_failure(path, error_number));
   return {};
 }
 
@@ -107,19 +104,19 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
   }
   std::string temporary = path.string() + ".XXXXXX";
   const int descriptor = ::mkstemp(temporary.data());
-  if (descriptor < 0) return write_failure(path, errno);
+  if (descriptor < 0) return fail(write_failure(path, errno));
   int error_number = write_all(descriptor, bytes);
   if (error_number == 0 && ::fchmod(descriptor, 0644) != 0) error_number = errno;
   ::close(descriptor);
   if (error_number == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error_number = errno;
   if (error_number == 0) return {};
   ::unlink(temporary.c_str());
-  return write_failure(path, error_number);
+  return fail(write_failure(path, error_number));
 }
 
 Status append_file(const std::filesystem::path& path, std::string_view lines) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor < 0) return write_failure(path, errno);
+  if (descriptor < 0) return fail(write_failure(path, errno));
   std::string bytes;
   char last = '\n';
   const off_t size = ::lseek(descriptor, 0, SEEK_END);
@@ -127,7 +124,7 @@ Status append_file(const std::filesystem::path& path, std::string_view lines) {
   bytes += lines;
   const int error_number = write_all(descriptor, bytes);
   ::close(descriptor);
-  if (error_number != 0) return write_failure(path, error_number);
+  if (error_number != 0) return fail(write_failure(path, error_number));
   return {};
 }
 

@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <system_error>
 
 #include "core/base/time_text.h"
+#include "core/base/write_failure.h"
 #include "core/commissioning/job_store.h"
 #include "core/commissioning/schema.h"
 
@@ -28,6 +30,9 @@ Status write_header_value(Database& database, std::string_view key, std::string_
 
 // The whole file is made under another name first: a job is there with all its tables or not at all.
 Status make_file(const std::filesystem::path& path, const JobHeader& header) {
+  // The database's own words for a folder that may not be written to are of no use.
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (::access(folder.c_str(), W_OK) != 0) return fail(write_failure(path, errno));
   const std::filesystem::path temporary = path.string() + ".new";
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
@@ -42,7 +47,7 @@ Status make_file(const std::filesystem::path& path, const JobHeader& header) {
   std::filesystem::create_hard_link(temporary, path, error);  // unlike a rename it never replaces a file
   if (error && error != std::errc::file_exists) std::filesystem::rename(temporary, path, error);  // no links here (FAT)
   std::filesystem::remove(temporary, ignored);
-  if (error) return fail(ErrorCode::file_not_writable, {{"file", path.string()}, {"detail", error.message()}});
+  if (error) return fail(write_failure(path, error.value()));
   return {};
 }
 
@@ -107,7 +112,7 @@ Result<Job> Job::open_checked(const std::filesystem::path& path, bool read_only)
   if (!read_only) {
     ZD_TRY(store->lock, LockFile::take(path));
     if (::access(path.c_str(), W_OK) != 0) {  // the database would open such a file for reading without a word
-      return fail(ErrorCode::file_not_writable, {{"file", path.string()}, {"detail", "permission denied"}});
+      return fail(ErrorCode::file_not_writable, {{"file", path.string()}, {"detail", "Permission denied"}});
     }
   }
   ZD_TRY(store->database, Database::open(path, read_only ? OpenMode::read_only : OpenMode::read_write));

@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
+
+#include "core/base/write_failure.h"
 
 namespace zerodrift::commissioning {
 namespace {
@@ -26,8 +27,7 @@ Result<std::unique_ptr<LockFile>> LockFile::take(const std::filesystem::path& jo
   for (;;) {
     const int handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (handle < 0) {
-      const std::string detail = std::generic_category().message(errno);
-      return fail(ErrorCode::file_not_writable, {{"file", path.string()}, {"detail", detail}});
+      return fail(write_failure(job, errno));
     }
     if (::flock(handle, LOCK_EX | LOCK_NB) != 0) {
       ::close(handle);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/compensation/laser_parts.h"
@@ -122,6 +123,25 @@ Status check_kind(const Line& line, const std::string& file) {
                                         {"expected", "one of a linear axis; rotary axes are not compensated"}});
 }
 
+/// Targets are in mm and deviations in um by the form itself; a line that says otherwise changes every number.
+Status check_units(const Line& line, std::string_view section, const std::string& file) {
+  const std::string text = lowered(std::string(line.text));
+  const std::string key = text.substr(0, text.find(':'));
+  const bool of_units = key.size() < text.size() && (key.ends_with("unit") || key.ends_with("units"));
+  if (!of_units || section == "USER-TEXT::" || section == "ENVIRONMENT::") return {};
+  const std::string value = lowered(after_colon(line.text));
+  const bool of_errors = key.find("dev") != std::string::npos || key.find("err") != std::string::npos;
+  static const std::array<std::string_view, 4> small = {"um", "µm", "micron", "microns"};
+  static const std::array<std::string_view, 5> large = {"mm", "metric", "millimetres", "millimeters", "millimetre"};
+  const auto is_one = [&](const auto& words) { return std::find(words.begin(), words.end(), value) != words.end(); };
+  if (of_errors ? is_one(small) : is_one(large)) return {};
+  return fail(ErrorCode::column_unclear, {{"file", file},
+                                          {"line", std::to_string(line.number)},
+                                          {"column", std::string(line.text.substr(0, line.text.find(':')))},
+                                          {"found", after_colon(line.text)},
+                                          {"expected", of_errors ? "um" : "mm"}});
+}
+
 class RtlReader {
  public:
   RtlReader(const std::string& file, const NumberLines& numbers) : m_file(file), m_numbers(numbers) {}
@@ -132,6 +152,7 @@ class RtlReader {
       m_in_targets = false;
       return {};
     }
+    ZD_CHECK(check_units(line, m_section, m_file));
     if (m_section == "HEADER::" && line.text.starts_with("File type:")) return check_kind(line, m_file);
     if (m_section == "TARGET DATA::") return take_target_line(line);
     if (m_section == "USER-TEXT::") {

@@ -235,6 +235,11 @@ bool is_compensation(const NameTokens& n) {
          n.holds({"补偿", "修正", "校正"});
 }
 
+/// "Temperature compensated error": an error still, beside which another one is another reading.
+bool is_corrected(const NameTokens& n) {
+  return n.begins({"compensated", "corrected", "kompensiert", "korrigiert", "bereinigt"});
+}
+
 /// "soll - ist", "target-actual": commanded - actual, true; "ist - soll": false; nothing where none is taken from
 /// other.
 std::optional<bool> target_less_actual(const NameTokens& n) {
@@ -279,6 +284,7 @@ ColumnRole role_of(const NameTokens& n, ColumnName& column) {
   const bool error = is_error(n);
   const bool measured = is_measured(n);
   const bool target = is_target(n);
+  if (error && is_corrected(n)) return ColumnRole::error;
   if (is_surrounding(n)) return ColumnRole::remark;
   if (is_validity(n)) return ColumnRole::validity;
   if (is_compensation(n)) return ColumnRole::compensation;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/analysis/predict.h"
@@ -18,6 +20,12 @@ std::string axis_of(const std::string& error) {
   return {};
 }
 
+void keep_limits(AxisTable& axis, const ModelTableOptions& machine) {
+  axis.max_um = machine.max_um;
+  axis.max_um_per_s = machine.max_um_per_s;
+  axis.max_um_per_K = machine.max_um_per_K;
+}
+
 }  // namespace
 
 Result<Table> table_from_model(const analysis::Model& model, const ModelTableOptions& options,
@@ -27,6 +35,7 @@ Result<Table> table_from_model(const analysis::Model& model, const ModelTableOpt
   };
   Table table;
   table.machine = options.machine;
+  table.serial = options.serial;
   table.version = 1;
   for (const auto& error : model.table) {
     const std::string name = axis_of(error.error);
@@ -36,9 +45,7 @@ Result<Table> table_from_model(const analysis::Model& model, const ModelTableOpt
     }
     AxisTable& axis = table.axes[name];
     axis.offset_um = error.offset_um;
-    axis.max_um = options.max_um;
-    axis.max_um_per_s = options.max_um_per_s;
-    axis.max_um_per_K = options.max_um_per_K;
+    keep_limits(axis, options);
     for (const auto& term : error.terms) axis.terms.push_back({term.sensor, term.um_per_K, term.reference_C, 0.0});
   }
   if (table.axes.empty()) {
@@ -73,7 +80,7 @@ Predictor live_predictor(const analysis::Model& model) {
   };
 }
 
-Status add_axis_table(Table& table, const Table& axis_table) {
+Status add_axis_table(Table& table, const Table& axis_table, const ModelTableOptions& machine) {
   for (const auto& [name, axis] : axis_table.axes) {
     const bool known = table.axes.contains(name);
     AxisTable& into = table.axes[name];
@@ -82,14 +89,22 @@ Status add_axis_table(Table& table, const Table& axis_table) {
                                             {"found", "two with points for axis " + name},
                                             {"expected", "one table for each axis"}});
     }
+    for (const auto& point : axis.points) {
+      const double largest_um = std::max(std::abs(point.error_up_um), std::abs(point.error_down_um));
+      if (largest_um <= machine.max_um) continue;
+      return fail(ErrorCode::limit_exceeded,
+                  {{"what", fmt::format("the error of axis {} at {:g} mm in the axis table", name, point.position_mm)},
+                   {"found", fmt::format("{:.1f} um", largest_um)},
+                   {"limit", fmt::format("{:g} um", machine.max_um)}});
+    }
     if (!known) {
       into = axis;
+      keep_limits(into, machine);
       continue;
     }
     if (!axis.points.empty()) into.points = axis.points;
     if (!axis.segments.empty()) into.segments = axis.segments;
     into.offset_um += axis.offset_um;
-    into.max_um = std::max(into.max_um, axis.max_um);
   }
   return {};
 }

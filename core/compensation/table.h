@@ -10,6 +10,7 @@
 // A machine may also hold segments (measured = a * commanded + b, the regression of a laser table): they give the
 // forward and inverse transformation; the points are what a controller interpolates.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -67,6 +68,7 @@ struct ValidRange {
 
 struct Table {
   std::string machine;
+  std::uint32_t serial = 0;  // of the machine it was made for; 0: not known
   int version = 0;
   std::map<std::string, AxisTable> axes;    // "X", "Y", "Z"
   std::map<std::string, ValidRange> valid;  // by sensor channel

@@ -50,11 +50,13 @@ json without_crc(const Table& table) {
   for (const auto& [name, axis] : table.axes) axes[name] = axis_to_json(axis);
   json valid = json::object();
   for (const auto& [sensor, range] : table.valid) valid[sensor] = {range.low_C, range.high_C};
-  return {{"format", format_name},
-          {"machine", table.machine},
-          {"version", table.version},
-          {"axes", axes},
-          {"valid", valid}};
+  json document = {{"format", format_name},
+                   {"machine", table.machine},
+                   {"version", table.version},
+                   {"axes", axes},
+                   {"valid", valid}};
+  if (table.serial != 0) document["serial"] = table.serial;
+  return document;
 }
 
 void read_segments_and_points(JsonObject& object, AxisTable& axis) {
@@ -118,6 +120,7 @@ Table read_body(JsonObject& o) {
   Table table;
   o.word("format", {format_name});
   table.machine = o.text_or("machine", "");
+  table.serial = static_cast<std::uint32_t>(o.integer_or("serial", 0, 0, 2147483647));
   table.version = o.integer_or("version", 0, 0, 65535);
   o.raw("crc32");
   JsonObject& axes = o.object("axes");

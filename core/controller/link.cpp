@@ -127,7 +127,11 @@ class Link::Wire {
     modbus_set_response_timeout(context, milliseconds / 1000, milliseconds % 1000 * 1000);
     // Without a byte timeout the response timeout bounds the whole reply, however slowly its bytes come.
     modbus_set_byte_timeout(context, 0, 0);
-    if (modbus_connect(context) != 0) return unreachable(modbus_strerror(errno));
+    if (modbus_connect(context) != 0) {
+      // The library leaves "in progress" behind when its time is over.
+      if (errno != EINPROGRESS && errno != ETIMEDOUT) return unreachable(modbus_strerror(errno));
+      return unreachable(fmt::format("no answer within {} ms", settings.timeout_ms).c_str());
+    }
     if (wire->m_tcp) wire->wait_in_calls();
     if (!wire->m_tcp) modbus_flush(context);  // what came late for a former connection
     return wire;

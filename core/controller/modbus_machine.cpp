@@ -13,6 +13,7 @@
 #include "core/base/json.h"
 #include "core/base/resources.h"
 #include "core/compensation/interlock.h"
+#include "core/controller/controller_claim.h"
 #include "core/controller/device_readings.h"
 
 namespace zerodrift::controller {
@@ -102,6 +103,9 @@ Result<std::unique_ptr<ModbusMachine>> ModbusMachine::open(const Profile& profil
   }
   ZD_TRY(RegisterMap map, map_of(profile));
   auto machine = std::make_unique<ModbusMachine>(profile, std::move(map), permit);
+  if (permit.may_write()) {
+    ZD_TRY(machine->m_claim, ControllerClaim::take(machine->m_link.settings()));
+  }
   ZD_TRY(machine->m_devices, DeviceReadings::open(profile));
   return machine;
 }

@@ -17,6 +17,7 @@
 
 namespace zerodrift::controller {
 
+class ControllerClaim;
 class DeviceReadings;
 
 using RegisterValues = std::map<std::string, std::vector<double>>;  // register name -> its values
@@ -27,7 +28,8 @@ Result<RegisterMap> map_of(const Profile& profile, std::vector<std::string>* war
 class ModbusMachine : public acquisition::MachineIo {
  public:
   /// Loads the profile's register map and starts to ask the rig's devices; the first request connects. Without a permit
-  /// to write every write is access_locked before a byte is sent.
+  /// to write every write is access_locked before a byte is sent; with one the controller is claimed
+  /// (controller_claim.h) until the machine ends.
   static Result<std::unique_ptr<ModbusMachine>> open(const Profile& profile,
                                                      access::Permit permit = access::Permit::read_only());
   /// The control alone.
@@ -86,6 +88,7 @@ class ModbusMachine : public acquisition::MachineIo {
   RegisterMap m_map;
   access::Permit m_permit;
   Link m_link;
+  std::unique_ptr<ControllerClaim> m_claim;  // null for one that only reads
   std::shared_ptr<DeviceReadings> m_devices;
   bool m_single_reads = false;  // the device refused a read across a gap
   bool m_watchdog_set = false;

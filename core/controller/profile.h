@@ -61,7 +61,7 @@ struct Profile {
   double time_factor = 1.0;  // machine seconds a host second
   ControllerSettings controller;
   bool manual = false;                 // the control has no link: a person does what is asked (manual_control.h)
-  std::uint32_t serial = 0;            // of a machine whose control cannot be asked
+  std::uint32_t serial = 0;            // of the machine; 0: not known. A table made by this profile is for it
   std::vector<DeviceProfile> devices;  // read beside the control
   SignalSources sources;
   std::vector<CameraProfile> cameras;

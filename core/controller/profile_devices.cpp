@@ -41,11 +41,8 @@ ControllerSettings read_modbus(JsonObject& o, bool tcp) {
 /// The control of the former format, and of a device that is the control. False: it is a person.
 void read_control(JsonObject& o, const std::string& kind, Profile& profile) {
   profile.manual = kind == "manual";
-  if (profile.manual) {
-    profile.serial = static_cast<std::uint32_t>(o.integer_or("serial", 0, 0, 2147483647));
-  } else {
-    profile.controller = read_modbus(o, kind == "modbus-tcp");
-  }
+  profile.serial = static_cast<std::uint32_t>(o.integer_or("serial", 0, 0, 2147483647));
+  if (!profile.manual) profile.controller = read_modbus(o, kind == "modbus-tcp");
 }
 
 DeviceProfile read_device(JsonObject& o, const std::string& kind) {

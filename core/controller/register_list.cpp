@@ -133,7 +133,8 @@ Status check_unknown_columns(const List& list, std::vector<std::string>* warning
       if (cell.empty()) continue;
       if (!filled) filled = row;
       const bool matters = recording::looks_like_number(cell) || list_words::order_word(cell) ||
-                           list_words::type_word(cell) || list_words::function_word(cell);
+                           list_words::type_word(cell) || list_words::function_word(cell) ||
+                           list_words::names_both_orders(cell) || list_words::is_flag(cell);
       if (matters && !may_matter) filled = row;
       may_matter = may_matter || matters;
     }
@@ -286,16 +287,31 @@ class RowReader {
   }
 
   Status read_orders(json& entry) const {
+    constexpr const char* both_orders = "ABCD, CDAB, BADC or DCBA";
+    bool both = false;
+    for (const ListColumn column : {ListColumn::word_order, ListColumn::byte_order, ListColumn::endian}) {
+      const std::string cell = text(column);
+      if (cell.empty() || (column != ListColumn::endian && !list_words::names_both_orders(cell))) continue;
+      const auto orders = list_words::endian_word(cell);
+      if (!orders) return reject(column, both_orders);
+      if (both && (entry["word_order"] != orders->first || entry["byte_order"] != orders->second)) {
+        return reject(column, "one order");
+      }
+      entry["word_order"] = orders->first;
+      entry["byte_order"] = orders->second;
+      both = true;
+    }
     for (const auto& [column, key] :
          {std::pair{ListColumn::word_order, "word_order"}, std::pair{ListColumn::byte_order, "byte_order"}}) {
-      if (text(column).empty()) continue;
-      ZD_TRY(entry[key], word(column, list_words::order_word(text(column)), "high_first or low_first"));
+      const std::string cell = text(column);
+      if (cell.empty() || list_words::names_both_orders(cell)) continue;
+      if (both) return reject(column, "one column of an order");
+      // Of two registers, "little endian" beside "byte order" leaves open in which order the words are.
+      const bool two_words = !entry.at("type").get<std::string>().ends_with("16");
+      const bool open = column == ListColumn::byte_order && text(ListColumn::word_order).empty() && two_words;
+      if (open && list_words::is_endian(cell)) return reject(column, both_orders);
+      ZD_TRY(entry[key], word(column, list_words::order_word(cell), "high_first or low_first"));
     }
-    if (text(ListColumn::endian).empty()) return {};
-    const auto orders = list_words::endian_word(text(ListColumn::endian));
-    if (!orders) return reject(ListColumn::endian, "ABCD, CDAB, BADC or DCBA");
-    entry["word_order"] = orders->first;
-    entry["byte_order"] = orders->second;
     return {};
   }
 

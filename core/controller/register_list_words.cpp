@@ -148,13 +148,15 @@ ListColumn list_column(std::string_view header) {
           "slaveaddress", "stationsadresse", "station", "从站", "从站地址", "站号", "设备地址"})) {
     return ListColumn::slave;
   }
-  if (is({"comment",   "comments",  "description",  "remark",       "remarks",      "note",
-          "notes",     "access",    "rw",           "rw",           "readwrite",    "beschreibung",
-          "kommentar", "bemerkung", "zugriff",      "hinweis",      "text",         "no",
-          "nr",        "#",         "lfdnr",        "pos",          "id",           "group",
-          "gruppe",    "default",   "defaultvalue", "initialvalue", "standardwert", "读写",
-          "注释",      "描述",      "说明",         "备注",         "序号",         "编号",
-          "分组",      "权限",      "访问",         "默认值"})) {
+  if (is({"comment",      "comments",  "description", "remark",       "remarks",      "note",
+          "notes",        "access",    "writable",    "writeable",    "readable",     "readonly",
+          "schreibbar",   "lesbar",    "alarm",       "archive",      "archiv",       "logged",
+          "log",          "visible",   "sichtbar",    "rw",           "rw",           "readwrite",
+          "beschreibung", "kommentar", "bemerkung",   "zugriff",      "hinweis",      "text",
+          "no",           "nr",        "#",           "lfdnr",        "pos",          "id",
+          "group",        "gruppe",    "default",     "defaultvalue", "initialvalue", "standardwert",
+          "读写",         "注释",      "描述",        "说明",         "备注",         "序号",
+          "编号",         "分组",      "权限",        "访问",         "默认值"})) {
     return ListColumn::remark;
   }
   return ListColumn::unknown;
@@ -226,11 +228,11 @@ std::optional<std::string> function_word(std::string_view given) {
 
 std::optional<std::string> order_word(std::string_view given) {
   const std::string word = plain(given);
-  if (is_one_of(word, {"highfirst", "high", "big", "bigendian", "abcd", "ab", "msw", "mswfirst", "hochzuerst",
-                       "highwordfirst", "高字在前", "高位在前", "大端"})) {
+  if (is_one_of(word, {"highfirst", "high", "big", "bigendian", "ab", "msw", "mswfirst", "hochzuerst", "highwordfirst",
+                       "高字在前", "高位在前", "大端"})) {
     return "high_first";
   }
-  if (is_one_of(word, {"lowfirst", "low", "little", "littleendian", "cdab", "ba", "swapped", "swap", "lsw", "lswfirst",
+  if (is_one_of(word, {"lowfirst", "low", "little", "littleendian", "ba", "swapped", "swap", "lsw", "lswfirst",
                        "niedrigzuerst", "lowwordfirst", "低字在前", "低位在前", "小端"})) {
     return "low_first";
   }
@@ -248,6 +250,19 @@ std::optional<std::pair<std::string, std::string>> endian_word(std::string_view 
     return orders("high_first", "low_first");
   if (is_one_of(word, {"dcba", "little", "littleendian", "小端"})) return orders("low_first", "low_first");
   return std::nullopt;
+}
+
+bool names_both_orders(std::string_view given) {
+  return is_one_of(plain(given), {"abcd", "cdab", "badc", "dcba"});
+}
+
+bool is_endian(std::string_view given) {
+  return is_one_of(plain(given), {"little", "littleendian", "big", "bigendian", "大端", "小端"});
+}
+
+bool is_flag(std::string_view given) {
+  return is_one_of(plain(given), {"yes", "no",   "y",      "n",   "x",   "true", "false", "on", "off", "ja", "nein",
+                                  "j",   "wahr", "falsch", "oui", "non", "vrai", "faux",  "是", "否",  "✓"});
 }
 
 std::optional<ListAddress> address_word(std::string_view given) {

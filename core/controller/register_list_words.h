@@ -38,6 +38,13 @@ std::optional<std::string> order_word(std::string_view word);
 /// Word order and byte order of "ABCD", "CDAB", "BADC", "DCBA", big and little endian.
 std::optional<std::pair<std::string, std::string>> endian_word(std::string_view word);
 
+/// "CDAB": of words and bytes at once.
+bool names_both_orders(std::string_view word);
+/// "little endian", "big": of a whole value, or of its bytes.
+bool is_endian(std::string_view word);
+/// A yes or a no, in a column that may say "signed" or "swapped".
+bool is_flag(std::string_view word);
+
 /// An address as it stands in a list.
 struct ListAddress {
   enum class Form {

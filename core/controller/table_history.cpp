@@ -11,6 +11,7 @@
 #include "core/base/file.h"
 #include "core/base/json.h"
 #include "core/base/time_text.h"
+#include "core/base/write_failure.h"
 
 namespace zerodrift::controller {
 namespace {
@@ -70,9 +71,7 @@ Status TableHistory::start_log(std::uint32_t serial) const {
   if (is_there(log_file(serial))) return {};
   std::error_code failed;
   std::filesystem::create_directories(m_folder, failed);
-  if (failed) {
-    return fail(ErrorCode::file_not_writable, {{"file", m_folder.string()}, {"detail", failed.message()}});
-  }
+  if (failed) return fail(write_failure(m_folder, failed.value()));
   ZD_TRY(const TableLog before, read(serial));
   std::string text = line_of_head(serial) + '\n';
   for (const TableEntry& entry : before.entries) text += line_of_entry(entry) + '\n';
@@ -118,6 +117,10 @@ Status TableHistory::add(std::uint32_t serial, TableEntry entry) const {
   entry.id = new_id();
   entry.time = now_utc();
   return append(serial, {line_of_entry(entry)});
+}
+
+Status TableHistory::note_switch(std::uint32_t serial, bool on) const {
+  return append(serial, {line_of_switch(on, user(), now_utc())});
 }
 
 Status TableHistory::adopt(std::uint32_t serial, const std::vector<TableEntry>& entries) const {

@@ -30,6 +30,8 @@ class TableHistory {
   /// How that ended.
   Status end(std::uint32_t serial, const std::string& id, bool active) const;
   Status add(std::uint32_t serial, TableEntry entry) const;
+  /// The compensation is about to be switched outside of any job.
+  Status note_switch(std::uint32_t serial, bool on) const;
   /// Entries that another keeper has, a job file from another computer for example, take their place by their time.
   Status adopt(std::uint32_t serial, const std::vector<TableEntry>& entries) const;
 

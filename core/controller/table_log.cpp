@@ -57,8 +57,8 @@ TableEntry entry_from(JsonObject& o) {
 class LogReader {
  public:
   void take(JsonObject& o) {
-    const std::string what = o.word("line", {"head", "begin", "end", "entry", "adopted"});
-    if (what == "head") return;
+    const std::string what = o.word("line", {"head", "begin", "end", "entry", "adopted", "switch"});
+    if (what == "head" || what == "switch") return;
     if (what == "end") return end(o.text("id"), o.flag_or("active", false), o.text_or("time", ""));
     TableEntry entry = entry_from(o.object("table"));
     entry.unsettled = what == "begin";
@@ -212,6 +212,10 @@ std::string line_of_end(const std::string& id, bool active, const std::string& n
 
 std::string line_of_entry(const TableEntry& entry, bool adopted) {
   return one_line(json{{"line", adopted ? "adopted" : "entry"}, {"table", json_of(entry)}});
+}
+
+std::string line_of_switch(bool on, const std::string& who, const std::string& now_utc) {
+  return one_line(json{{"line", "switch"}, {"on", on}, {"who", who}, {"time", now_utc}});
 }
 
 Result<TableLog> log_from_lines(std::string_view text, const std::string& file) {

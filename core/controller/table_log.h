@@ -67,6 +67,8 @@ std::string line_of_begin(const TableEntry& entry);
 std::string line_of_end(const std::string& id, bool active, const std::string& now_utc);
 /// `adopted`: it takes its place by its time, not at the end.
 std::string line_of_entry(const TableEntry& entry, bool adopted = false);
+/// No table, and no entry therefore: who switched the compensation.
+std::string line_of_switch(bool on, const std::string& who, const std::string& now_utc);
 /// Lines that cannot be read are counted and left out; a newer format is refused.
 Result<TableLog> log_from_lines(std::string_view text, const std::string& file);
 /// The first format: a stack of the tables before the active one, each with when and by whom it was replaced.

@@ -136,6 +136,7 @@ Result<std::vector<std::uint16_t>> encode_table(const Table& table, const Profil
 Result<Table> decode_table(std::span<const std::uint16_t> words, const Profile& profile) {
   Table table;
   table.machine = profile.name;
+  table.serial = profile.serial;
   if (words.empty()) return table;
   Reader reader(words);
   if (!reader.has(2)) return not_a_table("1 word", "at least 2");
@@ -149,7 +150,7 @@ Result<Table> decode_table(std::span<const std::uint16_t> words, const Profile& 
 }
 
 compensation::ModelTableOptions table_options(const Profile& profile) {
-  return {profile.name, profile.max_um, profile.max_um_per_s, profile.max_um_per_K};
+  return {profile.name, profile.serial, profile.max_um, profile.max_um_per_s, profile.max_um_per_K};
 }
 
 std::uint32_t crc_of_words(std::span<const std::uint16_t> words) {

@@ -110,6 +110,8 @@ Result<bool> switch_compensation(commissioning::Job* job, Devices& devices, cons
   entry.subject = "compensation switch";
   entry.old_value = is_on ? "on" : "off";
   entry.new_value = on ? "on" : "off";
+  // Outside of any job the machine's own history is the trail.
+  if (job == nullptr) ZD_CHECK(controller::TableHistory().note_switch(identity.serial, on));
   ZD_CHECK(write.write(entry, [&] { return devices.machine->switch_compensation(on); }));
   return devices.machine->compensation_on();
 }

@@ -35,7 +35,8 @@ Result<controller::SignCheckRecord> try_signs(commissioning::Job& job, const con
                                               access::Permit permit, const Consent& consent,
                                               const TaskContext& context);
 
-/// Nothing is written when the switch stands there already. The state the switch has afterwards.
+/// Nothing is written when the switch is there already. Without a job the history of the machine's tables keeps it. The
+/// state the switch has afterwards.
 Result<bool> switch_compensation(commissioning::Job* job, Devices& devices, const Consent& consent, bool on);
 
 }  // namespace zerodrift::flow

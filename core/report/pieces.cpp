@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+
+#include "core/acquisition/happening.h"
 
 namespace zerodrift::report {
 
@@ -106,6 +109,22 @@ void add_course(const Source& source, const LoadedArtefact& artefact, Plot& plot
   }
 }
 
+namespace {
+
+/// Which one an event is about.
+std::string particulars_of(const commissioning::Event& event) {
+  const json details = json::parse(event.details, nullptr, false);
+  if (!details.is_object()) return {};
+  const json values = object_of(details, "context");
+  std::map<std::string, std::string> context;
+  for (const auto& [key, value] : values.items()) {
+    if (value.is_string()) context[key] = value.get<std::string>();
+  }
+  return acquisition::Tally::particulars_of(context);
+}
+
+}  // namespace
+
 std::vector<Happening> happenings_of(const Source& source, const LoadedRun& run) {
   static const std::map<std::string, const char*> kinds = {
       {"note", "note"},       {"pause", "pause"},          {"resume", "resumed"}, {"gap", "gap"},
@@ -119,6 +138,7 @@ std::vector<Happening> happenings_of(const Source& source, const LoadedRun& run)
     if (event.kind != "note") {
       std::replace(text.begin(), text.end(), '_', ' ');
       text = source.in_words(text);
+      if (const std::string about = particulars_of(event); !about.empty()) text += " (" + source.in_words(about) + ")";
     }
     all.push_back({static_cast<int>(all.size()) + 1, event.time_s, source.say(kind->second), std::move(text)});
   }

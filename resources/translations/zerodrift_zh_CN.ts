@@ -6393,6 +6393,114 @@
         <source>an address of the camera</source>
         <translation>相机地址</translation>
     </message>
+    <message>
+        <source>another Zerodrift program, process %1, works on this controller</source>
+        <translation>另一个 Zerodrift 程序（进程 %1）正在使用此控制器</translation>
+    </message>
+    <message>
+        <source>another Zerodrift program works on this controller</source>
+        <translation>另一个 Zerodrift 程序正在使用此控制器</translation>
+    </message>
+    <message>
+        <source>end it or wait for it</source>
+        <translation>请结束它或等待其完成</translation>
+    </message>
+    <message>
+        <source>a write from here</source>
+        <translation>从此处写入</translation>
+    </message>
+    <message>
+        <source>the profile&apos;s machine</source>
+        <translation>配置文件所属机床</translation>
+    </message>
+    <message>
+        <source>serial %1, which is connected</source>
+        <translation>序列号 %1（当前连接）</translation>
+    </message>
+    <message>
+        <source>make the table anew with this machine&apos;s profile</source>
+        <translation>请用本机床的配置文件重新生成补偿表</translation>
+    </message>
+    <message>
+        <source>an axis of the table</source>
+        <translation>补偿表的轴</translation>
+    </message>
+    <message>
+        <source>one of the machine&apos;s (%1)</source>
+        <translation>机床的轴之一（%1）</translation>
+    </message>
+    <message>
+        <source>the table&apos;s limit of axis %1</source>
+        <translation>补偿表中轴 %1 的限值</translation>
+    </message>
+    <message>
+        <source>the table&apos;s rate of axis %1</source>
+        <translation>补偿表中轴 %1 的速率</translation>
+    </message>
+    <message>
+        <source>the table does not say for which machine it was made</source>
+        <translation>补偿表未注明所属机床</translation>
+    </message>
+    <message>
+        <source>the error of axis %1 at %2 mm in the axis table</source>
+        <translation>轴误差表中轴 %1 在 %2 mm 处的误差</translation>
+    </message>
+    <message>
+        <source>no answer within %1 ms</source>
+        <translation>%1 ms 内无应答</translation>
+    </message>
+    <message>
+        <source>Switching the compensation</source>
+        <translation>切换补偿</translation>
+    </message>
+    <message>
+        <source>correct table</source>
+        <translation>修正补偿表</translation>
+    </message>
+    <message>
+        <source>every %1 s instead of %2 s</source>
+        <translation>每 %1 s 一次，而非每 %2 s 一次</translation>
+    </message>
+    <message>
+        <source>there is no folder %1</source>
+        <translation>文件夹 %1 不存在</translation>
+    </message>
+    <message>
+        <source>%1 is no folder</source>
+        <translation>%1 不是文件夹</translation>
+    </message>
+    <message>
+        <source>nothing may be written into the folder %1</source>
+        <translation>不允许写入文件夹 %1</translation>
+    </message>
+    <message>
+        <source>a factor (%1) in the heading</source>
+        <translation>列名中带有系数（%1）</translation>
+    </message>
+    <message>
+        <source>a heading without one, or &quot;scale&quot; in a column map</source>
+        <translation>不带系数的列名，或列映射中的 &quot;scale&quot;</translation>
+    </message>
+    <message>
+        <source>kelvin, by their size (%1 at the start)</source>
+        <translation>开尔文（按数值大小判断，起始为 %1）</translation>
+    </message>
+    <message>
+        <source>degrees Fahrenheit, by their size (%1 at the start)</source>
+        <translation>华氏度（按数值大小判断，起始为 %1）</translation>
+    </message>
+    <message>
+        <source>a number alone, and its unit in the heading or in a row of units</source>
+        <translation>仅数字，单位写在列名或单位行中</translation>
+    </message>
+    <message>
+        <source>one order</source>
+        <translation>一种次序</translation>
+    </message>
+    <message>
+        <source>one column of an order</source>
+        <translation>仅一列次序</translation>
+    </message>
 </context>
 <context>
     <name>errors</name>
@@ -8525,6 +8633,12 @@
         <source>Searching what is hidden</source>
         <translation>正在查找隐藏的效应</translation>
     </message>
+<<<<<<< ours
+=======
+</context>
+<context>
+    <name>zerodrift::OperatorText</name>
+>>>>>>> theirs
     <message>
         <source>, %1 %</source>
         <translation>，%1 %</translation>

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "fake_machine.h"
 #include "memory_sink.h"
 
@@ -214,6 +217,39 @@ TEST_F(RecorderTest, CountsLostSamplesWhileTheMachineIsAway) {
   EXPECT_TRUE(std::is_sorted(lost.begin(), lost.end()));
   EXPECT_GE(lost.back(), 10);
   EXPECT_LE(lost.back(), summary->lost_samples);
+}
+
+// Refusals of all lengths at any moment: lost is each period without a row, and nothing else.
+TEST_F(RecorderTest, CountsEachPeriodWithoutARow) {
+  plan.sample_period_s = 1.0;
+  plan.measure_period_s = 5000.0;
+  plan.steps = {{600.0, 3000.0, false, false}};
+  machine.link_error = ErrorCode::machine_gateway;
+  machine.move_s = 0.0;  // measuring takes the place of no sample here
+  errors.measure_s = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Noise noise(seed);
+    const double begin_s = clock.steady().count();
+    std::vector<std::pair<double, double>> outs;
+    for (double at_s = begin_s + 20.0; at_s < begin_s + 590.0; at_s += 6.0 + 10.0 * std::abs(noise.normal())) {
+      outs.emplace_back(at_s, at_s + 1.5 * std::abs(noise.normal()));
+    }
+    machine.cable_is_out = [outs](double time_s) {
+      return std::any_of(outs.begin(), outs.end(),
+                         [&](const auto& o) { return time_s > o.first && time_s < o.second; });
+    };
+    MemorySink rows;
+    Recorder recorder(machine, errors, clock, rows, options);
+    const auto summary = recorder.run(plan, {});
+    ASSERT_TRUE(summary) << describe(summary.error());
+    std::set<long> periods;
+    for (const double time_s : rows.times) periods.insert(static_cast<long>(std::floor(time_s + 0.1)));
+    const long whole = *periods.rbegin() + 1;
+    EXPECT_EQ(summary->rows, std::ssize(rows.times));
+    EXPECT_LE(std::abs(whole - std::ssize(periods) - summary->lost_samples), 1)
+        << whole << " periods, " << periods.size() << " with a row, " << summary->lost_samples << " lost";
+  }
 }
 
 TEST_F(RecorderTest, ThePlanStandsWhileTheMachineIsAway) {

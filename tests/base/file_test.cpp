@@ -25,6 +25,8 @@ TEST(File, FailuresAreNamed) {
   EXPECT_EQ(read_file("/nonexistent/a").error().code, ErrorCode::file_not_found);
   EXPECT_EQ(read_file("/").error().code, ErrorCode::file_unreadable);
   EXPECT_EQ(write_file("/nonexistent/a", "x").error().code, ErrorCode::file_not_writable);
+  EXPECT_EQ(write_file("/nonexistent/a", "x").error().context.at("detail"), "there is no folder /nonexistent");
+  EXPECT_EQ(write_file("/dev/null/a", "x").error().context.at("detail"), "/dev/null is no folder");
   EXPECT_EQ(write_file("/dev/full", "x").error().code, ErrorCode::disk_full);
 }
 

@@ -34,7 +34,7 @@ TEST(BadFiles, AbsentFolderForeign) {
   const TemporaryFolder folder;
   EXPECT_EQ(code_of(Job::open(folder / "none.zdj")), ErrorCode::file_not_found);
   EXPECT_EQ(code_of(Job::open(folder.path())), ErrorCode::job_not_a_job);
-  EXPECT_EQ(code_of(Job::create(folder / "none" / "a.zdj")), ErrorCode::file_unreadable);
+  EXPECT_EQ(code_of(Job::create(folder / "none" / "a.zdj")), ErrorCode::file_not_writable);
   write_bytes(folder / "text.zdj", "time_s,dZ_um\n0,1\n");
   EXPECT_EQ(code_of(Job::open(folder / "text.zdj")), ErrorCode::job_not_a_job);
   write_bytes(folder / "empty.zdj", "");

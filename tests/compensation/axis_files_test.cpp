@@ -488,4 +488,42 @@ TEST(AxisFiles, AColumnMapSaysWhatColumnsAre) {
   EXPECT_FALSE(with(R"({"columns": {"K1": null, "Where": {"channel": "position_mm", "unit": "in"}}})"));
 }
 
+TEST(AxisFiles, OfTwoReadingsOfTheErrorNoneIsTakenSilently) {
+  const auto with = [](const char* first, const char* second, double more_um) {
+    AxisColumn other = axis_error(second);
+    const auto cell = other.cell;
+    other.cell = [cell, more_um](const AxisReading& r) {
+      AxisReading moved = r;
+      moved.error_um += more_um;
+      return cell(moved);
+    };
+    return axis_table({axis_run("Run"), axis_direction("Direction", "+", "-"), axis_target("Position (mm)"),
+                       axis_error(first), other});
+  };
+  for (const char* name : {"Temperature compensated error (um)", "Corrected error (um)", "korrigierte Abweichung (um)",
+                           "bereinigter Fehler (um)"}) {
+    EXPECT_FALSE(parse_laser(with("Raw error (um)", name, 5.0), "a.csv")) << name;
+    expect_right(with("Raw error (um)", name, 0.0));
+    expect_right(axis_table(
+        {axis_run("Run"), axis_direction("Direction", "+", "-"), axis_target("Position (mm)"), axis_error(name)}));
+  }
+}
+
+TEST(AxisFiles, ARtlThatStatesOtherUnitsIsRefused) {
+  const auto with = [](const char* line) {
+    return std::string("HEADER::\nFile type: Linear\nOwner: RENISHAW\n\nEQUIPMENT::\n") + line +
+           "\n\nTARGET DATA::\nFiletype: 1\nTarget-count: 2\nTargets : \n0.0 100.0\n\nRUNS::\nRun-count: 2\n\n"
+           "DEVIATIONS::\nRun Target Data:\n 1 1 0.5\n 1 2 1.5\n 2 2 1.0\n 2 1 0.0\n";
+  };
+  for (const char* line : {"Device: ML10", "Units: mm", "Deviation units: um", "Error unit: microns"}) {
+    EXPECT_TRUE(parse_laser(with(line), "a.rtl")) << line;
+  }
+  for (const char* line : {"Units: inch", "Unit: in", "Deviation units: mm", "Error units: uin", "Target units: m"}) {
+    const auto report = parse_laser(with(line), "a.rtl");
+    ASSERT_FALSE(report) << line;
+    EXPECT_EQ(report.error().code, ErrorCode::column_unclear);
+    EXPECT_EQ(report.error().context.at("line"), "6");
+  }
+}
+
 }  // namespace zerodrift::compensation

@@ -2,7 +2,11 @@
 
 #include "core/controller/link.h"
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -195,6 +199,34 @@ TEST(ModbusMachine, ReadsInShorterPartsWhereLongOnesAreRefused) {
   ASSERT_TRUE(sample) << describe(sample.error());
   EXPECT_DOUBLE_EQ(sample->temperature_C.front(), 30.0);
   EXPECT_DOUBLE_EQ(sample->axes.at("Z"), -12.5);
+}
+
+// A host whose queue is full: it neither refuses nor answers.
+TEST(Link, SaysThatNoConnectionCameInTime) {
+  const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(listener, 0), 0);
+  ASSERT_EQ(::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  std::array<int, 4> waiting{};
+  for (int& one : waiting) {
+    one = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    static_cast<void>(::connect(one, reinterpret_cast<sockaddr*>(&address), size));
+  }
+  ControllerSettings settings;
+  settings.port = ntohs(address.sin_port);
+  settings.timeout_ms = 100;
+  Link link(settings);
+  link.set_attempts(1);
+  const auto words = read_some(link);
+  ASSERT_FALSE(words);
+  EXPECT_EQ(words.error().code, ErrorCode::machine_unreachable);
+  EXPECT_EQ(words.error().context.at("detail"), "no answer within 100 ms");
+  for (const int one : waiting) ::close(one);
+  ::close(listener);
 }
 
 class SerialLine : public testing::TestWithParam<SerialHabits> {};

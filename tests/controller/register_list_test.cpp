@@ -165,4 +165,33 @@ TEST(RegisterList, FromAListOfAPlc) {
   expect_refused("name,address,slave id\nambient_C,10,7\nspindle_rpm,11,8\n", "slave id", "3");
 }
 
+TEST(RegisterList, OrdersOfWordsAndBytesWhereverTheyStand) {
+  const std::vector<std::tuple<const char*, bool, bool>> orders = {
+      {"ABCD", true, true}, {"CDAB", false, true}, {"BADC", true, false}, {"DCBA", false, false}};
+  for (const char* column : {"Byte order", "Word order", "Endian", "Endianness", "Wortreihenfolge", "字节序"}) {
+    for (const auto& [word, high_word, high_byte] : orders) {
+      const auto map = map_of(fmt::format("name,address,type,{}\nambient_C,40031,REAL,{}\n", column, word));
+      ASSERT_TRUE(map) << column << " " << word << ": " << describe(map.error());
+      EXPECT_EQ(map->registers.at("ambient_C").high_word_first, high_word) << column << " " << word;
+      EXPECT_EQ(map->registers.at("ambient_C").high_byte_first, high_byte) << column << " " << word;
+    }
+  }
+  expect_refused("name,address,type,Byte order\nambient_C,40031,REAL,little endian\n", "Byte order", "2");
+  EXPECT_FALSE(
+      map_of("name,address,type,Byte order\nambient_C,40031,INT,little\n")->registers.at("ambient_C").high_byte_first);
+  expect_refused("name,address,type,Byte order,Word order\nambient_C,40031,REAL,CDAB,high first\n", "Word order", "2");
+  expect_refused("name,address,type,Byte order,Endian\nambient_C,40031,REAL,CDAB,DCBA\n", "Endian", "2");
+}
+
+TEST(RegisterList, AYesUnderAnUnknownHeadingMayChangeAValue) {
+  for (const char* column : {"Signed", "Swapped", "Swap", "Vorzeichenbehaftet", "Byte swap", "BCD", "有符号"}) {
+    for (const char* word : {"yes", "no", "x", "TRUE", "ja", "是"}) {
+      expect_refused(fmt::format("name,address,type,{}\nambient_C,40031,INT,{}\n", column, word), column, "2");
+    }
+  }
+  for (const char* column : {"Writable", "Alarm", "Remark", "Read only"}) {
+    EXPECT_TRUE(map_of(fmt::format("name,address,type,{}\nambient_C,40031,INT,yes\n", column))) << column;
+  }
+}
+
 }  // namespace zerodrift::controller

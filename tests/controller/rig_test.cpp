@@ -274,6 +274,7 @@ TEST(ManualUpload, OnlyTheControlsOwnCheckValueSwitchesOn) {
   compensation::Table table;
   table.machine = "Old mill";
   table.axes["Z"].offset_um = -12.0;
+  table.axes["Z"].max_um = control->profile().max_um;
   ManualUploadOptions options;
   options.file = (std::filesystem::temp_directory_path() / ("table-" + std::to_string(::getpid()) + ".json")).string();
   options.old_sequence = 4;

@@ -105,6 +105,13 @@ TEST(Upload, RefusesBeforeWriting) {
   Table other = sample_table();
   other.machine = "Another machine";
   EXPECT_EQ(refusal(other), ErrorCode::data_does_not_fit);
+  Table twin = sample_table();  // of a machine of the same name
+  device.set(5, 17);
+  twin.serial = 18;
+  EXPECT_EQ(refusal(twin), ErrorCode::data_does_not_fit);
+  Table quick = sample_table();
+  quick.axes["X"].max_um_per_s = 20.0;
+  EXPECT_EQ(refusal(quick), ErrorCode::limit_exceeded);
   Table far = sample_table();
   far.axes["X"].offset_um = 150.0;
   far.axes["X"].max_um = 500.0;
@@ -115,6 +122,23 @@ TEST(Upload, RefusesBeforeWriting) {
     device.set(16, static_cast<std::uint16_t>(state));
     EXPECT_EQ(refusal(sample_table()), ErrorCode::machine_not_ready) << state;
   }
+}
+
+TEST(Upload, SaysThatATableNamesNoMachine) {
+  FakeController device;
+  auto machine = open(device.profile());
+  UploadOptions options;
+  options.dry_run = true;
+  const auto nameless = upload_table(*machine, sample_table(), options, {});
+  ASSERT_TRUE(nameless.result) << text_of(nameless.result);
+  EXPECT_EQ(nameless.warnings.size(), 1U);
+  Table own = sample_table();
+  own.machine = device.profile().name;
+  device.set(5, 17);
+  own.serial = 17;
+  const auto named = upload_table(*machine, own, options, {});
+  ASSERT_TRUE(named.result) << text_of(named.result);
+  EXPECT_TRUE(named.warnings.empty()) << named.warnings.front();
 }
 
 TEST(Upload, RejectionLeavesTheOldTableActive) {

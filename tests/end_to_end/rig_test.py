@@ -28,6 +28,7 @@ class StandIn:
     def __init__(self, url):
         self.url = url
         self.acts = []
+        self.asked_again = 0
 
     def answer(self, request):
         act = request["act"]
@@ -61,6 +62,11 @@ class StandIn:
                 last += line
                 continue
             request = json.loads(line)
+            if request["request"] == 2 and "error" not in request:
+                process.stdin.write("done!\n")  # is asked for again, with what is wrong
+                process.stdin.flush()
+                continue
+            self.asked_again += "error" in request
             try:
                 answer = {"done": True, **self.answer(request)}
             except OSError as error:
@@ -117,6 +123,7 @@ def test_manual(folder):
         last = machine.truth_rows()[-1]["time_s"]
         answer["verification_machine_time_s"] = [last - (end - start), last]
         judged("manual", machine, answer)
+        assert person.asked_again == 1, person.asked_again
         assert {"state", "command", "move", "switch_compensation", "offset", "load_table", "check_table"} <= set(person.acts)
         _, trail, _ = cli("audit", "--job", os.path.join(folder, "job.zdj"), "--json")
         assert "upload table" in trail, trail

@@ -167,9 +167,10 @@ TEST_F(StepsTest, AnInterruptedRunIsEndedWithoutItsMachine) {
   start.zero_um = std::array<double, 3>{1.0, 2.0, 3.0};
   ASSERT_TRUE(sink.begin(start));
   const double none = std::nan("");
-  // Six samples, a measurement of which one direction is missing, a hole of three periods, a whole measurement.
+  // Six samples, a measurement of which one direction is missing, which lasts to 80 s, a hole of three periods, a whole
+  // measurement.
   for (int i = 0; i < 6; ++i) ASSERT_TRUE(sink.append(10.0 * i, std::array{20.0 + i, none, none}));
-  ASSERT_TRUE(sink.append(80.0, std::array{26.0, none, 7.0}));
+  ASSERT_TRUE(sink.append(65.0, std::array{26.0, none, 7.0}));
   ASSERT_TRUE(sink.append(120.0, std::array{27.0, none, none}));
   ASSERT_TRUE(sink.append(150.0, std::array{28.0, -2.0, 9.0}));
   ASSERT_TRUE(sink.event({60.0, "problem", "sensor_dead", R"({"context": {"sensor": "T1_C"}})"}));

@@ -79,6 +79,22 @@ Report built(RichJob& rich, Language language) {
   return std::move(*report);
 }
 
+/// Of the machine, the cameras and the disk: what may happen in a run stands in its report.
+std::vector<std::string> names_of_errors_in_a_run() {
+  std::ifstream codes(std::string(ZERODRIFT_SOURCE_DIR) + "/core/base/error_codes.inc");
+  static const std::regex code(R"(ZERODRIFT_ERROR\((\w+),)");
+  std::vector<std::string> names;
+  bool of_a_run = false;
+  for (std::string line; std::getline(codes, line);) {
+    if (line.starts_with("// ")) of_a_run = line == "// images and camera" || line == "// machine";
+    std::smatch found;
+    if (!of_a_run || !std::regex_search(line, found, code)) continue;
+    names.push_back(std::regex_replace(found[1].str(), std::regex("_"), " "));
+  }
+  EXPECT_GT(names.size(), 40u);
+  return names;
+}
+
 }  // namespace
 
 TEST(ReportLanguage, EveryTextOfTheSourcesIsInTheCatalogue) {
@@ -186,6 +202,9 @@ TEST(ReportLanguage, BothLanguagesSayTheSameFigures) {
 TEST(ReportLanguage, SentencesThatCoreComposedAreSaid) {
   const auto said = [](const char* text) { return translated(Language::chinese, text); };
   EXPECT_EQ(said("sensor stuck (T2_C), 2 times"), "传感器卡死（T2_C），2 次");
+  EXPECT_EQ(said("measuring stretched (every 120 s instead of 60 s), once"),
+            "测量周期延长（每 120 s 一次，而非每 60 s 一次），1 次");
+  for (const std::string& name : names_of_errors_in_a_run()) EXPECT_TRUE(is_known(Language::chinese, name)) << name;
   for (const char* name : {"sensor spiking", "sensor jumped", "sensor swapped", "camera silent", "target refused"}) {
     EXPECT_TRUE(is_known(Language::chinese, name)) << name;
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/commissioning/audit_words.h"
 #include "core/commissioning/job.h"
 
 namespace zerodrift::cli {
@@ -69,9 +70,10 @@ Result<CommandOutput> audit(const Options& options) {
                     {"new", entry.new_value},
                     {"result", entry.result},
                     {"sha256", entry.hash}});
-    output.text +=
-        fmt::format("{:>4}  {}  {}: {} {}: {}\n", entry.id, entry.utc, entry.engineer.empty() ? "-" : entry.engineer,
-                    entry.action, entry.subject, entry.result);
+    output.text += fmt::format("{:>4}  {}  {}: {} {} ({} -> {}): {}\n", entry.id, entry.utc,
+                               entry.engineer.empty() ? "-" : entry.engineer, entry.action, entry.subject,
+                               commissioning::value_in_short(entry.old_value),
+                               commissioning::value_in_short(entry.new_value), entry.result);
   }
   const std::string last = trail.empty() ? std::string() : trail.back().hash;
   output.text += trail.empty() ? "the audit trail is empty"

@@ -6,6 +6,7 @@ namespace zerodrift::cli {
 void add_access(Cli& cli);
 void add_axis_table(Cli& cli);
 void add_compensate(Cli& cli);
+void add_compensation(Cli& cli);
 void add_export(Cli& cli);
 void add_import(Cli& cli);
 void add_machine_check(Cli& cli);
@@ -32,6 +33,7 @@ void add_all_commands(Cli& cli) {
   add_access(cli);
   add_axis_table(cli);
   add_compensate(cli);
+  add_compensation(cli);
   add_export(cli);
   add_import(cli);
   add_machine_check(cli);

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
-#include <iostream>
-
 #include "app/cli/access.h"
 #include "app/cli/consent.h"
+#include "app/cli/job_file.h"
 #include "app/cli/operator.h"
 #include "app/cli/report_files.h"
+#include "app/cli/typed.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
 #include "core/commissioning/job.h"
@@ -40,8 +39,8 @@ Status name_people(commissioning::Job& job, const Options& options) {
   if (!options.customer.empty()) header.customer = options.customer;
   if (!options.engineer.empty()) header.engineer = options.engineer;
   if (header.engineer.empty() && ::isatty(STDIN_FILENO) != 0) {
-    std::fprintf(stderr, "Engineer (your name, for the report): ");
-    std::getline(std::cin, header.engineer);
+    ZD_TRY(const auto name, typed_line("Engineer (your name, for the report): "));
+    header.engineer = name.value_or("");
   }
   return job.set_header(header);
 }
@@ -78,7 +77,8 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   ZD_TRY(commission_options.permit, engineer(pin, "A commissioning"));
   ZD_CHECK(commission_options.consent.possible("A commissioning"));
   ZD_TRY(commission_options.person, operator_of(profile, options.person));
-  ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
+  ZD_TRY(JobFile file, JobFile::open_or_create(options.job));
+  auto& job = file.job();
   ZD_CHECK(name_people(job, options));
   ZD_TRY(const auto result, flow::commission(job, profile, document, commission_options, context));
   context.progress(0.99, "report");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "app/text/error_text.h"
 #include "core/analysis/model.h"
 #include "core/base/real_time.h"
+#include "core/base/write_failure.h"
 #include "core/compensation/model_table.h"
 #include "core/controller/host_compensator.h"
 #include "core/controller/table_words.h"
@@ -32,7 +34,7 @@ class Log {
   Status open(const std::string& file) {
     if (file.empty()) return {};
     m_stream.open(file);
-    if (!m_stream) return fail(ErrorCode::file_not_writable, {{"file", file}, {"detail", "cannot be opened"}});
+    if (!m_stream) return fail(write_failure(file, errno));
     m_stream << "time_s,predicted_X_um,predicted_Y_um,predicted_Z_um,offset_X_um,offset_Y_um,offset_Z_um,"
                 "applied_X_um,applied_Y_um,applied_Z_um,mode\n";
     return {};
@@ -125,10 +127,10 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
                                           {"expected", "a model of another method (fit --method auto)"}});
   }
   ZD_TRY(const auto table, compensation::table_from_model(model, controller::table_options(profile)));
-  Log log;
-  ZD_CHECK(log.open(options.log));
   ZD_TRY(const auto permit, engineer(pin, "Compensating"));
   ZD_TRY(const auto machine, controller::ModbusMachine::open(profile, permit));
+  Log log;
+  ZD_CHECK(log.open(options.log));
   controller::HostCompensatorOptions how;
   how.period_s = options.period_s;
   how.switch_on = options.switch_on;

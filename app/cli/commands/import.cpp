@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "app/cli/job_file.h"
 #include "app/cli/recording_input.h"
 #include "app/text/error_text.h"
 #include "core/base/error_json.h"
@@ -53,9 +54,9 @@ std::string text_of(const recording::Imported& imported, const std::string& targ
 
 /// The recording as the job's warm-up run, or beside it where it has a role; the job is made if it is not there.
 Status into_job(const Options& options, const recording::Imported& imported, const nlohmann::json& how) {
-  const bool made = !std::filesystem::exists(options.job);
-  ZD_TRY(auto job, commissioning::Job::open_or_create(options.job));
-  if (made) ZD_CHECK(commissioning::set_kind(job, commissioning::JobKind::files));
+  ZD_TRY(JobFile file, JobFile::open_or_create(options.job));
+  auto& job = file.job();
+  if (file.made()) ZD_CHECK(commissioning::set_kind(job, commissioning::JobKind::files));
   const std::string name = std::filesystem::path(options.file).filename().string();
   if (!options.role.empty()) {
     ZD_TRY(const auto role, flow::recording_role_from(options.role));

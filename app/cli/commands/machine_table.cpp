@@ -100,6 +100,7 @@ Result<CommandOutput> read_back(const Options& options, const TaskContext&) {
   ZD_TRY(const controller::ActiveTable active, controller::read_active(*machine));
   ZD_TRY(compensation::Table table, controller::decode_table(active.words, profile));
   table.version = active.sequence;
+  table.serial = identity.serial;
   ZD_CHECK(compensation::write_table_file(options.out, table));
   output.json = {{"version", active.sequence},
                  {"crc32", fmt::format("{:08x}", active.crc)},

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/access.h"
+#include "app/cli/job_file.h"
 #include "app/cli/operator.h"
 #include "core/acquisition/plan.h"
 #include "core/base/json.h"
@@ -46,8 +47,9 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   ZD_TRY(const auto plan, acquisition::read_plan(options.plan, &output.warnings));
   ZD_TRY(run_options.plan, acquisition::with_measuring_position(plan, profile.measure_position_mm));
   ZD_TRY(auto person, operator_of(profile, options.person));
-  ZD_TRY(Job job, Job::open_or_create(options.job));
   ZD_TRY(const auto permit, engineer(pin, "A recorded run"));
+  ZD_TRY(JobFile file, JobFile::open_or_create(options.job));
+  Job& job = file.job();
   ZD_TRY(flow::Devices devices, flow::Devices::open(profile, true, permit, std::move(person)));
   ZD_CHECK(ensure(job, "machine", context,
                   [&](const TaskContext& inner) { return flow::check_machine(devices, profile_document, inner); }));
@@ -66,8 +68,11 @@ Result<CommandOutput> run(const Options& options, const PinOption& pin, const Ta
   for (const json& problem : output.json.value("problems", json::array())) {
     if (problem.is_string()) output.warnings.push_back(problem.get<std::string>());
   }
-  const auto remarks = devices.machine->remarks();
-  output.warnings.insert(output.warnings.end(), remarks.begin(), remarks.end());
+  // Faults of the link and of the devices are among the problems.
+  if (devices.link != nullptr) {
+    const auto& remarks = devices.link->health().remarks;
+    output.warnings.insert(output.warnings.end(), remarks.begin(), remarks.end());
+  }
   return output;
 }
 

@@ -156,6 +156,8 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
                                      const std::optional<compensation::Table>& table, const TaskContext& context) {
   ZD_TRY(const auto identity, devices.machine->identify());
   ZD_CHECK(same_machine(job, "upload", identity.serial));
+  auto made_for = controller::table_options(devices.profile);
+  made_for.serial = identity.serial;
   UploadPreview preview;
   ZD_TRY(preview.model_outdated_by, outdated_by(job));
   if (table) {
@@ -165,13 +167,12 @@ Result<UploadPreview> preview_upload(const commissioning::Job& job, Devices& dev
     if (!artefact) return fail(ErrorCode::step_blocked, {{"step", "upload"}, {"needs", "model"}});
     ZD_TRY(auto model, model_of(*artefact));
     ZD_TRY(const Input warmup, need(job, "upload", "warmup"));
-    ZD_TRY(preview.table, compensation::table_from_model(by_axes(std::move(model), warmup.body),
-                                                         controller::table_options(devices.profile)));
+    ZD_TRY(preview.table, compensation::table_from_model(by_axes(std::move(model), warmup.body), made_for));
     ZD_TRY(const auto axes, job.latest("axis_table"));
     if (axes) {
       ZD_TRY(const json body, axes->document());
       ZD_TRY(const auto axis_table, compensation::table_from_json(body.at("table"), "the axis table"));
-      ZD_CHECK(compensation::add_axis_table(preview.table, axis_table));
+      ZD_CHECK(compensation::add_axis_table(preview.table, axis_table, made_for));
     }
   }
   controller::UploadOptions options;
@@ -219,11 +220,13 @@ Result<commissioning::NewArtefact> upload(commissioning::Job& job, Devices& devi
   controller::UploadOptions upload_options;
   upload_options.observer = options.observer;
   commissioning::AuditEntry entry;
-  entry.action = "upload table";
+  entry.action = options.table ? "correct table" : "upload table";
   entry.subject = "compensation table";
   entry.old_value =
       fmt::format("version {}, {} registers", preview.record.old_sequence, preview.record.old_words.size());
-  entry.new_value = json_text(compensation::to_json(preview.table));
+  compensation::Table written = preview.table;
+  written.version = preview.record.sequence;
+  entry.new_value = json_text(compensation::to_json(written));
   context.progress(0.4, "uploading");
   ZD_CHECK(write.write(entry, [&]() -> Status {
     record = write_table(job, devices, preview.table, origin, upload_options, context);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/acquisition/job_sink.h"
+#include "core/acquisition/sample_grid.h"
 #include "core/base/time_text.h"
 #include "core/flow/steps/inputs.h"
 
@@ -44,6 +45,70 @@ void add_link_faults(const Devices& devices, std::vector<acquisition::Happening>
   for (const auto& [name, count] : devices.link->health().faults) happened.push_back({name, {}, count, true});
 }
 
+/// Up to where samples were missing before the row `to_s`: the run or the link was interrupted.
+std::optional<double> gap_before(const std::vector<commissioning::Event>& events, double from_s, double to_s) {
+  constexpr double close_s = 1e-3;
+  for (const auto& event : events) {
+    if (event.kind != "gap") continue;
+    const json details = json::parse(event.details, nullptr, false);
+    if (!details.is_object() || !details.contains("from_s") || !details.contains("to_s")) continue;
+    const double end_s = details.value("to_s", 0.0);
+    if (std::abs(details.value("from_s", 0.0) - from_s) < close_s && end_s < to_s + close_s) return end_s;
+  }
+  return std::nullopt;
+}
+
+/// What the rows themselves tell of a run: of one that nobody ended, or that was taken up again.
+acquisition::RunSummary summary_of(const recording::Recording& run, const std::vector<commissioning::Event>& events,
+                                   const acquisition::Plan& plan) {
+  acquisition::RunSummary summary;
+  summary.rows = static_cast<std::int64_t>(run.rows());
+  summary.gaps = static_cast<int>(
+      std::count_if(events.begin(), events.end(), [](const auto& event) { return event.kind == "gap"; }));
+  if (run.rows() == 0) return summary;
+  summary.duration_s = run.time_s.back();
+  double measured_to_s = run.time_s.front();
+  for (std::size_t r = 0; r < run.rows(); ++r) {
+    int seen = 0;
+    int directions = 0;
+    for (const char* channel : {"dX_um", "dY_um", "dZ_um"}) {
+      const auto* error = run.find(channel);
+      if (error == nullptr) continue;
+      ++directions;
+      if (!std::isnan(error->values[r])) ++seen;
+    }
+    if (seen > 0) ++summary.measurements;
+    if (seen > 0 && seen < directions) ++summary.refused;
+    if (r == 0 || plan.sample_period_s <= 0.0) continue;
+    const double before_s = run.time_s[r - 1];
+    const auto lost = [&](double to_s) {
+      summary.lost_samples +=
+          acquisition::samples_between(std::max(before_s, measured_to_s), to_s, plan.sample_period_s);
+    };
+    if (const auto gap_s = gap_before(events, before_s, run.time_s[r])) {
+      lost(*gap_s);
+    } else if (seen == 0) {
+      lost(run.time_s[r]);
+    }
+    // While the machine stands to be measured no sample is due; the row lies in the middle of that.
+    if (seen > 0) measured_to_s = 2.0 * run.time_s[r] - before_s;
+  }
+  return summary;
+}
+
+/// The counts of a whole run that was taken up again: the recorder knows its own part alone.
+Status count_whole(const commissioning::Job& job, commissioning::SeriesId series, const acquisition::Plan& plan,
+                   acquisition::RunSummary& summary) {
+  ZD_TRY(const auto recording, job.read_series(series));
+  ZD_TRY(const auto events, job.events(series));
+  const auto whole = summary_of(recording, events, plan);
+  summary.measurements = whole.measurements;
+  summary.refused = whole.refused;
+  summary.lost_samples = whole.lost_samples;
+  summary.gaps = whole.gaps;
+  return {};
+}
+
 Result<acquisition::RunSummary> run_or_resume(commissioning::Job& job, acquisition::MachineIo& machine,
                                               acquisition::ErrorSource& source, Clock& clock, const RunOptions& options,
                                               const acquisition::RecorderOptions& recorder_options,
@@ -60,31 +125,7 @@ Result<acquisition::RunSummary> run_or_resume(commissioning::Job& job, acquisiti
   if (options.control) options.control(nullptr);
   out.plan = interrupted ? interrupted->run.start.plan : options.plan;
   out.series = sink.series();
-  return summary;
-}
-
-/// What the rows themselves tell of a run that nobody ended.
-acquisition::RunSummary summary_of(const recording::Recording& run, const acquisition::Plan& plan) {
-  acquisition::RunSummary summary;
-  summary.rows = static_cast<std::int64_t>(run.rows());
-  if (run.rows() == 0) return summary;
-  summary.duration_s = run.time_s.back();
-  for (std::size_t r = 0; r < run.rows(); ++r) {
-    int seen = 0;
-    int directions = 0;
-    for (const char* channel : {"dX_um", "dY_um", "dZ_um"}) {
-      const auto* error = run.find(channel);
-      if (error == nullptr) continue;
-      ++directions;
-      if (!std::isnan(error->values[r])) ++seen;
-    }
-    if (seen > 0) ++summary.measurements;
-    if (seen > 0 && seen < directions) ++summary.refused;
-    // While the machine stands to be measured no sample is due.
-    if (r == 0 || seen > 0 || plan.sample_period_s <= 0.0) continue;
-    const auto periods = std::llround((run.time_s[r] - run.time_s[r - 1]) / plan.sample_period_s);
-    summary.lost_samples += std::max(0LL, periods - 1);
-  }
+  if (summary && interrupted) ZD_CHECK(count_whole(job, out.series, out.plan, *summary));
   return summary;
 }
 
@@ -206,7 +247,8 @@ Result<std::optional<RecordedRun>> interrupted_recording(const commissioning::Jo
   run.plan = interrupted->run.start.plan;
   run.zero_um = interrupted->run.start.zero_um;
   ZD_TRY(const auto recording, job.read_series(run.series));
-  run.summary = summary_of(recording, run.plan);
+  ZD_TRY(const auto events, job.events(run.series));
+  run.summary = summary_of(recording, events, run.plan);
   ZD_TRY(run.happened, happened_in(job, run.series));
   return run;
 }

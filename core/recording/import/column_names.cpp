@@ -68,6 +68,14 @@ bool same_unit(const Unit& a, const Unit& b) {
          std::abs(a.offset - b.offset) < 1e-9;
 }
 
+/// "dZ_mm" of a channel in um: the other unit that a name has in it. A letter after an underscore is a name: "T_F".
+std::string other_unit_in(const std::string& name, const std::optional<Unit>& unit) {
+  const std::string inner = split_unit(name).unit;
+  const auto other = unit_from(inner);
+  const bool one = other && unit && inner.size() > 1 && other->quantity == unit->quantity;
+  return one && !same_unit(*other, *unit) ? inner : std::string();
+}
+
 tl::unexpected<Error> conflict(const std::string& header, const std::string& unit, const std::string& other,
                                const std::string& file) {
   return fail(ErrorCode::unit_conflict, {{"file", file}, {"column", header}, {"found", unit}, {"expected", other}});
@@ -92,6 +100,8 @@ Result<NamedChannel> channel_from(const std::string& header, const std::string& 
     if (own && other && !stated.unit.empty() && !same_unit(*own, *other)) {
       return conflict(header, stated.unit, header, file);
     }
+    const std::string inner = other_unit_in(header.substr(0, header.size() - unit_of(kind_of(header)).size() - 1), own);
+    if (!inner.empty()) return conflict(header, inner, header, file);
     return NamedChannel{header, 1.0, 0.0};
   }
   const NameWithUnit split = split_unit(header);
@@ -112,10 +122,13 @@ Result<NamedChannel> channel_from(const std::string& header, const std::string& 
   const auto unit = unit_from(unit_text);
   const NamedChannel as_it_is{header.empty() ? "column_" + std::to_string(place) : header, 1.0, 0.0};
   if (!unit || unit->quantity == Quantity::other || unit->quantity == Quantity::time) return as_it_is;
-  if (unit->quantity == Quantity::length && unit->scale != 1.0 && !is_displacement(split.name, label)) return as_it_is;
-  if (unit->quantity == Quantity::temperature && is_difference(split.name)) return as_it_is;
   std::string base = tidy(name);
   if (base.empty()) base = "column_" + std::to_string(place);
+  if (const std::string inner = other_unit_in(base, unit); !inner.empty()) {
+    return conflict(header, unit_text, inner, file);
+  }
+  if (unit->quantity == Quantity::length && unit->scale != 1.0 && !is_displacement(split.name, label)) return as_it_is;
+  if (unit->quantity == Quantity::temperature && is_difference(split.name)) return as_it_is;
   const ChannelKind kind = kind_of(base);
   if (kind != ChannelKind::input && kind != ChannelKind::coolant) {  // "T1_C (degC)"
     const auto own = unit_of_channel(base);

@@ -16,6 +16,7 @@
 #include "core/recording/import/clock_text.h"
 #include "core/recording/import/column_names.h"
 #include "core/recording/import/units.h"
+#include "core/recording/unit_suspicion.h"
 
 namespace zerodrift::recording {
 namespace {
@@ -68,6 +69,7 @@ class Importer {
     }
     ZD_CHECK(check_channels(out));
     ZD_CHECK(check_axes(out));
+    suspect_units(out);
     return out;
   }
 
@@ -171,6 +173,7 @@ class Importer {
       out.columns.push_back(std::move(fate));
       return {};
     }
+    if (rule == nullptr) ZD_CHECK(no_factor(column, fate));
     ZD_CHECK(rule != nullptr ? name_by_map(**rule, column, fate) : name_by_itself(column, fate));
     fate.fate = "channel";
     ZD_TRY(std::vector<double> values, values_of(kinds, column, out.time.rows, fate));
@@ -220,6 +223,25 @@ class Importer {
       before = *value;
     }
     return true;
+  }
+
+  /// A factor in the heading changes every value of the column; whether the logger has applied it nobody knows.
+  Status no_factor(std::size_t column, const ColumnFate& fate) const {
+    for (const std::string& heading : {fate.name, m_table.units[column], fate.label}) {
+      const std::string factor = factor_in(heading);
+      if (factor.empty()) continue;
+      return fail(ErrorCode::column_unclear, {{"file", m_table.form.file},
+                                              {"line", std::to_string(header_line())},
+                                              {"column", m_table.name_of(column)},
+                                              {"found", fmt::format("a factor ({}) in the heading", factor)},
+                                              {"expected", "a heading without one, or \"scale\" in a column map"}});
+    }
+    return {};
+  }
+
+  int header_line() const {
+    const std::size_t row = m_table.block_end < m_table.cells.rows() ? m_table.block_end : 0;
+    return m_table.cells.line(row);
   }
 
   Status name_by_map(const ColumnRule& rule, std::size_t column, ColumnFate& fate) const {
@@ -321,6 +343,28 @@ class Importer {
       warnings.push_back(
           {ErrorCode::sentinel_suspected,
            {{"column", name}, {"found", fmt::format("{:g}", sentinel)}, {"count", std::to_string(count)}}});
+    }
+  }
+
+  /// Temperatures that are taken as degrees Celsius and look like another unit: a warning, no value is changed.
+  void suspect_units(Imported& out) const {
+    std::vector<std::size_t> places;
+    std::vector<std::vector<double>> values;
+    for (std::size_t i = 0; i < out.columns.size(); ++i) {
+      const ChannelKind kind = kind_of(out.columns[i].channel);
+      const bool temperature = kind == ChannelKind::temperature || kind == ChannelKind::ambient;
+      if (out.columns[i].fate != "channel" || !temperature) continue;
+      places.push_back(i);
+      values.push_back(out.recording.channels[channel_number(out, i)].values);
+    }
+    for (const auto& one : suspected_units(values)) {
+      const ColumnFate& fate = out.columns[places[one.channel]];
+      const char* unit = one.kelvin ? "kelvin" : "degrees Fahrenheit";
+      out.warnings.push_back({ErrorCode::unit_conflict,
+                              {{"file", m_table.form.file},
+                               {"column", m_table.name_of(fate.place - 1)},
+                               {"found", fmt::format("{}, by their size ({:.4g} at the start)", unit, one.start_C)},
+                               {"expected", fate.channel}}});
     }
   }
 

@@ -1,5 +1,7 @@
 #include "core/recording/import/text_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -415,12 +417,35 @@ Result<NumberFormat> number_format_of(const Cells& cells, std::size_t first_row,
   return evidence.decide(file);
 }
 
+namespace {
+
+/// Why no row has a number: each number has its unit beside it ("20.05 °C"), or there is none.
+Error no_rows(const Cells& cells, const std::string& file) {
+  for (std::size_t row = 0; row < cells.rows(); ++row) {
+    for (std::size_t column = 0; column < cells.columns(row); ++column) {
+      const std::string_view cell = cells.at(row, column);
+      const std::size_t end = cell.find_first_not_of("+-.,0123456789");
+      if (end == 0 || end == std::string_view::npos || !looks_like_number(cell.substr(0, end))) continue;
+      if (!is_unit_word(trimmed(cell.substr(end)))) continue;
+      return {ErrorCode::column_unclear,
+              {{"file", file},
+               {"line", std::to_string(cells.line(row))},
+               {"column", fmt::format("#{}", column + 1)},
+               {"found", std::string(cell)},
+               {"expected", "a number alone, and its unit in the heading or in a row of units"}}};
+    }
+  }
+  return {ErrorCode::csv_empty, {{"file", file}}};
+}
+
+}  // namespace
+
 Result<SourceTable> find_table(SourceCells source, const TableOptions& options) {
   SourceTable table;
   table.form = std::move(source.form);
   table.cells = std::move(source.cells);
   const auto shape = shape_of(table.cells);
-  if (!shape) return fail(ErrorCode::csv_empty, {{"file", table.form.file}});
+  if (!shape) return fail(no_rows(table.cells, table.form.file));
   const Header header = header_of(table.cells, *shape);
   table.has_header = header.names.has_value();
   if (header.names) {
@@ -434,7 +459,7 @@ Result<SourceTable> find_table(SourceCells source, const TableOptions& options) 
   }
   if (table.names.empty()) table.names.resize(shape->width);
   ZD_CHECK(collect_body(table, header, *shape));
-  if (table.rows.empty()) return fail(ErrorCode::csv_empty, {{"file", table.form.file}});
+  if (table.rows.empty()) return fail(no_rows(table.cells, table.form.file));
   table.units.resize(table.names.size());
   const auto units = header.units ? header.units : labelled_units(table.cells, table.block_end, *shape);
   for (std::size_t column = 0; units && column < table.units.size(); ++column) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <vector>
@@ -201,6 +203,89 @@ NameWithUnit split_unit(std::string_view header) {
     if (auto found = read(header)) return *found;
   }
   return {std::string(header), {}};
+}
+
+namespace {
+
+/// Powers of ten, 1 itself apart: other numbers in a heading are places, types and ranges.
+bool is_power_of_ten(std::string_view text) {
+  std::string digits(text);
+  std::replace(digits.begin(), digits.end(), ',', '.');
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !(value > 0.0)) return false;
+  const double power = std::log10(value);
+  return std::abs(power - std::round(power)) < 1e-9 && power != 0.0;
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
+std::string factor_in(std::string_view heading) {
+  std::string text(heading);
+  replaced(text, "\xC3\x97", "x");      // multiplication sign
+  replaced(text, "\xC2\xB7", "*");      // middle dot
+  replaced(text, "\xE2\x88\x92", "-");  // minus sign
+  replaced(text, "\xE2\x81\xBB\xC2\xB9", "^-1");
+  replaced(text, "\xE2\x81\xBB\xC2\xB2", "^-2");
+  replaced(text, "\xE2\x81\xBB\xC2\xB3", "^-3");
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (!is_digit(text[at]) || (at > 0 && (is_digit(text[at - 1]) || text[at - 1] == '.' || text[at - 1] == ',')))
+      continue;
+    std::size_t end = at;
+    while (end < text.size() && (is_digit(text[end]) || ((text[end] == '.' || text[end] == ',') &&
+                                                         end + 1 < text.size() && is_digit(text[end + 1])))) {
+      ++end;
+    }
+    const std::string number = text.substr(at, end - at);
+    if (end + 1 < text.size() && (text[end] == 'e' || text[end] == 'E') && (at == 0 || !is_word(text[at - 1]))) {
+      const std::size_t digits = text[end + 1] == '-' || text[end + 1] == '+' ? end + 2 : end + 1;
+      std::size_t stop = digits;
+      while (stop < text.size() && is_digit(text[stop])) ++stop;
+      if (stop > digits && (stop == text.size() || !is_word(text[stop]))) return text.substr(at, stop - at);
+    }
+    if (number == "10" && end + 1 < text.size() && text[end] == '^') {
+      std::size_t stop = end + 1;
+      if (text[stop] == '-' || text[stop] == '+') ++stop;
+      if (stop < text.size() && is_digit(text[stop])) return text.substr(at, stop + 1 - at);
+    }
+    if (!is_power_of_ten(number)) continue;
+    std::size_t before = at;
+    while (before > 0 && text[before - 1] == ' ') --before;
+    const char sign = before > 0 ? text[before - 1] : '\0';
+    const bool own_sign = sign == '*' || before < 2 || !is_word(text[before - 2]);
+    if ((sign == 'x' || sign == '*') && own_sign) return text.substr(before - 1, end - before + 1);
+    // "/10" ends the heading; "1/100 mm" is a unit; a date and the class of a Pt100 are neither.
+    const auto ends_here = [&](std::size_t from) {
+      return from >= text.size() || std::string_view(")],;").find(text[from]) != std::string_view::npos;
+    };
+    std::size_t from = end;
+    while (from < text.size() && text[from] == ' ') ++from;
+    const std::size_t to = std::min(text.find_first_of(" )],;", from), text.size());
+    const bool of_unit = to > from && unit_from(std::string_view(text).substr(from, to - from)) && ends_here(to);
+    if (sign == '/') {
+      const char divided = before >= 2 ? text[before - 2] : ' ';
+      const bool one = divided == '1' && (before < 3 || !is_word(text[before - 3]));
+      if (one && of_unit) return "1/" + number;
+      std::size_t word = before - 1;
+      while (word > 0 && std::string_view(" _[(,").find(text[word - 1]) == std::string_view::npos) --word;
+      const bool after_unit = unit_from(std::string_view(text).substr(word, before - 1 - word)).has_value();
+      if ((!is_word(divided) || after_unit) && ends_here(from)) return "/" + number;
+      continue;
+    }
+    // A number and a unit: "0.1 °C", "0.01mm". A whole number may be a place or a range: "100 mm".
+    const bool fraction = number.find_first_of(".,") != std::string::npos;
+    if (!fraction || (at > 0 && is_word(text[at - 1]))) continue;
+    if (of_unit) return number;
+    std::size_t mark = end;
+    while (mark < text.size() && text[mark] == ' ') ++mark;
+    if (mark < text.size() && (text[mark] == 'x' || text[mark] == '*')) return number;
+  }
+  return {};
 }
 
 }  // namespace zerodrift::recording

@@ -30,4 +30,8 @@ struct NameWithUnit {
 };
 NameWithUnit split_unit(std::string_view header);
 
+/// A factor that the values of a column with this heading are to be multiplied or divided by: "x10" of "dZ_um x10",
+/// "0.1" of "T1 [0.1 °C]", "1/100" of "dX (1/100 mm)", "10^-3"; "" where the heading has none.
+std::string factor_in(std::string_view heading);
+
 }  // namespace zerodrift::recording

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/commissioning/audit_words.h"
 #include "core/report/build.h"
 #include "core/report/pieces.h"
 
@@ -33,11 +34,12 @@ Table writes_of(const Source& source) {
   Table table;
   table.id = "writes";
   table.title = source.say("Writes to the machine");
-  table.header = {"UTC", source.say("who"), source.say("what"), source.say("before"), source.say("result")};
+  table.header = {
+      "UTC", source.say("who"), source.say("what"), source.say("before"), source.say("after"), source.say("result")};
   for (const auto& entry : source.audit()) {
     table.rows.push_back({entry.utc, who(source, entry.engineer),
                           source.say(entry.action) + ": " + source.say(entry.subject), source.in_words(entry.old_value),
-                          source.say(entry.result)});
+                          source.in_words(commissioning::value_in_short(entry.new_value)), source.say(entry.result)});
   }
   return table;
 }

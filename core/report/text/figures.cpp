@@ -149,6 +149,7 @@ std::vector<TextEntry> texts_of_figures() {
       {"nobody named", "未填写人员"},
       {"Writes to the machine", "对机床的写入操作"},
       {"before", "之前"},
+      {"after", "之后"},
       {"Changes of the job's head", "作业信息的更改"},
       {"field", "字段"},
       {"from", "起"},
@@ -167,6 +168,7 @@ std::vector<TextEntry> texts_of_figures() {
       {"notes", "备注"},
       {"test offset", "试验偏置"},
       {"upload table", "写入补偿表"},
+      {"correct table", "修正补偿表"},
       {"roll back table", "回退补偿表"},
       {"switch compensation", "切换补偿"},
       {"compensation switch", "补偿开关"},
@@ -174,6 +176,10 @@ std::vector<TextEntry> texts_of_figures() {
       {"host offset of X, Y, Z, one after the other", "依次施加 X、Y、Z 的偏置"},
       {"started", "已开始"},
       {"version {}, {} registers", "版本 {}，寄存器 {} 个"},
+      {"0 um, switch on", "0 um，补偿开"},
+      {"0 um, switch off", "0 um，补偿关"},
+      {"what the model says, at most {} um, every {} s", "按模型，最大 {} um，每 {} s 一次"},
+      {"10 um, then 0 um", "10 um，然后 0 um"},
   };
 }
 

@@ -1,5 +1,6 @@
 #include "core/recording/import/importer.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,6 +51,18 @@ void expect_run(const Imported& imported, std::vector<std::string> channels, dou
       EXPECT_NEAR(channel->values[k], right[c], accuracy) << channels[c] << " in row " << k;
     }
   }
+}
+
+/// A table of one channel under this heading, beside the time and a sensor.
+std::string under(const std::string& heading, const char* values = "1,2,3") {
+  std::string out = "time_s,T1_C,\"" + heading + "\"\n";
+  const std::string numbers(values);
+  for (std::size_t k = 0, at = 0; at <= numbers.size(); ++k) {
+    const std::size_t end = std::min(numbers.find(',', at), numbers.size());
+    out += std::to_string(10 * k) + ",20.5," + numbers.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  return out;
 }
 
 HeaderMap map_from_text(const char* text) {
@@ -292,6 +305,77 @@ TEST(Importer, ChannelNumbersMayBeNames) {
   EXPECT_EQ(read.recording.find("101")->values[1], 20.6);
   const Imported joined = read_as(to_csv(read.recording));
   EXPECT_EQ(joined.recording.channels.size(), 2U);
+}
+
+TEST(Import, RefusesAFactorInAHeadingByName) {
+  for (const char* name : {"T2", "dZ", "Probe Z", "Spindle", "前轴承"}) {
+    for (const char* unit : {"°C", "um", "µm", "mm", "rpm"}) {
+      for (const char* form :
+           {"{} [0.1 {}]", "{} (0,01 {})", "{} ({} x10)", "{} [{}*10]", "{} {} x 0.1", "{} [1/100 {}]", "{} (10^-3 {})",
+            "{} [1e-3 {}]", "{} [{}] ×10", "{} [{}/10]", "{} [10⁻² {}]"}) {
+        const std::string heading = fmt::format(fmt::runtime(form), name, unit);
+        const Error refused = refusal_of(under(heading));
+        EXPECT_EQ(refused.code, ErrorCode::column_unclear) << heading << ": " << describe(refused);
+        EXPECT_EQ(refused.context.at("column"), heading);
+        EXPECT_EQ(refused.context.at("line"), "1");
+        HeaderMap map;
+        map.columns[heading] = ColumnRule{"T2_C", 0.1};
+        const auto told = read_as(under(heading), map);
+        ASSERT_NE(told.recording.find("T2_C"), nullptr) << heading;
+        EXPECT_DOUBLE_EQ(told.recording.find("T2_C")->values[1], 0.2);
+      }
+    }
+  }
+  for (const char* bare : {"dZ_um x10", "T2_C*10", "dZ_um/10", "T2_C x 0.1"}) {
+    EXPECT_EQ(refusal_of(under(bare)).code, ErrorCode::column_unclear) << bare;
+  }
+  const Error below = refusal_of("time,T1,dZ\ns,0.1 °C,0.1 µm\n0,200,1\n10,201,2\n20,202,3\n");
+  EXPECT_EQ(below.context.at("column"), "T1") << describe(below);
+  // Numbers that are places, ranges, classes and names.
+  for (const char* heading : {"T2_C", "Probe X1 (um)", "Pt100 1/10 DIN (°C)", "T at 100 mm (°C)", "Probe 1000 um (um)",
+                              "CH10 (°C)", "X10 (um)", "T_F (°C)", "Bearing 10", "n (1/min)", "T1.1 (°C)"}) {
+    EXPECT_TRUE(import_recording(under(heading), "a.csv")) << heading;
+  }
+}
+
+TEST(Import, RefusesNumbersWithTheirUnitBesideThem) {
+  const Error refused = refusal_of(
+      "\"54II\"\nTime;T1;T2;T1-T2\n00:00:00;20,00 °C;19,50 °C;0,50 °C\n00:00:10;20,05 °C;19,51 °C;0,54 °C\n");
+  ASSERT_EQ(refused.code, ErrorCode::column_unclear) << describe(refused);
+  EXPECT_EQ(refused.context.at("line"), "3");
+  EXPECT_EQ(refused.context.at("column"), "#2");
+  EXPECT_EQ(refusal_of("time_s,T1_C\n0,20 °F\n10,21 °F\n20,22 °F\n").code, ErrorCode::csv_bad_number);
+}
+
+TEST(Import, RefusesTwoUnitsInOneHeading) {
+  for (const char* heading : {"dZ_mm_um", "dZ um [mm]", "dZ mm (µm)", "Probe_in [um]", "T2 °F (°C)", "T2_degF_C"}) {
+    EXPECT_EQ(refusal_of(under(heading)).code, ErrorCode::unit_conflict) << heading;
+  }
+}
+
+TEST(Import, WarnsOfTemperaturesThatLookLikeAnotherUnitAndKeepsThem) {
+  const auto table = [](double first, double second, double room) {
+    std::string out = "time_s,T1_C,T2_C,ambient_C\n";
+    for (int k = 0; k < 30; ++k) out += fmt::format("{},{:.2f},{:.2f},{:.2f}\n", 10 * k, first + 0.1 * k, second, room);
+    return out;
+  };
+  const auto suspected = [&](double first, double second, double room) {
+    const auto read = read_as(table(first, second, room));
+    EXPECT_DOUBLE_EQ(read.recording.find("T1_C")->values.front(), first);  // never converted
+    std::string columns;
+    for (const Error& warning : read.warnings) {
+      if (warning.code == ErrorCode::unit_conflict) columns += warning.context.at("column") + " ";
+    }
+    return columns;
+  };
+  for (double room_C = 12.0; room_C < 40.0; room_C += 3.5) {
+    EXPECT_EQ(suspected(room_C + 1.0, room_C, room_C), "") << room_C;
+    EXPECT_EQ(suspected(room_C + 274.15, room_C, room_C), "T1_C ") << room_C;
+    EXPECT_EQ(suspected(1.8 * room_C + 33.0, room_C, room_C), "T1_C ") << room_C;
+    EXPECT_EQ(suspected(1.8 * room_C + 33.0, 1.8 * room_C + 32.0, 1.8 * room_C + 32.0), "T1_C T2_C ambient_C ")
+        << room_C;
+  }
+  EXPECT_EQ(suspected(55.0, 21.0, 20.0), "") << "a motor that is warm from the day before";
 }
 
 }  // namespace zerodrift::recording
