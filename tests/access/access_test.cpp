@@ -176,10 +176,12 @@ TEST(JobFromElsewhere, NamesNoFile) {
   }
   document["controller"].erase("register_map");
   for (const char* url : {"file:///etc/passwd", "/home/ann/film.mp4", "concat:a|b", "/dev/video0/../../etc/passwd",
-                          "subfile,,start,0,end,9,,:/etc/passwd", ""}) {
+                          "subfile,,start,0,end,9,,:/etc/passwd"}) {
     document["cameras"][0]["url"] = url;
     EXPECT_EQ(controller::profile_from_job(document).error().code, ErrorCode::job_reaches_out) << url;
   }
+  document["cameras"][0]["url"] = "";
+  EXPECT_EQ(controller::profile_from_job(document).error().code, ErrorCode::json_missing_key);
 }
 
 TEST(JobFromElsewhere, AMapOfTheSameNameBesideIsNotRead) {
