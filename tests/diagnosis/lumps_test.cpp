@@ -106,7 +106,8 @@ TEST(Lumps, HeatThatFallsWithSpeedIsUnexplained) {
   const auto falling = [](double rpm) { return rpm == 0.0 ? 0.0 : 2e-3 - 4e-4 * rpm / 1000.0; };
   const Diagnosis d = of_part(part_run(0.0, falling));
   EXPECT_EQ(d.verdict, Verdict::unexplained);
-  for (const FoundEffect& found : d.effects) EXPECT_EQ(found.id, "switched_heat");  // what nothing logged drives
+  // The part does lose heat to the room; beside that only what nothing logged drives may be told.
+  for (const FoundEffect& found : d.effects) EXPECT_TRUE(found.id == "convection" || found.id == "switched_heat");
 }
 
 /// A heat that comes and goes as it likes, into a part whose capacity is described: where, and how many watts.

@@ -134,14 +134,15 @@ bool PosteriorSummary::description_is_adequate() const {
   return true;
 }
 
-std::size_t PosteriorSummary::effects_missing() const {
+std::size_t PosteriorSummary::certainly_off() const {
   // A description that leaves more than any good one does is no alternative, however little the others are trusted.
   const double all = description_is_adequate() ? 1.0 : 1.0 - probability[posterior.described];
   std::size_t count = names_of(posterior.explanations.front()).size();
   for (; count > 0; --count) {
     double mass = 0.0;
     for (std::size_t i = 0; i < probability.size(); ++i) {
-      if (names_of(posterior.explanations[i]).size() >= count) mass += probability[i];
+      const std::size_t mistakes = posterior.explanations[i].fit->model().hypothesis().errors.size();
+      if (names_of(posterior.explanations[i]).size() + mistakes >= count) mass += probability[i];
     }
     if (mass >= decisive() * all) break;
   }
@@ -166,7 +167,7 @@ std::set<Name> PosteriorSummary::effects_to_name() const {
     if (mass_of(name) >= settings.named_from) order.push_back(name);
   }
   std::stable_sort(order.begin(), order.end(), [&](const Name& a, const Name& b) { return gain_of(a) > gain_of(b); });
-  order.resize(std::min(order.size(), effects_missing()));
+  order.resize(std::min(order.size(), certainly_off()));
   std::set<Name> kept(order.begin(), order.end()), out;
   std::set_difference(all.begin(), all.end(), kept.begin(), kept.end(), std::inserter(out, out.end()));
   for (auto name = order.rbegin(); name != order.rend(); ++name) {

@@ -35,8 +35,9 @@ struct PosteriorSummary {
   double mass_of(const Name& name) const;
   /// Probability from which something is certain enough to act on.
   double decisive() const;
-  /// How many effects are missing at least: as many as are decisively more likely than fewer.
-  std::size_t effects_missing() const;
+  /// In how many ways, effects and mistakes, the machine differs from its description at least: as many as are
+  /// decisively more likely than fewer.
+  std::size_t certainly_off() const;
   /// Does the description, as near as it comes, leave no more of any channel than good ones do?
   bool description_is_adequate() const;
   /// Log odds that the likeliest explanation loses without this effect: against the best one that has it not.
