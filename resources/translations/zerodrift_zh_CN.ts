@@ -8553,53 +8553,6 @@
     </message>
 </context>
 <context>
-    <name>zerodrift::desktop::OperatorQuestions</name>
-    <message>
-        <source>spindle %1 rpm, coolant on</source>
-        <translation>主轴 %1 rpm，冷却液开</translation>
-    </message>
-    <message>
-        <source>spindle %1 rpm, coolant off</source>
-        <translation>主轴 %1 rpm，冷却液关</translation>
-    </message>
-    <message>
-        <source>Is the compensation switched on at the control?</source>
-        <translation>控制器上的补偿是否已接通？</translation>
-    </message>
-    <message>
-        <source>Set %1, and start the warm-up path</source>
-        <translation>设定：%1，并启动预热轨迹</translation>
-    </message>
-    <message>
-        <source>Set %1, no warm-up path</source>
-        <translation>设定：%1，不运行预热轨迹</translation>
-    </message>
-    <message>
-        <source>Stop the path and move to %1 mm (%2)</source>
-        <translation>停止轨迹，移动到 %1 mm（%2）</translation>
-    </message>
-    <message>
-        <source>Switch the compensation on</source>
-        <translation>接通补偿</translation>
-    </message>
-    <message>
-        <source>Switch the compensation off</source>
-        <translation>断开补偿</translation>
-    </message>
-    <message>
-        <source>Enter a test offset of X %1, Y %2, Z %3 um</source>
-        <translation>输入试验偏移：X %1、Y %2、Z %3 um</translation>
-    </message>
-    <message>
-        <source>Load the table %1 into the control, then type the check value that it shows</source>
-        <translation>将补偿表 %1 载入控制器，然后输入其显示的校验值</translation>
-    </message>
-    <message>
-        <source>Type the check value that the control shows for its table</source>
-        <translation>输入控制器为其补偿表显示的校验值</translation>
-    </message>
-</context>
-<context>
     <name>zerodrift::desktop::PhysicsPresenter</name>
     <message>
         <source>Looking for what the simulation lacks</source>
@@ -11052,18 +11005,6 @@
     <message>
         <source>Use this description</source>
         <translation>使用此描述</translation>
-    </message>
-    <message>
-        <source>Add</source>
-        <translation>添加</translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>移除</translation>
-    </message>
-    <message>
-        <source>Undo</source>
-        <translation>撤销</translation>
     </message>
 </context>
 <context>
