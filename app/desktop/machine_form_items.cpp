@@ -292,13 +292,6 @@ FormItem machine_item(const json& machine) {
   return item;
 }
 
-FormItem heading(const QString& title) {
-  FormItem item;
-  item.title = title;
-  item.heading = true;
-  return item;
-}
-
 }  // namespace
 
 QVector<FormItem> form_items(const json& machine, const FormChannels& channels) {
@@ -307,7 +300,7 @@ QVector<FormItem> form_items(const json& machine, const FormChannels& channels) 
     return std::string(list) + "[" + std::to_string(i) + "]";
   };
   const json parts = list_at(machine, "components");
-  items.append(heading(FormWords::tr("Parts and their heat")));
+  items.append(ui::headingItem(FormWords::tr("Parts and their heat")));
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::string path = indexed("components", p);
     items.append(part_item(parts[p], path, static_cast<int>(p)));
@@ -319,7 +312,7 @@ QVector<FormItem> form_items(const json& machine, const FormChannels& channels) 
   }
   const auto add = [&](const char* key, const QString& title, const auto& make) {
     const json list = list_at(machine, key);
-    if (!list.empty()) items.append(heading(title));
+    if (!list.empty()) items.append(ui::headingItem(title));
     for (std::size_t i = 0; i < list.size(); ++i) items.append(make(list[i], indexed(key, i)));
   };
   add("couplings", FormWords::tr("Couplings"),

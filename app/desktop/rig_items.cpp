@@ -204,13 +204,6 @@ FormItem machine_fields(const json& document) {
   return item;
 }
 
-FormItem heading(const QString& title) {
-  FormItem item;
-  item.title = title;
-  item.heading = true;
-  return item;
-}
-
 json list_in(const json& document, const char* key) {
   const auto at = document.find(key);
   return at != document.end() && at->is_array() ? *at : json::array();
@@ -252,13 +245,13 @@ QVector<FormItem> rigItems(const ProfileDraft& draft) {
   if (const json* entry = control.empty() ? nullptr : node_at(document, control);
       entry != nullptr && entry->is_object())
     items.append(control_item(draft, *entry, control));
-  items.append(heading(RigWords::tr("Devices")));
+  items.append(ui::headingItem(RigWords::tr("Devices")));
   const json devices = list_in(document, "devices");
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const std::string place = numbered("devices", i);
     if (devices[i].is_object() && place != control) items.append(device_item(draft, devices[i], place));
   }
-  items.append(heading(RigWords::tr("Cameras")));
+  items.append(ui::headingItem(RigWords::tr("Cameras")));
   const json cameras = list_in(document, "cameras");
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (cameras[i].is_object()) items.append(camera_item(cameras[i], numbered("cameras", i)));

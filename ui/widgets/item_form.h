@@ -40,6 +40,14 @@ struct FormItem {
   QVector<FormField> fields{};
 };
 
+/// A title in the list, with nothing to enter.
+inline FormItem headingItem(const QString& title) {
+  FormItem item;
+  item.title = title;
+  item.heading = true;
+  return item;
+}
+
 /// What can be added.
 struct FormOffer {
   QString kind{};
